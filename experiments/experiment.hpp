@@ -1,0 +1,63 @@
+#pragma once
+/// What an experiment is: a name, a question, a default configuration, and one function that answers.
+/// An experiment reads its settings, computes, and returns an `Outcome`; it writes no file and prints nothing.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/figure.hpp>
+#include <thinwall/experiments/table.hpp>
+
+namespace thinwall {
+
+class Settings;  // experiments/settings.hpp: typed, checked access to one TOML file
+
+/// A named piece of work small enough to be lost: a cell of a factorial design, usually.
+/// Its result is a line of text that the run's journal keeps, so that an interrupted run can resume.
+struct Unit {
+  std::string key;      ///< unique in the run and free of tabs and newlines
+  std::int64_t trials;  ///< for the progress bar and the estimate
+  std::function<std::string()> compute;  ///< thread-safe; deterministic; free of newlines
+};
+
+struct Section {
+  std::string heading;
+  std::string text;  ///< plain paragraphs, separated by a blank line
+};
+
+struct Outcome {
+  std::string answer;             ///< the question's answer in a sentence or two, with its numbers
+  std::string summary;            ///< a table for the terminal, plain text, at most 100 columns
+  std::vector<Table> tables;      ///< in the order the report shows them
+  std::vector<Figure> figures;    ///< the first one is the headline
+  std::vector<Section> sections;  ///< method, oracle, self-test, limits
+  bool self_test_passed = true;
+};
+
+/// A configured run. `units` is fixed by the settings and the seed alone.
+class Run {
+ public:
+  virtual ~Run() = default;
+  virtual std::vector<Unit> units() const = 0;
+  /// `results[i]` is what `units()[i].compute` returned, `seconds[i]` how long it took.
+  virtual Outcome finish(const std::vector<std::string>& results, const std::vector<double>& seconds) const = 0;
+};
+
+struct RunOptions {
+  std::uint64_t seed = 0;
+  std::optional<std::int64_t> trials;  ///< > 0: overrides the settings' own
+};
+
+struct Experiment {
+  std::string_view name;          ///< as on the command line
+  std::string_view question;      ///< one sentence, ends with a question mark
+  std::string_view default_toml;  ///< the whole commented file, embedded at build
+  std::unique_ptr<Run> (*configure)(const Settings&, const RunOptions&);  ///< throws UsageError
+};
+
+}  // namespace thinwall

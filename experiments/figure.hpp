@@ -1,0 +1,33 @@
+#pragma once
+/// A figure as data: panels of series. The results module turns it into a gnuplot script, its data and an SVG.
+
+#include <string>
+#include <vector>
+
+namespace thinwall {
+
+enum class Mark { points, line, dashes };
+
+struct Series {
+  std::string label;                ///< legend entry; the same label has the same colour in every panel
+  Mark mark = Mark::points;         ///< theory is drawn with `line`, measurement with `points`
+  std::vector<double> x, y;         ///< equally long; NaN leaves a gap
+  std::vector<double> lower, upper; ///< interval bars, as long as `y`, or both empty
+};
+
+struct Panel {
+  std::string x_label;  ///< with unit
+  std::string y_label;  ///< with unit
+  bool log_x = false, log_y = false;
+  double height = 1;  ///< [1] share of the figure's height, relative to the other panels
+  std::vector<Series> series;
+};
+
+struct Figure {
+  std::string name;     ///< the files are plots/<name>.svg, .gp, .dat
+  std::string title;    ///< what is seen, a short phrase
+  std::string caption;  ///< what it means, a sentence or two
+  std::vector<Panel> panels;  ///< stacked from top to bottom
+};
+
+}  // namespace thinwall

@@ -1,0 +1,60 @@
+#pragma once
+/// Typed, checked access to one TOML file laid over an experiment's defaults.
+/// Every complaint is a `UsageError` of one line: file, line, key, what is allowed, and the nearest valid spelling.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace thinwall {
+
+/// The user asked for something that cannot be done. The program prints the one line and exits with 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The allowed values of a number; NaN and infinity never are.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;  ///< `lower` itself is not allowed
+  bool upper_open = false;  ///< `upper` itself is not allowed
+  std::string_view unit = "1";
+};
+
+class Settings {
+ public:
+  /// `text` is what the user wrote, `file` the name to quote in complaints; keys it leaves out come from `defaults`.
+  Settings(std::string_view text, std::string file, std::string_view defaults);
+  ~Settings();
+  Settings(Settings&&) noexcept;
+  Settings& operator=(Settings&&) noexcept;
+
+  double number(std::string_view key, const Range& range) const;
+  std::vector<double> numbers(std::string_view key, const Range& range) const;  ///< non-empty, no value twice
+  std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper) const;
+  std::vector<std::int64_t> integers(std::string_view key, std::int64_t lower, std::int64_t upper) const;
+  bool flag(std::string_view key) const;
+  std::string choice(std::string_view key, std::span<const std::string_view> allowed) const;
+  std::vector<std::string> choices(std::string_view key, std::span<const std::string_view> allowed) const;
+
+  /// The key a complaint should name, for a check that only the experiment can make.
+  [[noreturn]] void complain(std::string_view key, std::string_view what_is_allowed) const;
+
+  /// Refuses a key that the defaults do not have, by name, line and nearest valid spelling.
+  void reject_unknown_keys() const;
+
+  /// The whole resolved configuration as canonical JSON text, keys in order: what the manifest keeps and the hash covers.
+  std::string resolved_json() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thinwall
