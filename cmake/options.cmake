@@ -1,0 +1,33 @@
+# What our own programs and tests are compiled with. Users of the headers keep their own options.
+
+find_program(THINWALL_CCACHE ccache DOC "Compiler cache, used if found")
+if(THINWALL_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${THINWALL_CCACHE}")
+endif()
+
+set(thinwall_compile_options
+  -ffp-contract=off  # the same bits from every compiler: no fused multiply-add behind our back
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough -Wundef)
+if(THINWALL_WERROR)
+  list(APPEND thinwall_compile_options -Werror)
+endif()
+if(THINWALL_NATIVE)
+  list(APPEND thinwall_compile_options -march=native)
+endif()
+
+add_library(thinwall_options INTERFACE)
+target_compile_options(thinwall_options INTERFACE ${thinwall_compile_options})
+
+# thinwall_headers(NAME LINKS TARGET...): the header-only target thinwall::NAME of the folder of that name.
+function(thinwall_headers name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" LINKS)
+  add_library(thinwall_${name} INTERFACE)
+  add_library(thinwall::${name} ALIAS thinwall_${name})
+  set_target_properties(thinwall_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(thinwall_${name} INTERFACE cxx_std_20)
+  target_include_directories(thinwall_${name} INTERFACE
+    "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  target_link_libraries(thinwall_${name} INTERFACE ${arg_LINKS})
+endfunction()
