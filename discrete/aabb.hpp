@@ -1,0 +1,129 @@
+#pragma once
+/// The axis-aligned box, and its pairs with itself and the sphere.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <thinwall/discrete/sphere.hpp>
+
+namespace thinwall {
+
+/// All points within `half_extents` of the center, axis by axis.
+template <thinwall::Scalar S> struct Aabb {
+  using Scalar = S;
+  static constexpr int rank = 1;
+
+  Vec3<S> center;        ///< [length]
+  Vec3<S> half_extents;  ///< [length] each >= 0; a 0 makes a plate, a rod or a point
+};
+template <Scalar S> Aabb(Vec3<S>, Vec3<S>) -> Aabb<S>;
+
+template <Scalar S> Vec3<S> center(const Aabb<S>& box) { return box.center; }
+template <Scalar S> S rounding(const Aabb<S>&) { return S(0); }
+template <Scalar S> S magnitude(const Aabb<S>& box) {
+  return box.center.cwiseAbs().sum() + box.half_extents.cwiseAbs().sum();
+}
+template <Scalar S> bool valid(const Aabb<S>& box) {
+  return is_finite(box.center) && is_finite(box.half_extents) && box.half_extents.minCoeff() >= S(0);
+}
+template <Scalar S> Aabb<S> scaled(const Aabb<S>& box, int e) {
+  return {times_power_of_two(box.center, e), times_power_of_two(box.half_extents, e)};
+}
+/// An axis-aligned box must not turn, so a contact acts at its center and gives it no torque.
+template <Scalar S> Vec3<S> contact_point(const Aabb<S>&, const Vec3<S>&, const Vec3<S>&) { return Vec3<S>::Zero(); }
+
+/// How far x lies outside [-h, h] on each axis; zero on the axes where it is inside.
+template <Scalar S> Vec3<S> excess_of(const Vec3<S>& x, const Vec3<S>& h) { return x - x.cwiseMin(h).cwiseMax(-h); }
+
+template <Scalar S> bool cores_within(const Aabb<S>& a, const Aabb<S>& b, const S& reach) {
+  const Vec3<S> excess = excess_of<S>(b.center - a.center, a.half_extents + b.half_extents);
+  return excess == Vec3<S>::Zero() || (reach > S(0) && within(excess, reach));
+}
+
+template <Scalar S> bool cores_within(const Aabb<S>& box, const Sphere<S>& sphere, const S& reach) {
+  return within(excess_of<S>(sphere.center - box.center, box.half_extents), reach);
+}
+
+/// The gap from the box [-h, h] to a point x, and the way out if x is inside: through the nearest face; ties leave by
+/// the lowest axis, on its positive side. `distance` and `normal` (away from the box) are set, nothing else.
+template <Scalar S> CoreGap<S> gap_from_box(const Vec3<S>& x, const Vec3<S>& h) {
+  CoreGap<S> gap;
+  const Vec3<S> excess = excess_of(x, h);
+  if (excess != Vec3<S>::Zero()) {
+    gap.distance = safe_norm(excess);
+    gap.normal = safe_unit(excess);
+    return gap;
+  }
+  int axis = 0;
+  const Vec3<S> depth = h - x.cwiseAbs();
+  for (int i = 1; i < 3; ++i) {
+    if (depth[i] < depth[axis]) axis = i;
+  }
+  gap.distance = -depth[axis];
+  gap.normal = axis_vector<S>(axis, x[axis] < S(0));
+  return gap;
+}
+
+/// Degenerate: boxes that only touch part along the touching axis of lowest number.
+template <Scalar S> CoreGap<S> core_gap(const Aabb<S>& a, const Aabb<S>& b) {
+  const Vec3<S> between = b.center - a.center;
+  CoreGap<S> gap = gap_from_box<S>(between, a.half_extents + b.half_extents);
+  for (int i = 0; i < 3; ++i) {  // the middle of the common interval; the facing ends where there is none
+    const S low = std::max(-a.half_extents[i], S(between[i] - b.half_extents[i]));
+    const S high = std::min(a.half_extents[i], S(between[i] + b.half_extents[i]));
+    const bool faces = gap.normal[i] != S(0);
+    const S side = gap.normal[i] < S(0) ? S(-1) : S(1);
+    gap.local_a[i] = faces ? S(side * a.half_extents[i]) : S((low + high) / 2);
+    gap.local_b[i] = faces ? S(-side * b.half_extents[i]) : S(gap.local_a[i] - between[i]);
+  }
+  return gap;
+}
+
+/// Degenerate: a center inside the box leaves through the nearest face.
+template <Scalar S> CoreGap<S> core_gap(const Aabb<S>& box, const Sphere<S>& sphere) {
+  const Vec3<S> x = sphere.center - box.center;
+  CoreGap<S> gap = gap_from_box(x, box.half_extents);
+  gap.local_a = x.cwiseMin(box.half_extents).cwiseMax(-box.half_extents);
+  if (gap.distance <= S(0)) {
+    for (int i = 0; i < 3; ++i) {
+      if (gap.normal[i] != S(0)) gap.local_a[i] = gap.normal[i] * box.half_extents[i];
+    }
+  }
+  return gap;
+}
+
+/// The slab method, branching on axes without motion so that 0 * infinity never arises.
+template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Aabb<S>& box) {
+  const Vec3<S> start = ray.origin - box.center;
+  S enter = -S(1), leave = ray.max_t;
+  int axis = -1;
+  for (int i = 0; i < 3; ++i) {
+    const S& h = box.half_extents[i];
+    const S& speed = ray.direction[i];
+    if (speed == S(0)) {
+      if (start[i] > h || start[i] < -h) return std::nullopt;
+      continue;
+    }
+    const S near = (S(speed > S(0) ? -h : h) - start[i]) / speed;
+    const S far = (S(speed > S(0) ? h : -h) - start[i]) / speed;
+    if (near > enter) {
+      enter = near;
+      axis = i;
+    }
+    leave = std::min(leave, far);
+  }
+  if (excess_of(start, box.half_extents) == Vec3<S>::Zero() && ray.max_t >= S(0)) {
+    return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
+  }
+  if (!(enter <= leave) || enter < S(0)) return std::nullopt;
+  RayHit<S> hit;
+  hit.t = enter;
+  hit.normal = axis_vector<S>(axis, ray.direction[axis] > S(0));
+  const Vec3<S> offset = start + ray.direction * enter;
+  hit.point = box.center + offset.cwiseMin(box.half_extents).cwiseMax(-box.half_extents);
+  hit.point[axis] = box.center[axis] + hit.normal[axis] * box.half_extents[axis];
+  return hit;
+}
+
+}  // namespace thinwall

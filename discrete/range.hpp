@@ -1,0 +1,91 @@
+#pragma once
+/// Guards against overflow and underflow: lengths of 1e200 and 1e-200 have no square in double, but their ratios do.
+/// Inside the safe range nothing is rescaled, so that no small component is flushed to zero for nothing; outside it
+/// every length is multiplied by one power of two, which is exact, and the answer is scaled back.
+
+#include <algorithm>
+
+#include <thinwall/discrete/scalar.hpp>
+
+namespace thinwall {
+
+/// 2^e, flushed to zero or infinity where S does not hold it.
+template <Scalar S> S power_of_two(int e) {
+  using std::ldexp;
+  return ldexp(S(1), e);
+}
+
+/// The exponent e for which 2^e <= |x| < 2^(e + 1); 0 for zero, infinity and NaN.
+template <Scalar S> int binary_exponent(const S& x) {
+  using std::ilogb;
+  return x == S(0) || !is_finite(x) ? 0 : static_cast<int>(ilogb(x));
+}
+
+/// x * 2^e, correctly rounded even where 2^e itself is out of range.
+template <Scalar S> S times_power_of_two(const S& x, int e) {
+  using std::ldexp;
+  return ldexp(x, e);
+}
+template <Scalar S> Vec3<S> times_power_of_two(const Vec3<S>& v, int e) {
+  return {times_power_of_two(v[0], e), times_power_of_two(v[1], e), times_power_of_two(v[2], e)};
+}
+
+/// The largest magnitude among scalars and components; NaN is passed over.
+template <Scalar S> S largest(const S& x) { return x < S(0) ? S(-x) : x; }
+template <Scalar S> S largest(const Vec3<S>& v) {
+  return std::max(largest(v[0]), std::max(largest(v[1]), largest(v[2])));
+}
+template <class First, class... Rest> auto largest(const First& first, const Rest&... rest) {
+  return std::max(largest(first), largest(rest...));
+}
+
+/// Products of up to four lengths of magnitude x neither overflow nor lose their leading digits.
+template <Scalar S> bool products_in_range(const S& x) {
+  static const S lower = power_of_two<S>(std::numeric_limits<S>::min_exponent / 5);
+  static const S upper = power_of_two<S>(std::numeric_limits<S>::max_exponent / 5);
+  return x >= lower && x <= upper;
+}
+
+/// A square that stands for its root: neither overflowed nor gnawed at by underflow.
+template <Scalar S> bool square_in_range(const S& square) {
+  static const S lower = power_of_two<S>(std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits);
+  static const S upper = std::numeric_limits<S>::max();
+  return square >= lower && square <= upper;
+}
+
+/// |v|, at any scale.
+template <Scalar S> S safe_norm(const Vec3<S>& v) {
+  using std::sqrt;
+  const S square = v.squaredNorm();
+  if (square_in_range(square)) return sqrt(square);
+  const S size = largest(v);
+  if (size == S(0) || !is_finite(v)) return v.cwiseAbs().sum();  // 0, infinity or NaN
+  const int e = binary_exponent(size);
+  return times_power_of_two(S(sqrt(times_power_of_two(v, -e).squaredNorm())), e);
+}
+
+/// v / |v| at any scale; zero where v is zero.
+template <Scalar S> Vec3<S> safe_unit(const Vec3<S>& v) {
+  using std::sqrt;
+  const S square = v.squaredNorm();
+  if (square_in_range(square)) return v / sqrt(square);
+  const S size = largest(v);
+  if (size == S(0)) return Vec3<S>::Zero();
+  const Vec3<S> scaled = times_power_of_two(v, -binary_exponent(size));
+  return scaled / sqrt(scaled.squaredNorm());
+}
+
+/// |gap| <= reach, for reach >= 0, at any scale. False for NaN.
+template <Scalar S> bool within(const Vec3<S>& gap, const S& reach) {
+  const S gap_square = gap.squaredNorm();
+  const S reach_square = reach * reach;
+  if (square_in_range(gap_square) && square_in_range(reach_square)) return gap_square <= reach_square;
+  const S size = largest(gap, reach);
+  if (size == S(0)) return true;
+  if (!is_finite(gap) || !is_finite(reach)) return false;
+  const int e = binary_exponent(size);
+  const S scaled_reach = times_power_of_two(reach, -e);
+  return times_power_of_two(gap, -e).squaredNorm() <= scaled_reach * scaled_reach;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,52 @@
+#pragma once
+/// The sphere: a point rounded by a radius.
+
+#include <optional>
+
+#include <thinwall/discrete/ball_entry.hpp>
+#include <thinwall/discrete/queries.hpp>
+
+namespace thinwall {
+
+/// All points within `radius` of the center.
+template <thinwall::Scalar S> struct Sphere {
+  using Scalar = S;
+  static constexpr int rank = 0;
+
+  Vec3<S> center;  ///< [length]
+  S radius;        ///< [length] >= 0; 0 is a point
+};
+template <Scalar S> Sphere(Vec3<S>, S) -> Sphere<S>;
+
+template <Scalar S> Vec3<S> center(const Sphere<S>& s) { return s.center; }
+template <Scalar S> S rounding(const Sphere<S>& s) { return s.radius; }
+template <Scalar S> S magnitude(const Sphere<S>& s) { return s.center.cwiseAbs().sum() + largest(s.radius); }
+template <Scalar S> bool valid(const Sphere<S>& s) { return is_finite(s.center) && is_finite(s.radius) && s.radius >= S(0); }
+template <Scalar S> Sphere<S> scaled(const Sphere<S>& s, int e) {
+  return {times_power_of_two(s.center, e), times_power_of_two(s.radius, e)};
+}
+template <Scalar S> Vec3<S> contact_point(const Sphere<S>& s, const Vec3<S>& core_point, const Vec3<S>& outward) {
+  return core_point + outward * s.radius;
+}
+
+template <Scalar S> bool cores_within(const Sphere<S>& a, const Sphere<S>& b, const S& reach) {
+  return within<S>(b.center - a.center, reach);
+}
+
+/// Degenerate: coincident centers leave the normal to the caller.
+template <Scalar S> CoreGap<S> core_gap(const Sphere<S>& a, const Sphere<S>& b) {
+  CoreGap<S> gap;
+  const Vec3<S> between = b.center - a.center;
+  gap.distance = safe_norm(between);
+  gap.normal = safe_unit(between);
+  return gap;
+}
+
+template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Sphere<S>& sphere) {
+  const BallEntry<S> entry = ball_entry<S>(ray.origin - sphere.center, ray.direction, sphere.radius);
+  if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
+  if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
+  return RayHit<S>{entry.time, sphere.center + entry.normal * sphere.radius, entry.normal};
+}
+
+}  // namespace thinwall
