@@ -9,6 +9,9 @@ set(thinwall_compile_options
   -ffp-contract=off  # the same bits from every compiler: no fused multiply-add behind our back
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough -Wundef)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  list(APPEND thinwall_compile_options -Wno-restrict)  # false alarms on std::string, GCC bug 105329
+endif()
 if(THINWALL_WERROR)
   list(APPEND thinwall_compile_options -Werror)
 endif()

@@ -1,0 +1,55 @@
+# The house's own tests: headers alone, include direction, the installed package, the documents' snippets, the citation.
+set(house "${CMAKE_CURRENT_LIST_DIR}")
+
+# Every header alone: one file a header, which includes it twice and nothing else. A broken one stops the build.
+# `all_FOLDER.cpp` includes a whole folder: one file for clang-tidy to read.
+function(thinwall_headers_alone folder prefix location)
+  file(GLOB headers CONFIGURE_DEPENDS "${location}/*.hpp")
+  if(NOT headers)
+    return()
+  endif()
+  set(sources "")
+  set(all "")
+  foreach(header IN LISTS headers)
+    cmake_path(GET header FILENAME name)
+    string(REPLACE "@" "${name}" include "#include ${prefix}\n")
+    file(CONFIGURE OUTPUT "headers_alone/${folder}/${name}.cpp" CONTENT "${include}${include}" @ONLY)
+    list(APPEND sources "${CMAKE_CURRENT_BINARY_DIR}/headers_alone/${folder}/${name}.cpp")
+    string(APPEND all "${include}")
+  endforeach()
+  file(CONFIGURE OUTPUT "headers_alone/all_${folder}.cpp" CONTENT "${all}" @ONLY)
+  add_library(headers_alone_${folder} OBJECT ${sources} "${CMAKE_CURRENT_BINARY_DIR}/headers_alone/all_${folder}.cpp")
+  target_compile_options(headers_alone_${folder} PRIVATE -O0 -g0)
+  target_link_libraries(headers_alone_${folder} PRIVATE ${ARGN} thinwall_options)
+endfunction()
+
+foreach(folder IN ITEMS discrete capsule swept experiments)
+  thinwall_headers_alone(${folder} "<thinwall/${folder}/@>" "${PROJECT_SOURCE_DIR}/${folder}" thinwall::${folder})
+endforeach()
+thinwall_headers_alone(support "\"support/@\"" "${CMAKE_CURRENT_SOURCE_DIR}/support" thinwall_test_support thinwall::swept)
+
+# Dependencies point one way, and the check itself is checked on trees that break each rule.
+add_test(NAME house/include_direction
+  COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" -P "${house}/include_direction.cmake")
+add_test(NAME house/include_direction_sees_each_fault
+  COMMAND "${CMAKE_COMMAND}" "-DWORK=${work}/include_direction" -P "${house}/include_direction_test.cmake")
+
+# Installed, then found and used by a project that knows nothing of this tree.
+add_test(NAME house/installed_package
+  COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DCONSUMER=${CMAKE_CURRENT_SOURCE_DIR}/consumer"
+          "-DWORK=${work}/consumer" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DGENERATOR=${CMAKE_GENERATOR}"
+          "-DVERSION=${PROJECT_VERSION}" -P "${house}/installed_package.cmake")
+set_tests_properties(house/installed_package PROPERTIES TIMEOUT 300)
+
+# CITATION.cff says what CMake says.
+add_test(NAME house/citation
+  COMMAND "${CMAKE_COMMAND}" "-DFILE=${PROJECT_SOURCE_DIR}/CITATION.cff" "-DVERSION=${PROJECT_VERSION}"
+          "-DDATE=${THINWALL_RELEASE_DATE}" -P "${house}/citation.cmake")
+
+# Every C++ block of the documents compiles, and a whole program runs.
+include("${house}/snippets.cmake")
+file(GLOB documents CONFIGURE_DEPENDS
+  "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md" "${PROJECT_SOURCE_DIR}/docs/*.md")
+foreach(document IN LISTS documents)
+  thinwall_snippets("${document}")
+endforeach()

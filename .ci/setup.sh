@@ -1,0 +1,78 @@
+# Sourced by demo and check: what they need, and how it gets there.
+# shellcheck shell=bash
+
+# To build and run the program.
+program_packages=(
+  g++ cmake ninja-build git
+  libeigen3-dev libboost-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev librandom123-dev libtbb-dev
+  gnuplot-nox
+)
+program_commands=(c++ cmake ninja git gnuplot)
+
+# To build and run the tests and benchmarks as well.
+test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev)
+
+# To check everything else.
+check_packages=(clang-14 clang-format-14 clang-tidy-14)
+check_commands=(clang++-14 clang-format-14 clang-tidy-14)
+
+say() { printf '\n==> %s\n' "$*"; }
+die() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+has_apt() { command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; }
+
+# Prints those of the named Debian packages that are not installed.
+missing_packages() {
+  local package
+  for package in "$@"; do
+    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
+  done
+}
+
+# Prints those of the named commands that are not there.
+missing_commands() {
+  local name
+  for name in "$@"; do
+    command -v "$name" >/dev/null || echo "$name"
+  done
+}
+
+# install_packages PACKAGE...: installs what is missing of them, and says which.
+install_packages() {
+  local missing as_root=()
+  mapfile -t missing < <(missing_packages "$@")
+  if ((${#missing[@]} == 0)); then
+    echo "All $# packages are installed."
+    return
+  fi
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || die "these packages are missing, and installing them needs root or sudo. As root, run:
+  apt-get install --no-install-recommends ${missing[*]}"
+    as_root=(sudo)
+  fi
+  echo "Installing: ${missing[*]}"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300)
+  "${apt[@]}" update
+  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null >"$log" 2>&1 || {
+    cat "$log" >&2
+    die "apt-get could not install: ${missing[*]}"
+  }
+}
+
+# need_commands NAME...: on a system without apt, stops if a tool is missing. CMake itself names missing libraries.
+need_commands() {
+  local missing
+  mapfile -t missing < <(missing_commands "$@")
+  ((${#missing[@]} == 0)) || die "this is not Debian or Ubuntu, so nothing is installed for you; missing: ${missing[*]}
+Install them, then run this again with THINWALL_FETCH=ON ./$(basename "$0"): CMake downloads the missing libraries."
+  echo "All of these are there: $*"
+}
+
+# Set THINWALL_FETCH=ON to let CMake download pinned releases of missing libraries.
+configure_options=(-DTHINWALL_FETCH="${THINWALL_FETCH:-OFF}")
+
+log=$(mktemp "${TMPDIR:-/tmp}/thinwall.XXXXXX")
+trap 'rm -f "$log"' EXIT

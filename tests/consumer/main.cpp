@@ -1,0 +1,2 @@
+#include <thinwall/discrete/sphere.hpp>
+int main() {}

@@ -1,0 +1,32 @@
+# Plants one fault after the other in an empty tree and expects include_direction.cmake to name it.
+cmake_minimum_required(VERSION 3.25)
+
+function(expect outcome file line)
+  file(REMOVE_RECURSE "${WORK}")
+  file(WRITE "${WORK}/${file}" "#pragma once\n/// [a; b\n${line}\n")
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${WORK}" -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/include_direction.cmake"
+    RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(outcome STREQUAL "accepted" AND NOT result EQUAL 0)
+    message(SEND_ERROR "refused, but should not be: ${line} in ${file}\n${said}")
+  elseif(outcome STREQUAL "refused" AND (result EQUAL 0 OR NOT said MATCHES "${file}:3: "))
+    message(SEND_ERROR "not refused as ${file}:3: ${line}\n${said}")
+  endif()
+endfunction()
+
+expect(refused discrete/a.hpp "#include <thinwall/capsule/capsule.hpp>")
+expect(refused discrete/a.hpp "#include <thinwall/tests/oracle.hpp>")
+expect(refused capsule/a.hpp "#include <thinwall/swept/moving.hpp>")
+expect(refused swept/a.hpp "  #  include <thinwall/experiments/table.hpp>")
+expect(refused swept/a.hpp "#include \"moving.hpp\"")
+expect(refused capsule/a.hpp "#include <thinwall/capsule/../swept/moving.hpp>")
+expect(refused discrete/a.hpp "#include <fmt/core.h>")
+expect(refused swept/a.hpp "#include <boost/math/distributions/beta.hpp>")
+expect(refused experiments/a.cpp "#include \"table.hpp\"")
+expect(refused experiments/a.cpp "#include <thinwall/support/oracle.hpp>")
+expect(refused tests/swept/a_test.cpp "#include \"../support/oracle.hpp\"")
+
+expect(accepted discrete/a.hpp "#include <Eigen/Core>")
+expect(accepted discrete/a.hpp "#include <vector>")
+expect(accepted swept/a.hpp "#include <thinwall/discrete/sphere.hpp>  // [x; y]")
+expect(accepted experiments/a.cpp "#include <fmt/core.h>")
+expect(accepted tests/swept/a_test.cpp "#include \"support/oracle.hpp\"")
