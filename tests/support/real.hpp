@@ -1,0 +1,58 @@
+#pragma once
+/// Numbers of the oracle: 100 digits for lengths and times, rationals where a verdict must be exact.
+/// Every float, double, long double or 50-digit input is lifted without rounding.
+
+#include <array>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstddef>
+#include <limits>
+
+namespace thinwall::oracle {
+
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+using Integer = boost::multiprecision::cpp_int;
+using Rational = boost::multiprecision::cpp_rational;
+
+/// Three coordinates. A type of its own, so that the oracle shares nothing with the library it judges.
+template <class N> using Triple = std::array<N, 3>;
+using Vector = Triple<Real>;
+
+/// The same value with 100 digits; exact, since no scalar under test has more.
+template <class S> Real lift(const S& x) { return Real(x); }
+
+template <class V> Vector lift_vector(const V& v) { return {lift(v[0]), lift(v[1]), lift(v[2])}; }
+
+/// The same value as a fraction; exact.
+inline Rational exact(const Real& x) {
+  constexpr int bits = std::numeric_limits<Real>::digits;
+  int exponent = 0;
+  const Real mantissa = ldexp(frexp(x, &exponent), bits);
+  const Integer whole = mantissa.convert_to<Integer>();
+  const int shift = exponent - bits;
+  const Integer power = Integer(1) << static_cast<unsigned>(shift < 0 ? -shift : shift);
+  return shift < 0 ? Rational(whole, power) : Rational(Integer(whole * power));
+}
+
+/// The rounding error of one operation in S, relative to its result.
+template <class S> Real unit_roundoff() { return lift(std::numeric_limits<S>::epsilon()) / 2; }
+
+template <class N> Triple<N> operator+(const Triple<N>& a, const Triple<N>& b) {
+  return {N(a[0] + b[0]), N(a[1] + b[1]), N(a[2] + b[2])};
+}
+template <class N> Triple<N> operator-(const Triple<N>& a, const Triple<N>& b) {
+  return {N(a[0] - b[0]), N(a[1] - b[1]), N(a[2] - b[2])};
+}
+template <class N> Triple<N> operator*(const N& s, const Triple<N>& a) {
+  return {N(s * a[0]), N(s * a[1]), N(s * a[2])};
+}
+template <class N> N dot(const Triple<N>& a, const Triple<N>& b) { return N(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
+inline Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Real length(const Vector& a) { return sqrt(dot(a, a)); }
+
+/// The absolute value of each coordinate.
+inline Vector magnitude(const Vector& a) { return {abs(a[0]), abs(a[1]), abs(a[2])}; }
+
+}  // namespace thinwall::oracle
