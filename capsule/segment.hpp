@@ -1,0 +1,62 @@
+#pragma once
+/// Closest points on segments. A point of a segment is named by a parameter in [0, 1], which no rescaling changes; the
+/// gap is then measured at the caller's own scale.
+
+#include <algorithm>
+
+#include <thinwall/discrete/range.hpp>
+#include <thinwall/discrete/scalar.hpp>
+
+namespace thinwall {
+
+template <Scalar S> S clamp01(const S& x) { return std::min(S(1), std::max(S(0), x)); }
+
+/// The s in [0, 1] for which s * d is closest to w; 0 where d is too short to tell.
+template <Scalar S> S closest_parameter(const Vec3<S>& w, const Vec3<S>& d) {
+  const S size = largest(w, d);
+  if (!products_in_range(size) && binary_exponent(size) != 0) {
+    const int e = binary_exponent(size);
+    return closest_parameter(times_power_of_two(w, -e), times_power_of_two(d, -e));
+  }
+  const S length_square = d.squaredNorm();
+  return length_square > S(0) ? clamp01(S(w.dot(d) / length_square)) : S(0);
+}
+
+template <Scalar S> struct SegmentPair {
+  S s = 0;                                    ///< [1] on the first segment, s * d1
+  S t = 0;                                    ///< [1] on the second segment, r + t * d2
+  Vec3<S> gap = Vec3<S>::Zero();              ///< [length] from the first point to the second
+};
+
+/// Closest points of the segments s * d1 and r + t * d2.
+/// Solves the 2x2 system with cross products, whose determinant |d1 x d2|^2 does not cancel, then projects each point on
+/// the other segment, which also serves parallel segments and ends.
+/// Error: the gap is off by a few u (|r| + |d1| + |d2|), however close to parallel the segments are.
+/// Degenerate: segments of no length are points; of many closest pairs on parallel segments the middle one.
+/// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.9, for the order of the clamps.
+template <Scalar S> SegmentPair<S> closest_on_segments(const Vec3<S>& r, const Vec3<S>& d1, const Vec3<S>& d2) {
+  const S size = largest(r, d1, d2);
+  if (!products_in_range(size) && binary_exponent(size) != 0) {
+    const int e = binary_exponent(size);
+    SegmentPair<S> pair = closest_on_segments(times_power_of_two(r, -e), times_power_of_two(d1, -e),
+                                              times_power_of_two(d2, -e));
+    pair.gap = r + (d2 * pair.t - d1 * pair.s);
+    return pair;
+  }
+  SegmentPair<S> pair;
+  const Vec3<S> across = cross(d1, d2);
+  const S determinant = across.squaredNorm();
+  if (determinant > S(0)) {
+    pair.s = clamp01(S(cross(r, d2).dot(across) / determinant));
+  } else {  // parallel: the middle of the stretch of d1 that lies beside d2
+    const S first = closest_parameter<S>(r, d1);
+    const S last = closest_parameter<S>(r + d2, d1);
+    pair.s = (first + last) / 2;
+  }
+  pair.t = closest_parameter<S>(d1 * pair.s - r, d2);
+  pair.s = closest_parameter<S>(r + d2 * pair.t, d1);
+  pair.gap = r + (d2 * pair.t - d1 * pair.s);
+  return pair;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,112 @@
+#pragma once
+/// A segment and a box: the closest points while they are apart, the least way out once they cross.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include <thinwall/capsule/segment.hpp>
+#include <thinwall/discrete/shape.hpp>
+
+namespace thinwall {
+
+/// The s in [0, 1] for which p + s * d is closest to the box [-h, h]; the middle of a whole stretch of such s.
+/// Half the derivative of the squared distance, g(s) = sum of excess_i(s) * d_i, is continuous, does not decrease, and
+/// is linear between the s at which an axis enters or leaves its slab, so its zero is bracketed by two of those.
+/// Error: the point is off by a few u (|p| + |d| + |h|). Source: derived here.
+template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
+  const S size = largest(p, d, h);
+  if (!products_in_range(size) && binary_exponent(size) != 0) {
+    const int e = binary_exponent(size);
+    return closest_parameter_to_box(times_power_of_two(p, -e), times_power_of_two(d, -e), times_power_of_two(h, -e));
+  }
+  std::array<S, 8> knots{S(0), S(1)};
+  std::size_t count = 2;
+  Vec3<S> enter = Vec3<S>::Zero(), leave = Vec3<S>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (d[i] == S(0)) continue;
+    const S side = d[i] > S(0) ? S(1) : S(-1);
+    enter[i] = (-side * h[i] - p[i]) / d[i];
+    leave[i] = (side * h[i] - p[i]) / d[i];
+    for (const S& knot : {enter[i], leave[i]}) {
+      if (!(knot > S(0) && knot < S(1))) continue;
+      std::size_t k = count++;
+      for (; knots[k - 1] > knot; --k) knots[k] = knots[k - 1];  // kept in order
+      knots[k] = knot;
+    }
+  }
+  const auto slope = [&](const S& s) {
+    S sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (d[i] == S(0) || (s >= enter[i] && s <= leave[i])) continue;
+      const S face = (s < enter[i]) == (d[i] > S(0)) ? S(-h[i]) : h[i];
+      sum += (p[i] + s * d[i] - face) * d[i];
+    }
+    return sum;
+  };
+  S falling = 0, falling_slope = 0, rising = 1, rising_slope = 0, first_zero = -1, last_zero = -1;
+  for (std::size_t k = 0; k < count && rising_slope == S(0); ++k) {
+    const S g = slope(knots[k]);
+    if (g == S(0)) {
+      if (first_zero < S(0)) first_zero = knots[k];
+      last_zero = knots[k];
+    } else {
+      (g < S(0) ? falling : rising) = knots[k];
+      (g < S(0) ? falling_slope : rising_slope) = g;
+    }
+  }
+  if (first_zero >= S(0)) return (first_zero + last_zero) / 2;
+  if (falling_slope == S(0)) return S(0);
+  if (rising_slope == S(0)) return S(1);
+  return falling + (rising - falling) * (falling_slope / (falling_slope - rising_slope));
+}
+
+/// The least translation that parts a segment p + s d from the box [-h, h] that it touches or crosses, as a gap from
+/// the segment (relative to its middle) to the box: the smallest overlap along the three face normals and the three
+/// products of an edge with d, which are all the faces their Minkowski difference has.
+template <Scalar S> CoreGap<S> segment_through_box(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
+  const Vec3<S> middle = p + d / S(2);
+  const Vec3<S> direction = safe_unit(d);
+  CoreGap<S> gap;
+  S least = std::numeric_limits<S>::infinity();
+  int edge = -1, face = -1;
+  Vec3<S> outward = Vec3<S>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const S overlap = h[i] + (largest(d[i]) / 2 - largest(middle[i]));
+    if (overlap < least) {
+      least = overlap;
+      face = i;
+      outward = axis_vector<S>(i, middle[i] < S(0));
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<S> n = safe_unit(cross(direction, axis_vector<S>(i)));
+    if (n == Vec3<S>::Zero()) continue;
+    const S overlap = h.dot(n.cwiseAbs()) - largest(S(middle.dot(n)));
+    if (overlap < least) {
+      least = overlap;
+      edge = i;
+      outward = middle.dot(n) < S(0) ? Vec3<S>(-n) : n;
+    }
+  }
+  gap.distance = -least;
+  gap.normal = -outward;
+  S s = closest_parameter_to_box(p, d, h);
+  if (edge < 0) {  // the deepest end; the middle of the crossing where the segment runs along the face
+    if (d[face] != S(0)) s = (d[face] > S(0)) == (outward[face] > S(0)) ? S(0) : S(1);
+    gap.local_b = Vec3<S>(p + d * s).cwiseMin(h).cwiseMax(-h);
+    gap.local_b[face] = outward[face] * h[face];
+  } else {
+    Vec3<S> corner = h;
+    for (int i = 0; i < 3; ++i) corner[i] = i == edge || outward[i] < S(0) ? S(-h[i]) : h[i];
+    const Vec3<S> along = axis_vector<S>(edge) * (h[edge] * 2);
+    const SegmentPair<S> closest = closest_on_segments<S>(corner - p, d, along);
+    s = closest.s;
+    gap.local_b = corner + along * closest.t;
+  }
+  gap.local_a = d * (s - S(1) / S(2));
+  return gap;
+}
+
+}  // namespace thinwall
