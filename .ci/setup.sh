@@ -12,9 +12,10 @@ program_commands=(c++ cmake ninja git gnuplot)
 # To build and run the tests and benchmarks as well.
 test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev)
 
-# To check everything else.
-check_packages=(clang-14 clang-format-14 clang-tidy-14)
-check_commands=(clang++-14 clang-format-14 clang-tidy-14)
+# To check everything else. clang-format 16 is the first to lay out `requires` clauses well; the compiler is the oldest
+# we support.
+check_packages=(clang-14 clang-format-16 clang-tidy-14)
+check_commands=(clang++-14 clang-format-16 clang-tidy-14)
 
 say() { printf '\n==> %s\n' "$*"; }
 die() {
