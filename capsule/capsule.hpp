@@ -32,19 +32,36 @@ template <Scalar S> bool valid(const Capsule<S>& c) {
 template <Scalar S> Capsule<S> scaled(const Capsule<S>& c, int e) {
   return {times_power_of_two(c.a, e), times_power_of_two(c.b, e), times_power_of_two(c.radius, e)};
 }
+template <Scalar T, Scalar S> Capsule<T> cast(const Capsule<S>& c) {
+  return {c.a.template cast<T>(), c.b.template cast<T>(), static_cast<T>(c.radius)};
+}
+template <Scalar S> Capsule<S> moved(const Capsule<S>& c, const Vec3<S>& by) { return {c.a + by, c.b + by, c.radius}; }
+template <Scalar S> Vec3<S> half_widths(const Capsule<S>& c) {
+  return Vec3<S>((c.b - c.a).cwiseAbs() / S(2)) + Vec3<S>::Constant(c.radius);
+}
 template <Scalar S> Vec3<S> contact_point(const Capsule<S>& c, const Vec3<S>& core_point, const Vec3<S>& outward) {
   return core_point + outward * c.radius;
 }
 
+/// The parameter in [0, 1] of the core's point that is closest to the other shape's core; docs of segment.hpp.
+template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Sphere<S>& sphere) {
+  return closest_parameter<S>(sphere.center - capsule.a, capsule.b - capsule.a);
+}
+template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Aabb<S>& box) {
+  return closest_parameter_to_box<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents);
+}
+template <Scalar S> S closest_core_parameter(const Capsule<S>& a, const Capsule<S>& b) {
+  return closest_on_segments<S>(b.a - a.a, a.b - a.a, b.b - b.a).s;
+}
+
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Sphere<S>& sphere, const S& reach) {
-  const Vec3<S> from_a = sphere.center - capsule.a, core = capsule.b - capsule.a;
-  return within<S>(from_a - core * closest_parameter(from_a, core), reach);
+  const S s = closest_core_parameter(capsule, sphere);
+  return within<S>((sphere.center - capsule.a) - (capsule.b - capsule.a) * s, reach);
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Aabb<S>& box, const S& reach) {
-  const Vec3<S> start = capsule.a - box.center, core = capsule.b - capsule.a;
-  const S s = closest_parameter_to_box(start, core, box.half_extents);
-  return within(excess_of<S>(start + core * s, box.half_extents), reach);
+  const S s = closest_core_parameter(capsule, box);
+  return within(excess_of<S>((capsule.a - box.center) + (capsule.b - capsule.a) * s, box.half_extents), reach);
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& a, const Capsule<S>& b, const S& reach) {
@@ -57,7 +74,7 @@ template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits
 /// Degenerate: a center on the core leaves sideways; the direction is the caller's.
 template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Sphere<S>& sphere) {
   const Vec3<S> from_a = sphere.center - capsule.a, core = capsule.b - capsule.a;
-  const S s = closest_parameter(from_a, core);
+  const S s = closest_core_parameter(capsule, sphere);
   const Vec3<S> between = from_a - core * s;
   CoreGap<S> gap;
   gap.distance = safe_norm(between);
@@ -92,7 +109,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& a, const Capsule<S>& b
 /// Degenerate: a core that touches or crosses the box parts from it along the axis of least penetration.
 template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Aabb<S>& box) {
   const Vec3<S> start = capsule.a - box.center, core = capsule.b - capsule.a;
-  const S s = closest_parameter_to_box(start, core, box.half_extents);
+  const S s = closest_core_parameter(capsule, box);
   const Vec3<S> nearest = start + core * s;
   const Vec3<S> excess = excess_of(nearest, box.half_extents);
   CoreGap<S> gap;

@@ -30,6 +30,11 @@ template <Scalar S> bool valid(const Aabb<S>& box) {
 template <Scalar S> Aabb<S> scaled(const Aabb<S>& box, int e) {
   return {times_power_of_two(box.center, e), times_power_of_two(box.half_extents, e)};
 }
+template <Scalar T, Scalar S> Aabb<T> cast(const Aabb<S>& box) {
+  return {box.center.template cast<T>(), box.half_extents.template cast<T>()};
+}
+template <Scalar S> Aabb<S> moved(const Aabb<S>& box, const Vec3<S>& by) { return {box.center + by, box.half_extents}; }
+template <Scalar S> Vec3<S> half_widths(const Aabb<S>& box) { return box.half_extents; }
 /// An axis-aligned box must not turn, so a contact acts at its center and gives it no torque.
 template <Scalar S> Vec3<S> contact_point(const Aabb<S>&, const Vec3<S>&, const Vec3<S>&) { return Vec3<S>::Zero(); }
 

@@ -14,10 +14,15 @@
 #include <algorithm>
 #include <limits>
 
+#include <thinwall/discrete/double_word.hpp>
 #include <thinwall/discrete/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall {
+
+/// Where the discriminant is this small beside its terms, the line grazes the ball and one rounding may decide: it is
+/// computed again in double-word arithmetic. Plain rounding moves it by at most a dozen u.
+template <Scalar S> constexpr S grazing_fraction() { return 64 * std::numeric_limits<S>::epsilon(); }
 
 /// The chord that the line p + v t cuts from the ball of radius R around the origin.
 template <Scalar S> struct Chord {
@@ -34,6 +39,16 @@ template <Scalar S> struct Chord {
   Vec3<S> entry_offset(const Vec3<S>& v) const { return (cross(v, moment) - v * half) / speed_square; }
 };
 
+/// (v.v) R^2 - |p x v|^2 in twice the digits: right in sign, unless the true value is within a few u^2 of zero.
+template <Scalar S> S accurate_discriminant(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  const auto moment = [&](int i, int j) { return exact_product(p[i], v[j]) - exact_product(p[j], v[i]); };
+  const auto square = [](const DoubleWord<S>& x) { return x * x; };
+  const DoubleWord<S> speed = exact_product(v[0], v[0]) + exact_product(v[1], v[1]) + exact_product(v[2], v[2]);
+  const DoubleWord<S> offset = square(moment(1, 2)) + square(moment(2, 0)) + square(moment(0, 1));
+  const DoubleWord<S> difference = speed * exact_product(R, R) - offset;
+  return difference.high;
+}
+
 /// Requires p, v, R whose products of four are in range (products_in_range), v not zero.
 template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   using std::sqrt;
@@ -44,18 +59,19 @@ template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>&
   chord.moment = cross(p, v);
   const S reach = chord.speed_square * (R * R);
   const S offset = chord.moment.squaredNorm();
-  if (square_in_range(std::max(reach, offset))) {
-    chord.exists = offset <= reach;
-    if (chord.exists) chord.half = sqrt(reach - offset);
+  const S size = std::max(reach, offset);
+  if (square_in_range(size)) {
+    S D = reach - offset;
+    if (largest(D) <= grazing_fraction<S>() * size) D = accurate_discriminant(p, v, R);
+    chord.exists = D >= S(0);
+    if (chord.exists) chord.half = sqrt(D);
     return chord;
   }
   // A ball and an offset so small that their squares vanish still compare: rescale just these two.
   const S speed = sqrt(chord.speed_square);
-  const S size = largest(chord.moment, S(R * speed));
-  const int e = binary_exponent(size);
-  const Vec3<S> moment = times_power_of_two(chord.moment, -e);
+  const int e = binary_exponent(largest(chord.moment, S(R * speed)));
   const S radius = times_power_of_two(R, -e) * speed;
-  const S D = radius * radius - moment.squaredNorm();
+  const S D = radius * radius - times_power_of_two(chord.moment, -e).squaredNorm();
   chord.exists = D >= S(0);
   if (chord.exists) chord.half = times_power_of_two(S(sqrt(D)), e);
   return chord;

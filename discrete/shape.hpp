@@ -7,6 +7,9 @@
 ///   rounding(shape)    the radius around its core; 0 for a box
 ///   magnitude(shape)   the sum of the absolute values of its fields, not finite if one is not
 ///   scaled(shape, e)   the shape with every length multiplied by 2^e
+///   cast<T>(shape)     the same shape in scalar T
+///   moved(shape, by)   the shape translated by a vector
+///   half_widths(shape) half of its extent along each axis, around its center
 ///   valid(shape)       true if its fields are finite and its sizes are not negative
 ///   contact_point(shape, core_point, outward)   where a contact acts, relative to center(shape)
 ///   ray_entry(ray, shape)                       the raycast, coordinates small enough not to overflow
@@ -45,6 +48,17 @@ template <Scalar S> Vec3<S> arbitrary_normal(const Vec3<S>& along) {
   if (axis == Vec3<S>::Zero()) return axis_vector<S>(0);
   return axis[1] == S(0) && axis[2] == S(0) ? axis_vector<S>(1) : safe_unit(across);
 }
+
+/// A pair the library can decide: one of the two orders has the overloads.
+template <class A, class B>
+concept ServedPair = Shape<A> && Shape<B> && std::same_as<typename A::Scalar, typename B::Scalar> &&
+                     (requires(const A& a, const B& b, const typename A::Scalar& reach) {
+                       cores_within(a, b, reach);
+                       core_gap(a, b);
+                     } || requires(const A& a, const B& b, const typename A::Scalar& reach) {
+                       cores_within(b, a, reach);
+                       core_gap(b, a);
+                     });
 
 /// Small enough that differences and sums of a few such numbers do not overflow. False for NaN and infinity.
 template <Scalar S> bool is_ordinary(const S& magnitude) { return magnitude <= std::numeric_limits<S>::max() / 64; }

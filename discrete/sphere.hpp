@@ -25,6 +25,11 @@ template <Scalar S> bool valid(const Sphere<S>& s) { return is_finite(s.center) 
 template <Scalar S> Sphere<S> scaled(const Sphere<S>& s, int e) {
   return {times_power_of_two(s.center, e), times_power_of_two(s.radius, e)};
 }
+template <Scalar T, Scalar S> Sphere<T> cast(const Sphere<S>& s) {
+  return {s.center.template cast<T>(), static_cast<T>(s.radius)};
+}
+template <Scalar S> Sphere<S> moved(const Sphere<S>& s, const Vec3<S>& by) { return {s.center + by, s.radius}; }
+template <Scalar S> Vec3<S> half_widths(const Sphere<S>& s) { return Vec3<S>::Constant(s.radius); }
 template <Scalar S> Vec3<S> contact_point(const Sphere<S>& s, const Vec3<S>& core_point, const Vec3<S>& outward) {
   return core_point + outward * s.radius;
 }

@@ -1,0 +1,41 @@
+#pragma once
+/// A ray from a body's center along its motion: the bullet as a point.
+
+#include <string_view>
+
+#include <thinwall/discrete/queries.hpp>
+#include <thinwall/swept/serves.hpp>
+
+namespace thinwall {
+
+/// True if A is the one whose center shoots the ray: the body that travels farther; of two that travel as far, the
+/// smaller. So the answer does not depend on the order of the arguments.
+template <Shape A, Shape B> bool first_shoots(const Moving<A>& a, const Moving<B>& b) {
+  using S = typename A::Scalar;
+  const S a_path = safe_norm(a.displacement), b_path = safe_norm(b.displacement);
+  return a_path > b_path || (a_path == b_path && half_widths(a.shape).sum() < half_widths(b.shape).sum());
+}
+
+/// Claims: nothing. Misses what the radius would have hit, and is late by the radius over the cosine of incidence.
+/// The ray starts at the center of the body that travels farther and is cast against the other's true shape.
+template <Scalar S> struct CentreRay {
+  static constexpr std::string_view name = "centre_ray";
+  S min_separation = 0;  ///< [length] >= 0: at the start only, a gap this small counts as contact
+};
+
+/// The center ray of `shooter` against the shape of `target`. The normal points from the shooter to the target.
+template <Scalar T, Shape A, Shape B> Toi<T> cast_center(const Moving<A>& shooter, const Moving<B>& target) {
+  const auto hit = raycast(Ray<T>{center(shooter.shape), relative_displacement(shooter, target), T(1)}, target.shape);
+  if (!hit) return {ToiStatus::apart, 2};
+  return {ToiStatus::hit, 2, hit->t, -hit->normal, hit->point + target.displacement * hit->t};
+}
+
+template <Scalar S, Shape A, Shape B>
+  requires ServedPair<A, B>
+Toi<typename A::Scalar> impact(const CentreRay<S>& method, const Moving<A>& a, const Moving<B>& b) {
+  using T = typename A::Scalar;
+  if (overlaps_within(a.shape, b.shape, T(method.min_separation))) return overlapping_at_start(a, b, 1);
+  return first_shoots(a, b) ? cast_center<T>(a, b) : flipped(cast_center<T>(b, a));
+}
+
+}  // namespace thinwall

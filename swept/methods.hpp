@@ -1,0 +1,21 @@
+#pragma once
+/// Every way to find a time of impact. A new method is a header of its own and one line here: tests, benchmarks and
+/// experiments loop over this list and ask serves<Method, A, B>.
+
+#include <thinwall/discrete/type_list.hpp>
+#include <thinwall/swept/centre_ray.hpp>
+#include <thinwall/swept/closed_form.hpp>
+#include <thinwall/swept/substeps.hpp>
+#include <thinwall/swept/swept_volume_ray.hpp>
+
+namespace thinwall {
+
+template <Scalar S>
+using Methods = TypeList<  //
+    EndOfStep<S>,          //
+    Substeps<S>,           //
+    CentreRay<S>,          //
+    SweptVolumeRay<S>,     //
+    ClosedForm<S>>;
+
+}  // namespace thinwall

@@ -1,0 +1,48 @@
+#pragma once
+/// Discrete tests at poses along the step: what most simulations do, and the foil every other method is held against.
+
+#include <string_view>
+
+#include <thinwall/discrete/queries.hpp>
+#include <thinwall/swept/serves.hpp>
+
+namespace thinwall {
+
+/// Tests the poses at k/n of the step, k = 1 .. n, and answers with the first that touches.
+/// Claims: nothing. Misses whatever fits between two poses, even contact at the start; late by up to 1/n.
+template <Scalar S> struct Substeps {
+  static constexpr std::string_view name = "substeps";
+  int n = 4;             ///< [1] >= 1 poses a step; fewer are `invalid`
+  S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
+};
+
+/// Tests the end pose only: a step of an ordinary discrete simulation.
+/// Claims: nothing. A body that crosses a wall within the step goes through.
+template <Scalar S> struct EndOfStep {
+  static constexpr std::string_view name = "end_of_step";
+  S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
+};
+
+template <Scalar S, Shape A, Shape B>
+  requires ServedPair<A, B>
+Toi<typename A::Scalar> impact(const Substeps<S>& method, const Moving<A>& a, const Moving<B>& b) {
+  using T = typename A::Scalar;
+  if (method.n < 1) return {ToiStatus::invalid, 0, std::numeric_limits<T>::quiet_NaN()};
+  for (int k = 1; k <= method.n; ++k) {
+    const T time = T(k) / T(method.n);
+    const A a_then = pose_at(a, time);
+    const B b_then = pose_at(b, time);
+    if (!overlaps_within(a_then, b_then, T(method.min_separation))) continue;
+    const Separation<T> deepest = separation(a_then, b_then);
+    return {ToiStatus::hit, k, time, deepest.normal, (deepest.point_a + deepest.point_b) / T(2)};
+  }
+  return {ToiStatus::apart, method.n};
+}
+
+template <Scalar S, Shape A, Shape B>
+  requires ServedPair<A, B>
+Toi<typename A::Scalar> impact(const EndOfStep<S>& method, const Moving<A>& a, const Moving<B>& b) {
+  return impact(Substeps<S>{1, method.min_separation}, a, b);
+}
+
+}  // namespace thinwall

@@ -1,0 +1,49 @@
+#pragma once
+/// The swept sphere's capsule decides whether, a ray from its center decides when.
+
+#include <string_view>
+
+#include <thinwall/swept/centre_ray.hpp>
+#include <thinwall/swept/swept_volume.hpp>
+
+namespace thinwall {
+
+/// If the capsule that the sphere sweeps, seen from the other body, overlaps that body's true shape, there is a hit: at
+/// the time the ray from the center along the motion meets that shape, or where it misses, at the closest approach.
+/// Claims: approximate. The verdict is right to rounding; the time is late by the radius over the cosine of incidence,
+/// at most until the closest approach.
+/// Degenerate: of two spheres the one that travels farther is swept.
+template <Scalar S> struct SweptVolumeRay {
+  static constexpr std::string_view name = "swept_volume_ray";
+  S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
+};
+
+/// The normal points from the sphere to the target.
+template <Scalar T, Shape B>
+Toi<T> sweep_and_cast(const Moving<Sphere<T>>& sphere, const Moving<B>& target, const T& margin) {
+  if (overlaps_within(sphere.shape, target.shape, margin)) return overlapping_at_start(sphere, target, 1);
+  const Capsule<T> swept = swept_volume(Moving<Sphere<T>>{sphere.shape, relative_displacement(sphere, target)});
+  if (!overlaps_within(swept, target.shape, margin)) return {ToiStatus::apart, 2};
+  Toi<T> toi = cast_center<T>(sphere, target);
+  if (toi.status == ToiStatus::hit) {
+    toi.evaluations = 3;
+    return toi;
+  }
+  const T time = closest_core_parameter(swept, target.shape);
+  const Separation<T> closest = separation(pose_at(sphere, time), pose_at(target, time));
+  return {ToiStatus::hit, 4, time, closest.normal, (closest.point_a + closest.point_b) / T(2)};
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const SweptVolumeRay<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
+  const T margin(method.min_separation);
+  return first_shoots(a, b) ? sweep_and_cast(a, b, margin) : flipped(sweep_and_cast(b, a, margin));
+}
+
+template <Scalar S, Shape B, Scalar T>
+  requires ServedPair<Capsule<T>, B>
+Toi<T> impact(const SweptVolumeRay<S>& method, const Moving<B>& target, const Moving<Sphere<T>>& sphere) {
+  return flipped(sweep_and_cast(sphere, target, T(method.min_separation)));
+}
+
+}  // namespace thinwall

@@ -1,0 +1,49 @@
+#pragma once
+/// The front door of every time of impact: checks the input, puts the later shape first (and flips the answer back),
+/// keeps coordinates near the largest number from overflowing, and computes a float query in double.
+
+#include <type_traits>
+
+#include <thinwall/swept/closed_form.hpp>
+
+namespace thinwall {
+
+/// When A and B first touch during the step, by `method`.
+/// Returns `invalid` with time NaN for a NaN, an infinity, a negative size or a negative min_separation.
+/// Degenerate: touching at the start is `overlapping` with time 0, whatever the motion (but EndOfStep and Substeps look
+/// only at the poses they sample); no relative motion is `apart`, or `overlapping` if they touch.
+/// Passing A and B the other way round flips the normal and changes nothing else.
+template <class Method, Shape A, Shape B>
+Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  using S = typename A::Scalar;
+  static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(serves<Method, A, B>, "this method does not serve this pair of shapes");
+  if constexpr (A::rank < B::rank) {
+    return flipped(time_of_impact(method, b, a));
+  } else {
+    if (!valid(a) || !valid(b) || !is_finite(method.min_separation) || method.min_separation < 0) {
+      return {ToiStatus::invalid, 0, std::numeric_limits<S>::quiet_NaN()};
+    }
+    if constexpr (std::is_same_v<S, float>) {
+      const Toi<double> toi = impact(method, cast<double>(a), cast<double>(b));
+      return {toi.status, toi.evaluations, static_cast<float>(toi.time), toi.normal.template cast<float>(),
+              toi.point.template cast<float>()};
+    } else if (is_ordinary(S(magnitude(a) + magnitude(b) + S(method.min_separation)))) {
+      return impact(method, a, b);
+    } else {
+      Method smaller = method;
+      using std::ldexp;
+      smaller.min_separation = ldexp(method.min_separation, -8);
+      Toi<S> toi = time_of_impact(smaller, scaled(a, -8), scaled(b, -8));
+      toi.point = times_power_of_two(toi.point, 8);
+      return toi;
+    }
+  }
+}
+
+/// When A and B first touch during the step, exact to rounding.
+template <Shape A, Shape B> Toi<typename A::Scalar> time_of_impact(const Moving<A>& a, const Moving<B>& b) {
+  return time_of_impact(ClosedForm<typename A::Scalar>{}, a, b);
+}
+
+}  // namespace thinwall
