@@ -23,9 +23,9 @@ template <Scalar S> S closest_parameter(const Vec3<S>& w, const Vec3<S>& d) {
 }
 
 template <Scalar S> struct SegmentPair {
-  S s = 0;                                    ///< [1] on the first segment, s * d1
-  S t = 0;                                    ///< [1] on the second segment, r + t * d2
-  Vec3<S> gap = Vec3<S>::Zero();              ///< [length] from the first point to the second
+  S s = 0;                        ///< [1] on the first segment, s * d1
+  S t = 0;                        ///< [1] on the second segment, r + t * d2
+  Vec3<S> gap = Vec3<S>::Zero();  ///< [length] from the first point to the second
 };
 
 /// Closest points of the segments s * d1 and r + t * d2.
@@ -38,8 +38,8 @@ template <Scalar S> SegmentPair<S> closest_on_segments(const Vec3<S>& r, const V
   const S size = largest(r, d1, d2);
   if (!products_in_range(size) && binary_exponent(size) != 0) {
     const int e = binary_exponent(size);
-    SegmentPair<S> pair = closest_on_segments(times_power_of_two(r, -e), times_power_of_two(d1, -e),
-                                              times_power_of_two(d2, -e));
+    SegmentPair<S> pair =
+        closest_on_segments(times_power_of_two(r, -e), times_power_of_two(d1, -e), times_power_of_two(d2, -e));
     pair.gap = r + (d2 * pair.t - d1 * pair.s);
     return pair;
   }

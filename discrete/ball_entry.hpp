@@ -22,16 +22,16 @@ namespace thinwall {
 
 /// Where the discriminant is this small beside its terms, the line grazes the ball and one rounding may decide: it is
 /// computed again in double-word arithmetic. Plain rounding moves it by at most a dozen u.
-template <Scalar S> constexpr S grazing_fraction() { return 64 * std::numeric_limits<S>::epsilon(); }
+template <Scalar S> S grazing_fraction() { return 64 * std::numeric_limits<S>::epsilon(); }
 
 /// The chord that the line p + v t cuts from the ball of radius R around the origin.
 template <Scalar S> struct Chord {
-  bool exists = false;                ///< the line meets the closed ball
-  S speed_square = 0;                 ///< v.v
-  S approach = 0;                     ///< -p.v: positive while the closest approach is ahead
-  S excess = 0;                       ///< p.p - R^2: positive outside
-  S half = 0;                         ///< sqrt(D), half the chord times |v|
-  Vec3<S> moment = Vec3<S>::Zero();   ///< p x v
+  bool exists = false;               ///< the line meets the closed ball
+  S speed_square = 0;                ///< v.v
+  S approach = 0;                    ///< -p.v: positive while the closest approach is ahead
+  S excess = 0;                      ///< p.p - R^2: positive outside
+  S half = 0;                        ///< sqrt(D), half the chord times |v|
+  Vec3<S> moment = Vec3<S>::Zero();  ///< p x v
 
   /// The time the line enters the ball, where the chord exists and the point is outside and approaching.
   S entry_time() const { return excess / (approach + half); }
@@ -79,9 +79,9 @@ template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>&
 
 /// The first time at which a point is in the closed ball, and where it is then.
 template <Scalar S> struct BallEntry {
-  bool inside = false;                                ///< already so at time 0, touching included
-  S time = std::numeric_limits<S>::infinity();        ///< [1] in (0, inf); infinity: never
-  Vec3<S> normal = Vec3<S>::Zero();                   ///< unit, from the ball's center to the point at `time`
+  bool inside = false;                          ///< already so at time 0, touching included
+  S time = std::numeric_limits<S>::infinity();  ///< [1] in (0, inf); infinity: never
+  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, from the ball's center to the point at `time`
 };
 
 /// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);

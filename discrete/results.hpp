@@ -27,8 +27,8 @@ template <Scalar S> struct Separation {
 
 /// A half line, cut off at `max_t`.
 template <Scalar S> struct Ray {
-  Vec3<S> origin;                                 ///< [length]
-  Vec3<S> direction;                              ///< [length] of any length; t counts in lengths of it
+  Vec3<S> origin;                                ///< [length]
+  Vec3<S> direction;                             ///< [length] of any length; t counts in lengths of it
   S max_t = std::numeric_limits<S>::infinity();  ///< [1] >= 0
 };
 

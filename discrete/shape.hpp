@@ -49,16 +49,16 @@ template <Scalar S> Vec3<S> arbitrary_normal(const Vec3<S>& along) {
   return axis[1] == S(0) && axis[2] == S(0) ? axis_vector<S>(1) : safe_unit(across);
 }
 
+template <class A, class B>
+concept PairInOrder = requires(const A& a, const B& b, const typename A::Scalar& reach) {
+  cores_within(a, b, reach);
+  core_gap(a, b);
+};
+
 /// A pair the library can decide: one of the two orders has the overloads.
 template <class A, class B>
 concept ServedPair = Shape<A> && Shape<B> && std::same_as<typename A::Scalar, typename B::Scalar> &&
-                     (requires(const A& a, const B& b, const typename A::Scalar& reach) {
-                       cores_within(a, b, reach);
-                       core_gap(a, b);
-                     } || requires(const A& a, const B& b, const typename A::Scalar& reach) {
-                       cores_within(b, a, reach);
-                       core_gap(b, a);
-                     });
+                     (PairInOrder<A, B> || PairInOrder<B, A>);
 
 /// Small enough that differences and sums of a few such numbers do not overflow. False for NaN and infinity.
 template <Scalar S> bool is_ordinary(const S& magnitude) { return magnitude <= std::numeric_limits<S>::max() / 64; }

@@ -11,6 +11,8 @@ template <class T> struct TypeTag {
 };
 
 /// Calls f(TypeTag<T>{}) for each T of the list, in order.
-template <class... Types, class F> constexpr void for_each_type(TypeList<Types...>, F&& f) { (f(TypeTag<Types>{}), ...); }
+template <class... Types, class F> constexpr void for_each_type(TypeList<Types...>, F&& f) {
+  (f(TypeTag<Types>{}), ...);
+}
 
 }  // namespace thinwall

@@ -19,8 +19,8 @@ template <Scalar S> struct ClosedForm {
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
   const T margin(method.min_separation);
-  const BallEntry<T> entry =
-      ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a), a.shape.radius + b.shape.radius + margin);
+  const BallEntry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
+                                           a.shape.radius + b.shape.radius + margin);
   if (entry.inside) return overlapping_at_start(a, b, 1);
   if (!(entry.time <= T(1))) return {ToiStatus::apart, 1};
   const Vec3<T> center_then = a.shape.center + a.displacement * entry.time;

@@ -35,7 +35,7 @@ template <Scalar S> struct SlabTimes {
   Vec3<S> near, far;     ///< [length] the face passed at `enter`, at `leave`
   S first = 0;           ///< [1] >= 0: when the point is in all slabs widened by R
   S last = std::numeric_limits<S>::infinity();  ///< [1] until when; before `first`: never
-  int axis = -1;         ///< the axis that decided `first`; -1 where `first` is the start
+  int axis = -1;                                ///< the axis that decided `first`; -1 where `first` is the start
 
   SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
     const S infinity = std::numeric_limits<S>::infinity();

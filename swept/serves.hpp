@@ -23,8 +23,7 @@ template <class Method, class A, class B>
 inline constexpr bool serves = A::rank < B::rank ? ServesInOrder<Method, B, A> : ServesInOrder<Method, A, B>;
 
 /// The motion of A seen from B.
-template <class A, class B>
-Vec3<typename A::Scalar> relative_displacement(const Moving<A>& a, const Moving<B>& b) {
+template <class A, class B> Vec3<typename A::Scalar> relative_displacement(const Moving<A>& a, const Moving<B>& b) {
   return a.displacement - b.displacement;
 }
 

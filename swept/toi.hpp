@@ -15,10 +15,10 @@ enum class ToiStatus {
 
 template <Scalar S> struct Toi {
   ToiStatus status = ToiStatus::apart;
-  int evaluations = 0;                ///< of the pair's separation, overlap or closed form: the machine-independent cost
-  S time = 1;                         ///< [1] fraction of the step in [0, 1]; seconds = time * dt
-  Vec3<S> normal = Vec3<S>::Zero();   ///< unit, from A to B
-  Vec3<S> point = Vec3<S>::Zero();    ///< [length] where they touch, in world space
+  int evaluations = 0;               ///< of the pair's separation, overlap or closed form: the machine-independent cost
+  S time = 1;                        ///< [1] fraction of the step in [0, 1]; seconds = time * dt
+  Vec3<S> normal = Vec3<S>::Zero();  ///< unit, from A to B
+  Vec3<S> point = Vec3<S>::Zero();   ///< [length] where they touch, in world space
 };
 
 /// The same answer with A and B passed the other way round.
