@@ -13,15 +13,40 @@ template <class S> Real forward_error_in_u_kappa(const Impact& truth, const S& t
   return abs(lift(time) - truth.time) / (unit_roundoff<S>() * truth.conditioning);
 }
 
-/// The separation at the computed time over u * [sum |n_i| (...)_i + R]: by how much the inputs would have to
-/// change for the time to be exact.
-template <class S> Real backward_error_in_u(const Pair& pair, const S& time) {
-  const Gap there = gap(pair, lift(time));
-  return abs(there.separation) / (unit_roundoff<S>() * scale(pair, lift(time), there.normal));
+/// True if a relative change of the inputs by at most `change`, each coordinate by itself, makes the bodies touch
+/// without overlap at `time`.
+inline bool touch_is_near(const Pair& pair, const Real& time, const Real& change) {
+  const Vector offset = pair.offset(time);
+  const Vector play = change * sizes(pair, time);
+  Zonotope wider = pair.core();
+  wider.box = wider.box + play;
+  if (length(offset - nearest(wider, offset)) > pair.reach() * (1 + change)) return false;  // still apart
+  for (unsigned corner = 0; corner < 8; ++corner) {  // the distance is convex: it is largest at a corner
+    Vector moved = offset;
+    for (std::size_t i = 0; i < 3; ++i) moved[i] += (corner >> i & 1U) != 0 ? play[i] : -play[i];
+    const Real distance = length(moved - nearest(pair.core(), moved));
+    if (distance > 0 && distance >= pair.reach() * (1 - change)) return true;
+  }
+  return false;
 }
 
-/// By how much the inputs would have to change for the other verdict to be right, in u.
-template <class S> Real verdict_margin_in_u(const Impact& truth) { return abs(truth.margin) / unit_roundoff<S>(); }
+/// By how much the inputs would have to change, in u, for `time` to be the exact time of contact.
+/// To first order it is the separation at that time over [sum |n_i| (...)_i + R]. Where that is more than one u, the
+/// change is found by bisection: a step many radii long turns the normal within one rounding of the time.
+template <class S> Real backward_error_in_u(const Pair& pair, const S& time) {
+  const Gap there = gap(pair, lift(time));
+  if (there.separation == 0) return 0;
+  const Real u = unit_roundoff<S>();
+  const Real first_order = abs(there.separation) / (u * scale(pair, lift(time), there.normal));
+  if (first_order <= 1) return first_order;
+  Real low = 0, high = 1;
+  while (!touch_is_near(pair, lift(time), high * u) && high < 1 / u) high *= 2;
+  for (int i = 0; i < 12; ++i) {
+    const Real middle = (low + high) / 2;
+    (touch_is_near(pair, lift(time), middle * u) ? high : low) = middle;
+  }
+  return high;
+}
 
 /// The first time at which the separation is at most `allowance` in u * scale: how early a backward error that
 /// small can put a graze. Inflates the reach, which bounds the scale at the true contact.

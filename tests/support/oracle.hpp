@@ -15,9 +15,10 @@ enum class Verdict { apart, hit, overlapping };
 
 struct Impact {
   Verdict verdict = Verdict::apart;
-  Real margin = 0;  ///< [1] least separation (overlapping: the one at the start) over scale(); 0 is an exact touch
-  Real time = 1;    ///< [1] of first contact; apart: of closest approach
-  Vector normal{};  ///< unit, from A to B, at that time
+  Real margin = 0;        ///< [1] least separation over scale(); 0 is an exact touch
+  Real start_margin = 0;  ///< [1] the same at time 0
+  Real time = 1;          ///< [1] of first contact; apart: of closest approach
+  Vector normal{};        ///< unit, from A to B, at that time
   Real conditioning = 0;  ///< [1] kappa * time: a relative change u of the inputs moves the time by u times this
 };
 
@@ -63,7 +64,7 @@ inline Real closing_speed(const Pair& pair, const Vector& normal) {
 }
 
 /// The first contact before `closest`, a time at which the bodies touch.
-inline Impact first_contact(const Pair& pair, const Real& closest, const Real& margin) {
+inline Impact first_contact(const Pair& pair, const Real& closest, const Real& margin, const Real& start_margin) {
   Real low = 0, high = closest;
   bracket(
       low, high, [&](const Real& time) { return touching(pair, time); },
@@ -74,20 +75,21 @@ inline Impact first_contact(const Pair& pair, const Real& closest, const Real& m
       });
   const Gap before = gap(pair, low);  // at contact itself, cores without a radius have no normal
   const Real speed = closing_speed(pair, before.normal);
-  return {Verdict::hit, margin, high, before.normal,
-          speed == 0 ? Real(0) : Real(scale(pair, high, before.normal) / speed)};
+  const Real conditioning = speed == 0 ? Real(0) : Real(scale(pair, high, before.normal) / speed);
+  return {Verdict::hit, margin, start_margin, high, before.normal, conditioning};
 }
 
 /// The tri-state verdict, the time and how well conditioned both are.
 inline Impact impact(const Pair& pair) {
   const auto margin_at = [&](const Real& time, const Gap& there) {
-    return Real(there.separation / scale(pair, time, there.normal));
+    const Real size = scale(pair, time, there.normal);
+    return size == 0 ? Real(0) : Real(there.separation / size);  // two points that rest at the origin
   };
   const Real touch = ldexp(Real(1), -200);  // a margin below is decided by fractions
   const bool fractions = pair.core().generators.empty();
 
   const Gap start = gap(pair, 0);
-  const Real start_margin = margin_at(0, start);
+  Real start_margin = margin_at(0, start);
   Real closest = closest_approach(pair);
   Gap there = gap(pair, closest);
   Real margin = margin_at(closest, there);
@@ -99,10 +101,11 @@ inline Impact impact(const Pair& pair) {
     sign = exactly.sign;
     if (sign == 0) closest = Real(exactly.time);
     if (sign == 0) margin = 0;
+    if (start_sign == 0) start_margin = 0;
   }
-  if (start_sign <= 0) return {Verdict::overlapping, start_margin, 0, start.normal, 0};
-  if (sign > 0) return {Verdict::apart, margin, closest, there.normal, 0};
-  return first_contact(pair, closest, margin);
+  if (start_sign <= 0) return {Verdict::overlapping, margin, start_margin, 0, start.normal, 0};
+  if (sign > 0) return {Verdict::apart, margin, start_margin, closest, there.normal, 0};
+  return first_contact(pair, closest, margin, start_margin);
 }
 
 }  // namespace thinwall::oracle

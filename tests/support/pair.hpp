@@ -40,13 +40,15 @@ inline Vector half_size(const Zonotope& z) {
   return half;
 }
 
-/// The size of the numbers that a computation at `time` must add, seen along the contact normal: the roundoff of
-/// the inputs moves the gap by this much times u. The backward error is measured in it.
+/// The size of the numbers that a computation at `time` must add, along each axis.
+inline Vector sizes(const Pair& pair, const Real& time) {
+  return magnitude(pair.a.center) + magnitude(pair.b.center) + half_size(pair.a.core) + half_size(pair.b.core) +
+         time * (magnitude(pair.a.displacement) + magnitude(pair.b.displacement));
+}
+
+/// The same seen along the contact normal, radii included: the roundoff of the inputs moves the gap by u times this.
 inline Real scale(const Pair& pair, const Real& time, const Vector& normal) {
-  const Vector sizes = magnitude(pair.a.center) + magnitude(pair.b.center) + half_size(pair.a.core) +
-                       half_size(pair.b.core) +
-                       time * (magnitude(pair.a.displacement) + magnitude(pair.b.displacement));
-  return dot(magnitude(normal), sizes) + pair.reach();
+  return dot(magnitude(normal), sizes(pair, time)) + pair.reach();
 }
 
 /// What lies between the two bodies at one time.

@@ -15,7 +15,13 @@ using Integer = boost::multiprecision::cpp_int;
 using Rational = boost::multiprecision::cpp_rational;
 
 /// Three coordinates. A type of its own, so that the oracle shares nothing with the library it judges.
-template <class N> using Triple = std::array<N, 3>;
+template <class N> struct Triple {
+  std::array<N, 3> coordinates{};
+
+  N& operator[](std::size_t i) { return coordinates[i]; }
+  const N& operator[](std::size_t i) const { return coordinates[i]; }
+  bool operator==(const Triple&) const = default;
+};
 using Vector = Triple<Real>;
 
 /// The same value with 100 digits; exact, since no scalar under test has more.

@@ -1,0 +1,156 @@
+#pragma once
+/// What every query at one instant must fulfil, for any two shapes, against the oracle.
+
+#include <thinwall/discrete/queries.hpp>
+
+#include "support/draw.hpp"
+#include "support/errors.hpp"
+#include "support/judge_vectors.hpp"
+#include "support/property.hpp"
+#include "support/transforms.hpp"
+
+namespace thinwall::testing {
+
+/// Two types of shape under one name, for typed tests.
+template <class First, class Second> struct PairOf {
+  using A = First;
+  using B = Second;
+  using S = typename First::Scalar;
+};
+
+/// overlaps() is the sign of the separation, but for inputs within 4 u of a touch.
+template <class A, class B> void overlaps_has_the_sign_of_the_separation() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_pair<A, B>();
+  const oracle::Pair pair = oracle::pair(a, b);
+  const oracle::Gap truth = oracle::gap(pair, 0);
+  const oracle::Real rounding = oracle::unit_roundoff<S>() * oracle::scale(pair, 0, truth.normal);
+  if (abs(truth.separation) <= 4 * rounding) return;
+  RC_ASSERT(overlaps(a, b) == (truth.separation < 0));
+  RC_ASSERT(overlaps(b, a) == (truth.separation < 0));
+}
+
+/// separation(): the distance within 8 u, a normal along which the shapes are that far apart, a point on each surface.
+template <class A, class B> void separation_is_the_distance() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_pair<A, B>();
+  const oracle::Pair pair = oracle::pair(a, b);
+  const oracle::Gap truth = oracle::gap(pair, 0);
+  const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(pair, 0);
+  const Separation<S> found = separation(a, b);
+
+  RC_ASSERT(abs(oracle::lift(found.distance) - truth.separation) <= 8 * rounding);
+  RC_ASSERT(is_unit(found.normal));
+  const oracle::Vector normal = oracle::lift_vector(found.normal);
+  RC_ASSERT(oracle::separation_along(pair, 0, normal) >= truth.separation - 8 * rounding);
+  const oracle::Vector point_a = oracle::lift_vector(found.point_a), point_b = oracle::lift_vector(found.point_b);
+  RC_ASSERT(off_surface(point_a, pair.a) <= 16 * rounding);
+  RC_ASSERT(off_surface(point_b, pair.b) <= 16 * rounding);
+  const oracle::Vector between = point_b - point_a;
+  RC_ASSERT(oracle::length(between - oracle::lift(found.distance) * normal) <= 16 * rounding);
+}
+
+/// contact(): there when overlaps() says so; moving B by the penetration along the normal leaves a touch.
+template <class A, class B> void contact_moves_out() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_pair<A, B>();
+  const auto found = contact(a, b);
+  RC_ASSERT(found.has_value() == overlaps(a, b));
+  if (!found) return;
+  RC_ASSERT(found->penetration >= S(0));
+  RC_ASSERT(is_unit(found->normal));
+  oracle::Pair pair = oracle::pair(a, b);
+  const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(pair, 0);
+  pair.b.center = pair.b.center + oracle::lift(found->penetration) * oracle::lift_vector(found->normal);
+  RC_ASSERT(abs(oracle::gap(pair, 0).separation) <= 16 * rounding);
+}
+
+/// Passing A and B the other way round flips the normal and swaps the points: to the bit between different shapes.
+template <class A, class B> void other_way_round_is_the_same() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_pair<A, B>();
+  RC_ASSERT(overlaps(a, b) == overlaps(b, a));
+  const Separation<S> there = separation(a, b), back = separation(b, a);
+  const auto contact_there = contact(a, b), contact_back = contact(b, a);
+  RC_ASSERT(contact_there.has_value() == contact_back.has_value());
+  if constexpr (std::is_same_v<A, B>) {
+    const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(oracle::pair(a, b), 0);
+    RC_ASSERT(abs(oracle::lift(there.distance) - oracle::lift(back.distance)) <= 16 * rounding);
+    if (contact_there)
+      RC_ASSERT(abs(oracle::lift(contact_there->penetration) - oracle::lift(contact_back->penetration)) <=
+                16 * rounding);
+  } else {
+    RC_ASSERT(there.distance == back.distance);
+    RC_ASSERT(there.point_a == back.point_b);
+    RC_ASSERT(there.point_b == back.point_a);
+    if (there.distance + S(1) != S(1)) RC_ASSERT(there.normal == -back.normal);
+    if (contact_there) {
+      RC_ASSERT(contact_there->penetration == contact_back->penetration);
+      RC_ASSERT(contact_there->local_a == contact_back->local_b);
+      RC_ASSERT(contact_there->local_b == contact_back->local_a);
+    }
+  }
+}
+
+/// Lengths times 2^k: the same bits, as long as nothing leaves the range of the scalar.
+template <class A, class B> void same_bits_at_every_size() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_pair<A, B>();
+  const int k = *rc::gen::element(-600, -90, -60, -1, 1, 60, 90, 600);
+  const A large_a = resized(a, k);
+  const B large_b = resized(b, k);
+  if (!same_body(oracle::body(large_a), oracle::body(a), k) || !same_body(oracle::body(large_b), oracle::body(b), k))
+    return;
+  RC_ASSERT(overlaps(large_a, large_b) == overlaps(a, b));
+  const Separation<S> here = separation(a, b), there = separation(large_a, large_b);
+  RC_ASSERT(there.distance == times_power(here.distance, k));
+  RC_ASSERT(there.normal == here.normal);
+  RC_ASSERT(there.point_a == times_power(here.point_a, k));
+  RC_ASSERT(there.point_b == times_power(here.point_b, k));
+  const auto small = contact(a, b), large = contact(large_a, large_b);
+  RC_ASSERT(small.has_value() == large.has_value());
+  if (!small) return;
+  RC_ASSERT(large->penetration == times_power(small->penetration, k));
+  RC_ASSERT(large->normal == small->normal);
+  RC_ASSERT(large->local_a == times_power(small->local_a, k));
+  RC_ASSERT(large->local_b == times_power(small->local_b, k));
+}
+
+/// raycast() against the motion of a point over one step.
+template <class B> void raycast_is_the_motion_of_a_point() {
+  using S = typename B::Scalar;
+  const auto [point, b] = draw_pair<Sphere<S>, B>();
+  const Ray<S> ray{point.center, draw_vector<S>(draw_style()), S(1)};
+  RC_LOG() << "direction " << ray.direction.transpose() << "\n";
+  oracle::Pair pair = oracle::pair(point, b);
+  pair.a.radius = 0;
+  pair.a.displacement = oracle::lift_vector(ray.direction);
+  const oracle::Impact truth = oracle::impact(pair);
+  const auto found = raycast(ray, b);
+
+  const bool hits = truth.verdict != oracle::Verdict::apart;
+  const oracle::Real u = oracle::unit_roundoff<S>();
+  if (found.has_value() != hits) {
+    RC_ASSERT(abs(truth.margin) <= 4 * u);
+    return;
+  }
+  if (!found) return;
+  if ((found->t == S(0)) != (truth.verdict == oracle::Verdict::overlapping)) {
+    RC_ASSERT(abs(truth.start_margin) <= 4 * u);
+    return;
+  }
+  if (truth.verdict == oracle::Verdict::overlapping) {
+    RC_ASSERT(found->normal == Vec3<S>(Vec3<S>::Zero()));
+    RC_ASSERT(found->point == ray.origin);
+    return;
+  }
+  RC_ASSERT(is_unit(found->normal));
+  const oracle::Real backward = oracle::backward_error_in_u(pair, found->t);
+  const oracle::Real forward = oracle::forward_error_in_u_kappa(truth, found->t);
+  RC_LOG() << "t " << found->t << " forward " << forward << " backward " << backward << "\n";
+  RC_ASSERT(backward <= 4);
+  RC_ASSERT(forward <= 4);
+  RC_ASSERT(off_surface(oracle::lift_vector(found->point), pair.b) <= 16 * u * size_at(pair, truth.time));
+}
+
+}  // namespace thinwall::testing
