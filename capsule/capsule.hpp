@@ -26,8 +26,9 @@ template <Scalar S> S rounding(const Capsule<S>& c) { return c.radius; }
 template <Scalar S> S magnitude(const Capsule<S>& c) {
   return c.a.cwiseAbs().sum() + c.b.cwiseAbs().sum() + largest(c.radius);
 }
+template <Scalar S> bool has_valid_sizes(const Capsule<S>& c) { return c.radius >= S(0); }
 template <Scalar S> bool valid(const Capsule<S>& c) {
-  return is_finite(c.a) && is_finite(c.b) && is_finite(c.radius) && c.radius >= S(0);
+  return is_finite(c.a) && is_finite(c.b) && is_finite(c.radius) && has_valid_sizes(c);
 }
 template <Scalar S> Capsule<S> scaled(const Capsule<S>& c, int e) {
   return {times_power_of_two(c.a, e), times_power_of_two(c.b, e), times_power_of_two(c.radius, e)};
@@ -67,9 +68,6 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Aabb<S>& 
 template <Scalar S> bool cores_within(const Capsule<S>& a, const Capsule<S>& b, const S& reach) {
   return within(closest_on_segments<S>(b.a - a.a, a.b - a.a, b.b - b.a).gap, reach);
 }
-
-/// A gap this small between cores of this size is round-off: it has a length but no direction.
-template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits<S>::epsilon() * size; }
 
 /// Degenerate: a center on the core leaves sideways; the direction is the caller's.
 template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Sphere<S>& sphere) {

@@ -24,8 +24,9 @@ template <Scalar S> S rounding(const Aabb<S>&) { return S(0); }
 template <Scalar S> S magnitude(const Aabb<S>& box) {
   return box.center.cwiseAbs().sum() + box.half_extents.cwiseAbs().sum();
 }
+template <Scalar S> bool has_valid_sizes(const Aabb<S>& box) { return box.half_extents.minCoeff() >= S(0); }
 template <Scalar S> bool valid(const Aabb<S>& box) {
-  return is_finite(box.center) && is_finite(box.half_extents) && box.half_extents.minCoeff() >= S(0);
+  return is_finite(box.center) && is_finite(box.half_extents) && has_valid_sizes(box);
 }
 template <Scalar S> Aabb<S> scaled(const Aabb<S>& box, int e) {
   return {times_power_of_two(box.center, e), times_power_of_two(box.half_extents, e)};
@@ -85,17 +86,19 @@ template <Scalar S> CoreGap<S> core_gap(const Aabb<S>& a, const Aabb<S>& b) {
   return gap;
 }
 
-/// Degenerate: a center inside the box leaves through the nearest face.
-template <Scalar S> CoreGap<S> core_gap(const Aabb<S>& box, const Sphere<S>& sphere) {
-  const Vec3<S> x = sphere.center - box.center;
-  CoreGap<S> gap = gap_from_box(x, box.half_extents);
-  gap.local_a = x.cwiseMin(box.half_extents).cwiseMax(-box.half_extents);
-  if (gap.distance <= S(0)) {
-    for (int i = 0; i < 3; ++i) {
-      if (gap.normal[i] != S(0)) gap.local_a[i] = gap.normal[i] * box.half_extents[i];
-    }
+/// The gap from the box [-h, h] to a point x, with the box's closest point.
+template <Scalar S> CoreGap<S> gap_to_point(const Vec3<S>& x, const Vec3<S>& h) {
+  CoreGap<S> gap = gap_from_box(x, h);
+  gap.local_a = x.cwiseMin(h).cwiseMax(-h);
+  for (int i = 0; i < 3 && gap.distance <= S(0); ++i) {
+    if (gap.normal[i] != S(0)) gap.local_a[i] = gap.normal[i] * h[i];
   }
   return gap;
+}
+
+/// Degenerate: a center inside the box leaves through the nearest face.
+template <Scalar S> CoreGap<S> core_gap(const Aabb<S>& box, const Sphere<S>& sphere) {
+  return gap_to_point<S>(sphere.center - box.center, box.half_extents);
 }
 
 /// The slab method, branching on axes without motion so that 0 * infinity never arises.

@@ -10,7 +10,8 @@
 ///   cast<T>(shape)     the same shape in scalar T
 ///   moved(shape, by)   the shape translated by a vector
 ///   half_widths(shape) half of its extent along each axis, around its center
-///   valid(shape)       true if its fields are finite and its sizes are not negative
+///   has_valid_sizes(shape)  true if no size is negative
+///   valid(shape)            the same, its fields are finite, and its axes, if any, orthonormal
 ///   contact_point(shape, core_point, outward)   where a contact acts, relative to center(shape)
 ///   ray_entry(ray, shape)                       the raycast, coordinates small enough not to overflow
 /// and one overload per unordered pair, written for (later rank, earlier rank), of
@@ -39,6 +40,9 @@ template <Scalar S> struct CoreGap {
 template <Scalar S> CoreGap<S> flipped(const CoreGap<S>& g) {
   return {g.distance, -g.normal, g.local_b, g.local_a, g.along};
 }
+
+/// A gap this small between cores of this size is round-off: it has a length but no direction.
+template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits<S>::epsilon() * size; }
 
 /// The unit vector perpendicular to `along` that is nearest to +x; +x itself where `along` is zero, +y where it is
 /// parallel to x. This is the normal of shapes whose cores coincide, whichever way round they are passed.

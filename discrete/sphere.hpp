@@ -21,8 +21,9 @@ template <Scalar S> Sphere(Vec3<S>, S) -> Sphere<S>;
 template <Scalar S> Vec3<S> center(const Sphere<S>& s) { return s.center; }
 template <Scalar S> S rounding(const Sphere<S>& s) { return s.radius; }
 template <Scalar S> S magnitude(const Sphere<S>& s) { return s.center.cwiseAbs().sum() + largest(s.radius); }
+template <Scalar S> bool has_valid_sizes(const Sphere<S>& s) { return s.radius >= S(0); }
 template <Scalar S> bool valid(const Sphere<S>& s) {
-  return is_finite(s.center) && is_finite(s.radius) && s.radius >= S(0);
+  return is_finite(s.center) && is_finite(s.radius) && has_valid_sizes(s);
 }
 template <Scalar S> Sphere<S> scaled(const Sphere<S>& s, int e) {
   return {times_power_of_two(s.center, e), times_power_of_two(s.radius, e)};

@@ -1,0 +1,100 @@
+#pragma once
+/// The oriented box, and its pairs with the sphere and both kinds of box.
+
+#include <optional>
+
+#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/box_pair.hpp>
+
+namespace thinwall {
+
+/// All points center + axes * x with |x| <= half_extents, axis by axis.
+template <thinwall::Scalar S> struct Obb {
+  using Scalar = S;
+  static constexpr int rank = 2;
+
+  Vec3<S> center;        ///< [length]
+  Vec3<S> half_extents;  ///< [length] each >= 0; a 0 makes a plate, a rod or a point
+  Mat3<S> axes;          ///< unit columns, at right angles: the directions of the three extents
+};
+template <Scalar S> Obb(Vec3<S>, Vec3<S>, Mat3<S>) -> Obb<S>;
+
+template <Scalar S> Obb<S> to_obb(const Aabb<S>& box) { return {box.center, box.half_extents, Mat3<S>::Identity()}; }
+
+template <Scalar S> Vec3<S> center(const Obb<S>& box) { return box.center; }
+template <Scalar S> S rounding(const Obb<S>&) { return S(0); }
+template <Scalar S> S magnitude(const Obb<S>& box) {
+  return box.center.cwiseAbs().sum() + box.half_extents.cwiseAbs().sum() + box.axes.cwiseAbs().sum();
+}
+template <Scalar S> bool has_valid_sizes(const Obb<S>& box) { return box.half_extents.minCoeff() >= S(0); }
+/// Also that the axes are orthonormal, to a hundred units of round-off.
+template <Scalar S> bool valid(const Obb<S>& box) {
+  const S off = Mat3<S>(box.axes.transpose() * box.axes - Mat3<S>::Identity()).cwiseAbs().maxCoeff();
+  return is_finite(box.center) && is_finite(box.half_extents) && has_valid_sizes(box) &&
+         off <= 50 * std::numeric_limits<S>::epsilon();
+}
+template <Scalar S> Obb<S> scaled(const Obb<S>& box, int e) {
+  return {times_power_of_two(box.center, e), times_power_of_two(box.half_extents, e), box.axes};
+}
+template <Scalar T, Scalar S> Obb<T> cast(const Obb<S>& box) {
+  return {box.center.template cast<T>(), box.half_extents.template cast<T>(), box.axes.template cast<T>()};
+}
+template <Scalar S> Obb<S> moved(const Obb<S>& box, const Vec3<S>& by) {
+  return {box.center + by, box.half_extents, box.axes};
+}
+template <Scalar S> Vec3<S> half_widths(const Obb<S>& box) { return box.axes.cwiseAbs() * box.half_extents; }
+template <Scalar S> Vec3<S> contact_point(const Obb<S>&, const Vec3<S>& core_point, const Vec3<S>&) {
+  return core_point;
+}
+
+/// A world vector in the box's own axes, and back.
+template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { return box.axes.transpose() * world; }
+template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
+
+/// A gap given in the box's own axes, in the world's.
+template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
+  return {gap.distance, out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),
+          out_of(box, gap.along)};
+}
+
+template <Scalar S> bool cores_within(const Obb<S>& box, const Sphere<S>& sphere, const S& reach) {
+  return within(excess_of<S>(into<S>(box, sphere.center - box.center), box.half_extents), reach);
+}
+
+template <Scalar S> CoreGap<S> core_gap(const Obb<S>& box, const Sphere<S>& sphere) {
+  return out_of(box, gap_to_point<S>(into<S>(box, sphere.center - box.center), box.half_extents));
+}
+
+/// B seen from A's axes.
+template <Scalar S> BoxPair<S> box_pair(const Obb<S>& a, const Obb<S>& b) {
+  return {a.half_extents, b.half_extents, into<S>(a, b.center - a.center), a.axes.transpose() * b.axes};
+}
+template <Scalar S> BoxPair<S> box_pair(const Aabb<S>& a, const Obb<S>& b) {
+  return {a.half_extents, b.half_extents, b.center - a.center, b.axes};
+}
+
+template <Scalar S> bool boxes_within(const BoxPair<S>& pair, const S& reach) {
+  return boxes_overlap(pair) || (reach > S(0) && box_gap(pair).distance <= reach);
+}
+template <Scalar S> bool cores_within(const Obb<S>& a, const Obb<S>& b, const S& reach) {
+  return boxes_within(box_pair(a, b), reach);
+}
+template <Scalar S> bool cores_within(const Obb<S>& a, const Aabb<S>& b, const S& reach) {
+  return boxes_within(box_pair(b, a), reach);
+}
+
+template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Obb<S>& b) { return out_of(a, box_gap(box_pair(a, b))); }
+template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) {
+  return flipped(box_gap(box_pair(b, a)));
+}
+
+template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Obb<S>& box) {
+  const Ray<S> own{into<S>(box, ray.origin - box.center), into(box, ray.direction), ray.max_t};
+  auto hit = ray_entry(own, Aabb<S>{Vec3<S>::Zero(), box.half_extents});
+  if (!hit) return std::nullopt;
+  hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin : Vec3<S>(box.center + out_of(box, hit->point));
+  hit->normal = out_of(box, hit->normal);
+  return hit;
+}
+
+}  // namespace thinwall
