@@ -1,0 +1,260 @@
+#include <thinwall/experiments/settings.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/text/spelling.hpp>
+
+namespace thinwall {
+namespace {
+
+/// Canonical JSON: keys in order, numbers in shortest form (1 and 1.0 are the same number).
+std::string json_text(const toml::node& node) {
+  if (const auto* table = node.as_table()) {
+    std::string out;
+    for (const auto& [key, value] : *table) {  // toml++ keeps keys in order
+      out += fmt::format("{}{}:{}", out.empty() ? "" : ",", json_string(key.str()), json_text(value));
+    }
+    return "{" + out + "}";
+  }
+  if (const auto* array = node.as_array()) {
+    std::string out;
+    for (const auto& value : *array) out += (out.empty() ? "" : ",") + json_text(value);
+    return "[" + out + "]";
+  }
+  if (const auto text = node.value_exact<std::string_view>()) return json_string(*text);
+  if (const auto integer = node.value_exact<std::int64_t>()) return std::to_string(*integer);
+  if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
+  if (const auto number = node.value_exact<double>(); number && std::isfinite(*number)) return exact_text(*number);
+  return "null";  // a date, NaN or infinity: no experiment takes one
+}
+
+/// A value as a complaint shows it.
+std::string shown(const toml::node& node) {
+  constexpr std::size_t limit = 40;
+  std::string text = node.is_floating_point() ? exact_text(*node.value_exact<double>())
+                     : node.is_string()       ? "'" + *node.value_exact<std::string>() + "'"
+                     : node.is_table()        ? "a table"
+                     : node.is_date() || node.is_time() || node.is_date_time() ? "a date or time"
+                                                                               : json_text(node);
+  if (text.size() > limit) text = text.substr(0, limit) + "...";
+  return one_line(text);
+}
+
+std::string range_text(std::string_view kind, const Range& range) {
+  std::string text(kind);
+  const char* link = " ";
+  if (std::isfinite(range.lower)) {
+    text += fmt::format(" {} {}", range.lower_open ? ">" : ">=", exact_text(range.lower));
+    link = " and ";
+  }
+  if (std::isfinite(range.upper)) {
+    text += fmt::format("{}{} {}", link, range.upper_open ? "<" : "<=", exact_text(range.upper));
+  }
+  if (!range.unit.empty() && range.unit != "1") text += fmt::format(" [{}]", range.unit);
+  return text;
+}
+
+std::optional<double> in_range(const toml::node& node, const Range& range) {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  const bool above = range.lower_open ? *value > range.lower : *value >= range.lower;
+  const bool below = range.upper_open ? *value < range.upper : *value <= range.upper;
+  return above && below ? std::optional(*value + 0.0) : std::nullopt;  // -0 becomes 0
+}
+
+std::optional<std::int64_t> in_range(const toml::node& node, std::int64_t lower, std::int64_t upper) {
+  auto value = node.value_exact<std::int64_t>();
+  if (const auto real = node.value_exact<double>()) value = parse_count(exact_text(*real));  // 1e6 is a count too
+  return value && *value >= lower && *value <= upper ? value : std::nullopt;
+}
+
+std::optional<std::string> one_of(const toml::node& node, std::span<const std::string_view> allowed) {
+  const auto value = node.value_exact<std::string>();
+  return value && std::ranges::find(allowed, *value) != allowed.end() ? value : std::nullopt;
+}
+
+std::string choice_text(const toml::node& node, std::span<const std::string_view> allowed) {
+  return spelling_hint(node.value_exact<std::string_view>().value_or(""), allowed);
+}
+
+/// The table's own entry, or the one that a dotted path leads to.
+const toml::node* find(const toml::table& table, std::string_view path) {
+  if (const toml::node* whole = table.get(path)) return whole;
+  const auto dot = path.find('.');
+  if (dot == std::string_view::npos) return nullptr;
+  const toml::node* inner = table.get(path.substr(0, dot));
+  return inner && inner->is_table() ? find(*inner->as_table(), path.substr(dot + 1)) : nullptr;
+}
+
+/// `defaults` with the user's values in the places of its own.
+void lay_over(toml::table& defaults, const toml::table& user) {
+  for (auto& [key, value] : user) {
+    toml::node* below = defaults.get(key.str());
+    if (!below) continue;
+    if (below->is_table() && value.is_table()) {
+      lay_over(*below->as_table(), *value.as_table());
+    } else {
+      defaults.insert_or_assign(key, value);
+    }
+  }
+}
+
+}  // namespace
+
+struct Settings::Impl {
+  std::string file;
+  toml::table user, defaults;
+
+  toml::table parse(std::string_view text, const std::string& name) const {
+    try {
+      return toml::parse(text, name);
+    } catch (const toml::parse_error& error) {
+      const auto where = error.source().begin;
+      throw UsageError(fmt::format("{}:{}: not TOML, at column {}: {}", name, where.line, where.column,
+                                   one_line(error.description())));
+    }
+  }
+
+  std::string where(const toml::node& node, bool by_user) const {
+    return fmt::format("{}:{}", by_user ? file : "built-in defaults", node.source().begin.line);
+  }
+
+  struct Entry {
+    const toml::node* node;
+    bool by_user;
+  };
+
+  Entry entry(std::string_view key) const {
+    if (const toml::node* node = find(user, key)) return {node, true};
+    if (const toml::node* node = find(defaults, key)) return {node, false};
+    throw UsageError(fmt::format("{}:1: key '{}': missing", file, key));
+  }
+
+  [[noreturn]] void complain(std::string_view key, const toml::node& node, std::string_view what,
+                             std::string_view allowed) const {
+    const bool by_user = entry(key).by_user;
+    throw UsageError(fmt::format("{}: key '{}': {}; {}", where(node, by_user), one_line(key), what, allowed));
+  }
+
+  [[noreturn]] void refuse(std::string_view key, const toml::node& node, std::string_view allowed) const {
+    complain(key, node, shown(node) + " is not allowed", allowed);
+  }
+
+  /// `read` returns what a node holds, or nothing if that is not allowed; `allowed(node)` then says what is.
+  template <class Read, class Allowed> auto one(std::string_view key, Read read, Allowed allowed) const {
+    const toml::node& node = *entry(key).node;
+    const auto value = read(node);
+    if (!value) refuse(key, node, allowed(node));
+    return *value;
+  }
+
+  template <class Read, class Allowed> auto several(std::string_view key, Read read, Allowed allowed) const {
+    const toml::node& node = *entry(key).node;
+    const auto a_list_of = [&](const toml::node& of) { return "a list of " + allowed(of); };
+    const auto* const array = node.as_array();
+    if (!array) complain(key, node, shown(node) + " is not a list", a_list_of(node));
+    if (array->empty()) complain(key, node, "an empty list is not allowed", a_list_of(node));
+    std::vector<std::remove_cvref_t<decltype(*read(node))>> values;
+    for (const toml::node& item : *array) {
+      const auto value = read(item);
+      if (!value) refuse(key, item, a_list_of(item));
+      if (std::ranges::find(values, *value) != values.end()) {
+        complain(key, item, shown(item) + " stands twice", "every value once");
+      }
+      values.push_back(*value);
+    }
+    return values;
+  }
+
+  void reject_unknown(const toml::table& given, const toml::table& known, const std::string& path) const {
+    std::vector<std::string_view> names;
+    for (const auto& [key, value] : known) names.push_back(key.str());
+    for (const auto& [key, value] : given) {
+      const std::string full = path + std::string(key.str());
+      const toml::node* below = known.get(key.str());
+      if (!below && path.empty() && key.str() == "experiment") continue;  // says what the file is
+      if (!below) {
+        throw UsageError(fmt::format("{}:{}: key '{}': unknown key; {}", file, key.source().begin.line, one_line(full),
+                                     spelling_hint(key.str(), names)));
+      }
+      if (below->is_table() && !value.is_table()) refuse(full, value, "a table");
+      if (below->is_table()) reject_unknown(*value.as_table(), *below->as_table(), full + ".");
+    }
+  }
+};
+
+Settings::Settings(std::string_view text, std::string file, std::string_view defaults)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->file = one_line(file);
+  impl_->user = impl_->parse(text, impl_->file);
+  impl_->defaults = impl_->parse(defaults, "built-in defaults");
+}
+
+Settings::~Settings() = default;
+Settings::Settings(Settings&&) noexcept = default;
+Settings& Settings::operator=(Settings&&) noexcept = default;
+
+double Settings::number(std::string_view key, const Range& range) const {
+  return impl_->one(
+      key, [&](const toml::node& node) { return in_range(node, range); },
+      [&](const toml::node&) { return range_text("a number", range); });
+}
+
+std::vector<double> Settings::numbers(std::string_view key, const Range& range) const {
+  return impl_->several(
+      key, [&](const toml::node& node) { return in_range(node, range); },
+      [&](const toml::node&) { return range_text("numbers", range); });
+}
+
+std::int64_t Settings::integer(std::string_view key, std::int64_t lower, std::int64_t upper) const {
+  return impl_->one(
+      key, [&](const toml::node& node) { return in_range(node, lower, upper); },
+      [&](const toml::node&) { return fmt::format("a whole number from {} to {}", lower, upper); });
+}
+
+std::vector<std::int64_t> Settings::integers(std::string_view key, std::int64_t lower, std::int64_t upper) const {
+  return impl_->several(
+      key, [&](const toml::node& node) { return in_range(node, lower, upper); },
+      [&](const toml::node&) { return fmt::format("whole numbers from {} to {}", lower, upper); });
+}
+
+bool Settings::flag(std::string_view key) const {
+  return impl_->one(
+      key, [](const toml::node& node) { return node.value_exact<bool>(); },
+      [](const toml::node&) { return "true or false"; });
+}
+
+std::string Settings::choice(std::string_view key, std::span<const std::string_view> allowed) const {
+  return impl_->one(
+      key, [&](const toml::node& node) { return one_of(node, allowed); },
+      [&](const toml::node& node) { return choice_text(node, allowed); });
+}
+
+std::vector<std::string> Settings::choices(std::string_view key, std::span<const std::string_view> allowed) const {
+  return impl_->several(
+      key, [&](const toml::node& node) { return one_of(node, allowed); },
+      [&](const toml::node& node) { return choice_text(node, allowed); });
+}
+
+void Settings::complain(std::string_view key, std::string_view what_is_allowed) const {
+  impl_->refuse(key, *impl_->entry(key).node, what_is_allowed);
+}
+
+void Settings::reject_unknown_keys() const { impl_->reject_unknown(impl_->user, impl_->defaults, ""); }
+
+std::string Settings::resolved_json() const {
+  toml::table resolved = impl_->defaults;
+  lay_over(resolved, impl_->user);
+  return json_text(resolved);
+}
+
+}  // namespace thinwall
