@@ -1,0 +1,134 @@
+#include <thinwall/experiments/run/journal.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/results/sha256.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+namespace {
+
+constexpr std::string_view magic = "thinwall-journal-1";
+
+std::string checksum(std::string_view fields) { return sha256(fields).substr(0, 16); }
+
+/// A row of fields that are already separated by tabs.
+std::string sealed(const std::string& fields) { return fields + "\t" + checksum(fields) + "\n"; }
+
+/// The fields of a row that was sealed; nothing if it is damaged.
+std::optional<std::vector<std::string>> unsealed(std::string_view row) {
+  const auto last = row.rfind('\t');
+  if (last == std::string_view::npos) return std::nullopt;
+  std::string_view rest = row.substr(0, last);
+  if (checksum(rest) != row.substr(last + 1)) return std::nullopt;
+  std::vector<std::string> fields;
+  for (auto tab = rest.find('\t'); tab != std::string_view::npos; tab = rest.find('\t')) {
+    fields.push_back(tsv_unescaped(rest.substr(0, tab)));
+    rest.remove_prefix(tab + 1);
+  }
+  fields.push_back(tsv_unescaped(rest));
+  return fields;
+}
+
+std::string header_row(const std::string& identity) {
+  return sealed(fmt::format("{}\t{}", magic, tsv_escaped(identity)));
+}
+
+std::string unit_row(const std::string& key, const Journal::Row& row) {
+  return sealed(fmt::format("{}\t{}\t{}", tsv_escaped(key), exact_text(row.seconds), tsv_escaped(row.result)));
+}
+
+double parse_seconds(const std::string& text) {
+  double seconds = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return seconds;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file) {
+  throw std::system_error(errno, std::generic_category(), file.string());
+}
+
+}  // namespace
+
+std::string Journal::identity_in(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string row;
+  std::getline(in, row);
+  const auto fields = unsealed(row);
+  return fields && fields->size() == 2 && fields->front() == magic ? fields->back() : std::string();
+}
+
+Journal::Journal(std::filesystem::path file, const std::string& identity) : file_(std::move(file)) {
+  const std::string good_rows = header_row(identity) + read();
+  std::error_code none;
+  if (std::filesystem::file_size(file_, none) == good_rows.size() && !none) {
+    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (descriptor_ < 0) fail(file_);
+    return;
+  }
+  const std::filesystem::path fresh = file_.string() + ".new";
+  descriptor_ = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(fresh);
+  write(good_rows);
+  std::filesystem::rename(fresh, file_);
+}
+
+Journal::~Journal() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::string Journal::read() {
+  std::ifstream in(file_, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string_view rest = text;
+  std::string good_rows;
+  for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {  // a last row without its end is torn
+    const std::string_view row = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(row.size() + 1);
+    if (line == 1) continue;  // the identity
+    const auto fields = unsealed(row);
+    if (fields && fields->size() == 3) {
+      finished_[fields->front()] = {parse_seconds((*fields)[1]), fields->back()};
+      good_rows.append(row).append("\n");
+    } else {
+      const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));
+      damage_.push_back(fmt::format("{}:{}: the row of '{}' is damaged; that unit is computed again", file_.string(),
+                                    line, one_line(key)));
+    }
+  }
+  return good_rows;
+}
+
+void Journal::add(const std::string& key, const Row& row) {
+  const std::string text = unit_row(key, row);
+  const std::scoped_lock lock(mutex_);
+  write(text);
+}
+
+void Journal::write(const std::string& text) {
+  if (broken_) throw std::system_error(broken_, std::generic_category(), file_.string());
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t wrote = ::write(descriptor_, text.data() + done, text.size() - done);
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote < 0) {
+      broken_ = errno;  // the last row may be torn: nothing may follow it
+      fail(file_);
+    }
+    done += static_cast<std::size_t>(wrote);
+  }
+}
+
+}  // namespace thinwall
