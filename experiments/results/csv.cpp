@@ -1,0 +1,73 @@
+#include <thinwall/experiments/results/csv.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+namespace {
+
+std::string number_field(double value) {
+  if (std::isnan(value)) return {};
+  if (std::isinf(value)) return value > 0 ? "INF" : "-INF";  // as Table Schema spells them
+  return exact_text(value);
+}
+
+std::string quoted(const std::string& field) {
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string out = "\"";
+  for (const char letter : field) out += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return out + '"';
+}
+
+bool fits(const Value& value, ColumnType type) {
+  if (std::holds_alternative<std::monostate>(value)) return true;
+  switch (type) {
+    case ColumnType::text: return std::holds_alternative<std::string>(value);
+    case ColumnType::integer: return std::holds_alternative<std::int64_t>(value);
+    case ColumnType::number:
+      return std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value);
+    case ColumnType::boolean: return std::holds_alternative<bool>(value);
+  }
+  return false;
+}
+
+void require_shape(const Table& table) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto& row = table.rows[i];
+    const std::string where = "table '" + table.name + "', row " + std::to_string(i + 1);
+    if (row.size() != table.columns.size()) throw std::logic_error(where + ": not as long as the columns");
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if (fits(row[j], table.columns[j].type)) continue;
+      throw std::logic_error(where + ": '" + table.columns[j].name + "' has another type than its column");
+    }
+  }
+}
+
+}  // namespace
+
+std::string exact_text(const Value& value) {
+  struct Visitor {
+    std::string operator()(std::monostate) const { return {}; }
+    std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(std::int64_t number) const { return std::to_string(number); }
+    std::string operator()(double number) const { return number_field(number); }
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+  };
+  return std::visit(Visitor{}, value);
+}
+
+std::string csv_text(const Table& table) {
+  require_shape(table);
+  std::string out;
+  for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j > 0 ? "," : "") + quoted(table.columns[j].name);
+  out += "\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t j = 0; j < row.size(); ++j) out += (j > 0 ? "," : "") + quoted(exact_text(row[j]));
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace thinwall

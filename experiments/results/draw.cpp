@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/results/plot.hpp>
+#include <thinwall/experiments/results/subprocess.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+
+namespace thinwall {
+namespace {
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+std::set<std::string> ids_in(const std::string& svg) {
+  std::set<std::string> ids;
+  for (auto at = svg.find(" id="); at != std::string::npos; at = svg.find(" id=", at)) {
+    const char quote = svg[at + 4];
+    at += 5;
+    ids.insert(svg.substr(at, svg.find(quote, at) - at));
+  }
+  return ids;
+}
+
+}  // namespace
+
+std::string draw(const std::filesystem::path& folder, const std::string& name) {
+  const ProcessResult gnuplot = run_process({"gnuplot", "--default-settings", name + ".gp"}, folder);
+  if (!gnuplot.found) return "gnuplot is not installed";
+  if (gnuplot.status == 0 && std::filesystem::exists(folder / (name + ".svg"))) return {};
+  const std::string first = gnuplot.output.substr(0, gnuplot.output.find_last_not_of(" \n") + 1);
+  return fmt::format("gnuplot ended with {}: {}", gnuplot.status, one_line(first));
+}
+
+std::string inline_svg(std::string svg, const std::string& name, const std::string& label) {
+  svg.erase(0, std::min(svg.find("<svg"), svg.size()));
+  for (const std::string& id : ids_in(svg)) {
+    const std::string own = id.starts_with(name) ? id : name + "_" + id;
+    for (const char* form : {" id='{}'", " id=\"{}\"", "'#{}'", "\"#{}\"", "url(#{})"}) {
+      replace_all(svg, fmt::format(fmt::runtime(form), id), fmt::format(fmt::runtime(form), own));
+    }
+  }
+  if (const auto begin = svg.find("<title>"), end = svg.find("</title>"); end != std::string::npos && begin < end) {
+    svg.replace(begin, end - begin, "<title>" + html_escaped(label));
+  }
+  return svg.insert(svg.find("<svg") + 4, " role=\"img\" aria-label=\"" + html_escaped(label) + "\"");
+}
+
+}  // namespace thinwall

@@ -1,0 +1,169 @@
+#include <thinwall/experiments/results/plot.hpp>
+
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/results/plot_axis.hpp>
+#include <thinwall/experiments/results/plot_layout.hpp>
+#include <thinwall/experiments/results/plot_style.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+namespace {
+
+/// In single quotes gnuplot takes every letter as it is.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char letter : one_line(text)) out += letter == '\'' ? std::string("''") : std::string(1, letter);
+  return out + "'";
+}
+
+void require_drawable(const Figure& figure) {
+  const std::string figure_name = "figure '" + figure.name + "'";
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+  if (figure.name.empty() || figure.name.find_first_not_of(plain) != std::string::npos) {
+    throw std::logic_error(figure_name + ": a name is of a-z, 0-9, _ and -");
+  }
+  if (figure.panels.empty()) throw std::logic_error(figure_name + " has no panel");
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series) {
+      const std::size_t n = series.x.size(), bars = series.lower.size();
+      if (series.y.size() != n || series.upper.size() != bars || (bars != 0 && bars != n)) {
+        throw std::logic_error(figure_name + ", series '" + series.label + "': lists of different length");
+      }
+    }
+  }
+}
+
+Axis x_axis(std::span<const Panel> panels) {
+  std::vector<double> values;
+  for (const Panel& panel : panels) {
+    for (const Series& series : panel.series) values.insert(values.end(), series.x.begin(), series.x.end());
+  }
+  return axis_around(values, panels[0].log_x);
+}
+
+Axis y_axis(const Panel& panel) {
+  std::vector<double> values;
+  for (const Series& series : panel.series) {
+    for (const auto* list : {&series.y, &series.lower, &series.upper}) {
+      values.insert(values.end(), list->begin(), list->end());
+    }
+  }
+  return axis_around(values, panel.log_y);
+}
+
+std::string axis_lines(char name, const Axis& axis, double pixels, double spacing, bool labeled) {
+  const bool powers = axis.log && axis.upper / axis.lower >= 1e4;
+  const std::string steps = tics(axis, pixels, spacing);
+  return fmt::format(
+      "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} '{4}'\nset {0}tics autofreq {5}\n{6} m{0}tics\n", name,
+      rounded_text(axis.lower, 6), rounded_text(axis.upper, 6), axis.log ? "set" : "unset",
+      !labeled ? ""
+      : powers ? "10^{%T}"
+               : "%g",
+      steps, steps == "1e1" ? "set" : "unset");
+}
+
+/// What plots one series: its bars first, so that its points lie on them.
+std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block,
+                                    std::size_t style) {
+  const std::string from = fmt::format("'{}' index {}", file, block);
+  const char* with = series.mark == Mark::points ? "points" : "lines";
+  std::vector<std::string> items;
+  if (!series.lower.empty()) {
+    items.push_back(fmt::format("{0} using 1:3:(0):($4-$3) with vectors nohead linestyle {1} notitle", from, style));
+  }
+  items.push_back(fmt::format("{} using 1:2 with {} linestyle {} notitle", from, with, style));
+  return items;
+}
+
+std::string legend_item(const SeriesStyle& style, std::size_t number) {
+  const char* with = style.has_points && style.has_line ? "linespoints" : style.has_points ? "points" : "lines";
+  return fmt::format("keyentry with {} linestyle {} title {}", with, number, quoted(style.label));
+}
+
+std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& styles, const PlotLayout& layout) {
+  std::string out = fmt::format(
+      "# {0}\n# Change what you like, then draw it again from inside this folder: gnuplot {1}.gp\n"
+      "reset\nset encoding utf8\n"
+      "set terminal svg size {2:.0f},{3:.0f} dynamic enhanced rounded background '#ffffff' name '{1}' "
+      "font 'Arial,Helvetica,sans-serif,15'\nset output '{1}.svg'\n\n# A style for each entry of the legend.\n",
+      one_line(figure.title), figure.name, layout.width, layout.height);
+  for (std::size_t i = 0; i < styles.size(); ++i) {
+    out += fmt::format("set style line {} linecolor rgb '{}' linewidth {} dashtype {} pointtype {} pointsize 0.75\n",
+                       i + 1, styles[i].color, styles[i].has_points ? "1.3" : "2", styles[i].dash_type,
+                       styles[i].point_type);
+  }
+  const double left = layout.left / layout.width;
+  out += fmt::format(
+      "\nset style line 100 linecolor rgb '#e4e4e4' linewidth 0.7\nset style line 101 linecolor rgb '#404040' linewidth 1\n"
+      "set grid back linestyle 100\nset border 3 back linestyle 101\nset xzeroaxis linecolor rgb '#909090' linewidth 0.8\n"
+      "set errorbars 0\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
+      "set key at screen {0:.5f}, screen {1:.5f} left top vertical maxrows {2} Left reverse noenhanced samplen 2 "
+      "spacing 1 width 1 textcolor rgb '#202020'\n"
+      "set label 1 {3} at screen {0:.5f}, screen {4:.5f} left noenhanced font ',18'\n"
+      "set lmargin at screen {0:.5f}; set rmargin at screen {5:.5f}\nset multiplot\n",
+      left, 1 - layout.legend_y / layout.height, layout.legend_rows, quoted(figure.title),
+      1 - layout.title_y / layout.height, layout.right / layout.width);
+  return out;
+}
+
+}  // namespace
+
+std::string plot_script(const Figure& figure) {
+  require_drawable(figure);
+  const auto styles = series_styles(figure);
+  const PlotLayout layout = plot_layout(figure, styles);
+  const Axis shared_x = x_axis(figure.panels);
+  std::string out = preamble(figure, styles, layout);
+  std::size_t block = 0;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    const Panel& panel = figure.panels[p];
+    const PanelBox& box = layout.panels[p];
+    const bool x_labeled = !layout.shared_x || p + 1 == figure.panels.size();
+    const auto up = [&](double y) { return 1 - y / layout.height; };
+    out += fmt::format("\n# Panel {}\nset tmargin at screen {:.5f}; set bmargin at screen {:.5f}\n", p + 1, up(box.top),
+                       up(box.bottom));
+    out += axis_lines('x', layout.shared_x ? shared_x : x_axis({&panel, 1}), layout.right - layout.left, 80, x_labeled);
+    out += axis_lines('y', y_axis(panel), box.bottom - box.top, 44, true);
+    out += fmt::format("set label 2 {} at screen {:.5f}, graph 0.5 center rotate by 90 noenhanced\n",
+                       quoted(panel.y_label), 20 / layout.width);
+    out += fmt::format("set label 3 {} at graph 0.5, screen {:.5f} center noenhanced\n",
+                       quoted(x_labeled ? panel.x_label : ""), up(box.bottom + 50));
+    std::vector<std::string> items;
+    for (const Series& series : panel.series) {
+      const auto style = static_cast<std::size_t>(&style_of(styles, series.label) - styles.data()) + 1;
+      for (std::string& item : plot_items(figure.name + ".dat", series, block, style)) items.push_back(std::move(item));
+      ++block;
+    }
+    for (std::size_t i = 0; p == 0 && i < styles.size(); ++i) items.push_back(legend_item(styles[i], i + 1));
+    if (items.empty()) items.emplace_back("NaN notitle");
+    out += fmt::format("plot {}\nunset key\nunset label\n", fmt::join(items, ", \\\n     "));
+  }
+  return out + "\nunset multiplot\n";
+}
+
+std::string plot_data(const Figure& figure) {
+  std::string out;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    for (const Series& series : figure.panels[p].series) {
+      const bool bars = !series.lower.empty();
+      out += fmt::format("# panel {}, {}: x y{}\n", p + 1, one_line(series.label), bars ? " lower upper" : "");
+      if (series.x.empty()) out += "NaN NaN NaN NaN\n";  // a block must not be empty
+      for (std::size_t i = 0; i < series.x.size(); ++i) {
+        out += exact_text(series.x[i]) + " " + exact_text(series.y[i]);
+        if (bars) out += " " + exact_text(series.lower[i]) + " " + exact_text(series.upper[i]);
+        out += "\n";
+      }
+      out += "\n\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace thinwall

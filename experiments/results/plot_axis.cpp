@@ -1,0 +1,62 @@
+#include <thinwall/experiments/results/plot_axis.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+namespace {
+
+/// The least of 1, 2 and 5 times a power of ten that is not below `step`.
+double round_step(double step) {
+  const double power = std::pow(10, std::floor(std::log10(step)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= step) return factor * power;
+  }
+  return 10 * power;
+}
+
+/// 1, 2 and 5 in each decade, as a list.
+std::string one_two_five(const Axis& axis) {
+  std::string list;
+  for (int power = static_cast<int>(std::floor(std::log10(axis.lower))); std::pow(10, power) <= axis.upper; ++power) {
+    for (const int factor : {1, 2, 5}) {
+      const double at = factor * std::pow(10, power);
+      if (at >= axis.lower && at <= axis.upper) list += (list.empty() ? "" : ", ") + rounded_text(at, 2);
+    }
+  }
+  return "(" + list + ")";
+}
+
+}  // namespace
+
+Axis axis_around(std::span<const double> values, bool log) {
+  constexpr double air = 0.04;  // [1] of the length of the axis
+  std::vector<double> shown;
+  for (const double value : values) {
+    if (std::isfinite(value) && (!log || value > 0)) shown.push_back(log ? std::log10(value) : value);
+  }
+  double lower = 0, upper = 1;
+  if (!shown.empty()) {
+    const auto [least, most] = std::ranges::minmax(shown);
+    const double length = most - least;
+    const double pad = length > 0 ? air * length : (log || least == 0 ? 0.5 : std::abs(least) / 2);
+    lower = least - pad;
+    upper = most + pad;
+  }
+  if (log) return {true, std::pow(10, lower), std::pow(10, upper)};
+  return {false, lower, upper};
+}
+
+std::string tics(const Axis& axis, double pixels, double spacing) {
+  const double most = std::max(2.0, pixels / spacing);
+  if (!axis.log) return rounded_text(round_step((axis.upper - axis.lower) / most), 3);
+  const double decades = std::log10(axis.upper / axis.lower);
+  if (decades < 2) return one_two_five(axis);
+  return fmt::format("1e{}", std::max(1, static_cast<int>(std::ceil(decades / most))));  // powers of ten
+}
+
+}  // namespace thinwall

@@ -1,0 +1,40 @@
+#include <thinwall/experiments/results/plot_layout.hpp>
+
+#include <algorithm>
+
+namespace thinwall {
+namespace {
+
+// [pixel], for text of 15 pixels
+constexpr double letter_width = 7.6, legend_sample = 60, legend_row = 23;
+constexpr double panel_height = 360;             // of a panel of height 1
+constexpr double shared_gap = 16, own_gap = 74;  // between panels that share their x axis, and others
+constexpr double bottom_margin = 66;
+
+std::size_t columns_that_fit(const std::vector<SeriesStyle>& styles, double width) {
+  std::size_t longest = 0;
+  for (const SeriesStyle& style : styles) longest = std::max(longest, style.label.size());
+  const auto fit = static_cast<std::size_t>(width / (legend_sample + letter_width * static_cast<double>(longest)));
+  return std::clamp<std::size_t>(fit, 1, std::max<std::size_t>(styles.size(), 1));
+}
+
+}  // namespace
+
+PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& styles) {
+  PlotLayout out;
+  out.shared_x = std::ranges::all_of(figure.panels, [&](const Panel& panel) {
+    return panel.x_label == figure.panels[0].x_label && panel.log_x == figure.panels[0].log_x;
+  });
+  const std::size_t legend_columns = columns_that_fit(styles, out.right - out.left);
+  out.legend_rows = (styles.size() + legend_columns - 1) / legend_columns;
+  double top = out.legend_y + legend_row * static_cast<double>(out.legend_rows) + 16;
+  for (const Panel& panel : figure.panels) {
+    const double bottom = top + panel_height * panel.height;
+    out.panels.push_back({top, bottom});
+    top = bottom + (out.shared_x ? shared_gap : own_gap);
+  }
+  out.height = out.panels.back().bottom + bottom_margin;
+  return out;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,61 @@
+#pragma once
+/// How the report looks, on a screen of any width and on paper.
+
+#include <string_view>
+
+namespace thinwall {
+
+inline constexpr std::string_view report_style = R"css(
+:root { color-scheme: light; --ink: #1b1b1b; --soft: #595959; --line: #d9d9d9; --tint: #f5f6f8; --link: #005a9c; }
+* { box-sizing: border-box; }
+body { margin: 0; background: #fff; color: var(--ink); font: 17px/1.55 system-ui, "Segoe UI", Roboto, Helvetica, Arial, sans-serif;
+  overflow-wrap: break-word; }
+main { max-width: 50rem; margin: 0 auto; padding: 2rem 1.1rem 4rem; }
+h1 { font-size: 1.75rem; line-height: 1.25; margin: .2rem 0 1rem; text-wrap: balance; }
+h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; padding-top: 1.2rem; border-top: 1px solid var(--line); }
+p { margin: .7rem 0; }
+a { color: var(--link); }
+.kicker { color: var(--soft); margin: 0; font-size: .9rem; }
+.answer { font-size: 1.15rem; }
+.verdict { border-left: 4px solid #009e73; background: var(--tint); padding: .5rem .8rem; }
+.verdict.failed { border-color: #d55e00; }
+figure { margin: 1.6rem 0; }
+figure svg { display: block; width: 100%; height: auto; }
+figcaption, caption { color: var(--soft); font-size: .92rem; text-align: left; }
+figcaption { margin-top: .5rem; }
+caption { padding-bottom: .5rem; caption-side: top; }
+.wide { overflow-x: auto; margin: 1.2rem 0; }
+table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
+thead th { border-top: 2px solid var(--ink); border-bottom: 1px solid var(--ink); vertical-align: bottom; }
+tbody tr:last-child td { border-bottom: 2px solid var(--ink); }
+th, td { padding: .25rem .7rem .25rem 0; text-align: left; font-weight: normal; }
+thead th { font-weight: 600; }
+th.n, td.n { text-align: right; white-space: nowrap; }
+tbody tr:hover { background: var(--tint); }
+pre { background: var(--tint); padding: .7rem .9rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
+code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
+dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .25rem 1.2rem; font-size: .92rem; }
+dt { color: var(--soft); }
+dd { margin: 0; }
+ul { padding-left: 1.2rem; }
+@media (max-width: 40rem) {
+  body { font-size: 16px; }
+  h1 { font-size: 1.4rem; }
+  figure .wide svg { min-width: 34rem; }
+  dl { grid-template-columns: 1fr; }
+  dd { margin-bottom: .4rem; }
+}
+@media print {
+  body { font-size: 10pt; }
+  main { max-width: none; padding: 0; }
+  a { color: inherit; text-decoration: none; }
+  .wide, pre { overflow: visible; }
+  pre { white-space: pre-wrap; }
+  table { font-size: 7.5pt; }
+  figure, tr, pre { break-inside: avoid; }
+  h2 { break-after: avoid; }
+  thead { display: table-header-group; }
+}
+)css";
+
+}  // namespace thinwall

@@ -1,0 +1,158 @@
+#include <thinwall/experiments/results/result_folder.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/results/sha256.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+
+namespace thinwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* manifest_name = "manifest.json";
+constexpr const char* journal_name = "journal.tsv";
+constexpr const char* old_journal_name = "journal.old.tsv";  // begun by another build of the program
+
+/// What a result is made of: where none of ours lies, none of these may either.
+constexpr std::array result_names = {
+    manifest_name, "datapackage.json", "report.html", "resolved.toml", "cite.bib", "data", "plots", "tables"};
+
+std::string read_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(std::move(path)) {
+  try {
+    fs::create_directories(path_);
+    lock();
+    look_at_manifest(identity);
+    if (!complete_) look_at_journal(identity);
+  } catch (const std::system_error& error) {
+    refuse("cannot be written: " + error.code().message());
+  }
+}
+
+ResultFolder::~ResultFolder() {
+  std::error_code none;
+  fs::remove_all(staging(), none);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void ResultFolder::refuse(const std::string& why) const {
+  throw UsageError(fmt::format("--out {}: {}", one_line(path_.string()), why));
+}
+
+void ResultFolder::lock() {
+  lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw std::system_error(errno, std::generic_category());
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) refuse("another run is at work here; wait for it or name another folder");
+}
+
+void ResultFolder::look_at_manifest(const RunIdentity& identity) {
+  if (!fs::exists(path_ / manifest_name)) return;
+  const auto manifest = parse_manifest(read_file(path_ / manifest_name));
+  if (!manifest) refuse("holds a manifest.json that is not ours; name another folder");
+  if (const auto difference = identity_difference(manifest->identity, identity); !difference.empty()) {
+    refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
+  }
+  std::string changed, missing;
+  for (const auto& [file, hash] : manifest->hashes) {
+    if (!fs::exists(path_ / file)) {
+      missing = file;
+    } else if (sha256_of_file(path_ / file) != hash) {
+      changed = file;
+    }
+  }
+  const bool ours = same_program(manifest->identity, identity);
+  if (ours && missing.empty() && fs::exists(path_ / "report.html")) {
+    complete_ = manifest;
+    notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", path_.string(),
+                                 changed.empty() ? "" : " (" + changed + " was changed since)"));
+    return;
+  }
+  if (!changed.empty()) refuse(changed + " was changed since the run wrote it; name another folder, or move it away");
+  replaced_ = manifest;
+  notes_.push_back(fmt::format("{}: {}; its result is replaced when this run ends", path_.string(),
+                               ours ? "incomplete" : "computed by another build of the program"));
+}
+
+void ResultFolder::look_at_journal(const RunIdentity& identity) {
+  const fs::path file = path_ / journal_name;
+  if (fs::exists(file)) {
+    const std::string theirs = Journal::identity_in(file);
+    const std::string difference = theirs.empty() ? "" : identity_difference(theirs, identity);
+    if (!difference.empty()) {
+      refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
+    }
+    if (theirs.empty() || !same_program(theirs, identity)) {
+      fs::rename(file, path_ / old_journal_name);
+      notes_.push_back(fmt::format(
+          "{}: {}; it is kept as {} until this run ends", file.string(),
+          theirs.empty() ? "its first row is damaged" : "begun by another build of the program", old_journal_name));
+    }
+  } else if (!replaced_ && !fs::exists(path_ / old_journal_name)) {
+    for (const char* name : result_names) {
+      if (fs::exists(path_ / name)) refuse(fmt::format("holds '{}', which is not ours; name another folder", name));
+    }
+  }
+  journal_ = std::make_unique<Journal>(file, identity_text(identity));
+  for (const std::string& line : journal_->damage()) notes_.push_back(line);
+}
+
+void ResultFolder::stage(const std::string& file, const std::string& text) {
+  const fs::path target = staging() / file;
+  fs::create_directories(target.parent_path());
+  errno = 0;
+  std::ofstream out(target, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::system_error(errno ? errno : EIO, std::generic_category(), target.string());
+}
+
+std::map<std::string, std::string> ResultFolder::staged_hashes() const {
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : fs::recursive_directory_iterator(staging())) {
+    if (!entry.is_regular_file()) continue;
+    hashes[entry.path().lexically_relative(staging()).generic_string()] = sha256_of_file(entry.path());
+  }
+  return hashes;
+}
+
+void ResultFolder::publish() {
+  const auto staged = staged_hashes();
+  fs::remove(path_ / manifest_name);  // from here until the new one is there the folder is not complete
+  const auto move = [&](const std::string& file) {
+    fs::create_directories((path_ / file).parent_path());
+    fs::rename(staging() / file, path_ / file);
+  };
+  for (const auto& [file, hash] : staged) {
+    if (file != manifest_name) move(file);
+  }
+  if (replaced_) {
+    for (const auto& [file, hash] : replaced_->hashes) {
+      if (!staged.contains(file)) fs::remove(path_ / file);
+    }
+  }
+  move(manifest_name);
+  journal_.reset();
+  fs::remove(path_ / journal_name);
+  fs::remove(path_ / old_journal_name);
+  fs::remove_all(staging());
+}
+
+}  // namespace thinwall

@@ -1,0 +1,65 @@
+#pragma once
+/// The folder of one run: claimed before the run, filled as its units end, complete once its manifest lies there.
+///
+/// While a run lasts the folder holds its journal. Results are written under another name and moved into place when all
+/// of them are there, the manifest last; then the journal goes. So whatever has its own name is whole, and a folder with a
+/// manifest is complete.
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <thinwall/experiments/results/manifest.hpp>
+#include <thinwall/experiments/run/identity.hpp>
+#include <thinwall/experiments/run/journal.hpp>
+
+namespace thinwall {
+
+class ResultFolder {
+ public:
+  /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
+  ResultFolder(std::filesystem::path path, const RunIdentity& identity);
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// The manifest of a result that is whole and by this very program: there is nothing left to compute.
+  const std::optional<Manifest>& complete() const { return complete_; }
+
+  /// What the user should know, a line each.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// There is one unless the folder is complete.
+  Journal& journal() { return *journal_; }
+
+  /// Where files wait until `publish`.
+  std::filesystem::path staging() const { return path_ / ".staging"; }
+
+  /// Writes a file of the result into `staging`. Throws std::system_error if it cannot.
+  void stage(const std::string& file, const std::string& text);
+
+  /// SHA-256 of the staged files, by path.
+  std::map<std::string, std::string> staged_hashes() const;
+
+  /// Moves every staged file into place, the manifest last, and ends the journal.
+  void publish();
+
+ private:
+  void lock();
+  void look_at_manifest(const RunIdentity& identity);
+  void look_at_journal(const RunIdentity& identity);
+  [[noreturn]] void refuse(const std::string& why) const;
+
+  std::filesystem::path path_;
+  std::vector<std::string> notes_;
+  std::optional<Manifest> complete_, replaced_;
+  std::unique_ptr<Journal> journal_;
+  int lock_ = -1;
+};
+
+}  // namespace thinwall

@@ -1,0 +1,69 @@
+#include <thinwall/experiments/results/results.hpp>
+
+#include <fstream>
+#include <iterator>
+
+#include <thinwall/experiments/results/citation.hpp>
+#include <thinwall/experiments/results/csv.hpp>
+#include <thinwall/experiments/results/manifest.hpp>
+#include <thinwall/experiments/results/plot.hpp>
+#include <thinwall/experiments/results/report.hpp>
+#include <thinwall/experiments/results/resolved_toml.hpp>
+#include <thinwall/experiments/results/shown_table.hpp>
+
+namespace thinwall {
+namespace {
+
+void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
+  for (const Table& table : outcome.tables) {
+    folder.stage("data/" + table.name + ".csv", csv_text(table));
+    if (!table.in_report || table.is_timing) continue;  // only data/ may differ from run to run
+    folder.stage("tables/" + table.name + ".md", markdown_table(table));
+    folder.stage("tables/" + table.name + ".tex", latex_table(table));
+  }
+  std::string name = "thinwall-" + run.experiment;
+  for (char& letter : name) letter = letter == '_' ? '-' : letter;
+  const PackageInfo info{name, run.question, outcome.answer, run.build.version};
+  folder.stage("datapackage.json", datapackage_text(info, outcome.tables));
+}
+
+/// The figures that could be drawn; `why_no_svg` says what was wrong with another.
+void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& parts) {
+  for (const Figure& figure : outcome.figures) {
+    folder.stage("plots/" + figure.name + ".gp", plot_script(figure));
+    folder.stage("plots/" + figure.name + ".dat", plot_data(figure));
+    const std::string trouble = draw(folder.staging() / "plots", figure.name);
+    if (!trouble.empty()) {
+      parts.why_no_svg = trouble;
+      std::filesystem::remove(folder.staging() / "plots" / (figure.name + ".svg"));
+      continue;
+    }
+    std::ifstream svg(folder.staging() / "plots" / (figure.name + ".svg"), std::ios::binary);
+    parts.svgs[figure.name] = {std::istreambuf_iterator<char>(svg), {}};
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
+  ReportParts parts;
+  parts.citation = bibtex(run);
+  stage_tables(folder, run, outcome);
+  stage_figures(folder, outcome, parts);
+  folder.stage("cite.bib", parts.citation);
+  folder.stage("resolved.toml", resolved_toml(run));
+
+  auto hashes = folder.staged_hashes();
+  parts.files = {"manifest.json"};
+  for (const auto& [file, hash] : hashes) parts.files.push_back(file);
+  for (const Table& table : outcome.tables) {
+    if (table.is_timing) hashes.erase("data/" + table.name + ".csv");
+  }
+  folder.stage("report.html", report_page(run, outcome, parts));
+  folder.stage("manifest.json", manifest_text(run, outcome, hashes));
+  folder.publish();
+  if (parts.why_no_svg.empty()) return {};
+  return {"figures were not drawn: " + parts.why_no_svg};
+}
+
+}  // namespace thinwall
