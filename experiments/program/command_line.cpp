@@ -1,0 +1,158 @@
+#include <thinwall/experiments/program/command_line.hpp>
+
+#include <charconv>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <thinwall/experiments/results/record.hpp>
+#include <thinwall/experiments/run/runner.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/text/spelling.hpp>
+
+namespace thinwall {
+namespace {
+
+constexpr const char* root_help = R"(thinwall runs experiments on tunneling and continuous collision detection.
+
+Examples:
+  thinwall list                               what there is to run
+  thinwall run thin_wall                      the headline experiment, into results/thin_wall
+  thinwall run thin_wall --dry-run            how large it is and how long it takes; writes nothing
+  thinwall run my.toml --out results/mine     your own configuration, laid over the defaults
+  thinwall run thin_wall --trials 1e6 --json  one JSON object on stdout, for scripts
+)";
+
+constexpr const char* run_help = R"(Runs an experiment and leaves its data, figures, tables and report in a folder.
+
+Examples:
+  thinwall run thin_wall
+  thinwall run my.toml --seed 7 --out results/mine
+
+A folder that holds the same run, unfinished, is continued; one that holds another run is refused.
+)";
+
+constexpr const char* exit_codes = R"(
+Exit codes:
+  0    done
+  1    a run failed, or its self-test did
+  2    bad input: one line on stderr says where and what is allowed
+  130  interrupted: what was finished is kept, and the line that continues is printed
+
+Results and --json go to stdout, progress and notes to stderr. NO_COLOR and TERM=dumb are respected.
+)";
+
+constexpr int most_threads = 4096;
+
+std::uint64_t parse_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc{} || stop != text.data() + text.size()) {
+    throw UsageError(fmt::format("--seed: '{}' is not allowed; a whole number from 0 to {}", one_line(text),
+                                 std::numeric_limits<std::uint64_t>::max()));
+  }
+  return seed;
+}
+
+std::int64_t parse_positive(std::string_view option, const std::string& text, std::int64_t most) {
+  const auto count = parse_count(text);
+  if (!count || *count < 1 || *count > most) {
+    throw UsageError(fmt::format("{}: '{}' is not allowed; a whole number from 1 to {}", option, one_line(text), most));
+  }
+  return *count;
+}
+
+/// Names the first word that nothing takes, and the nearest one that something would.
+void refuse_extras(const CLI::App& app, const std::vector<std::string>& extras) {
+  if (extras.empty()) return;
+  std::vector<std::string> names;
+  std::string unknown = extras.front();
+  for (const std::string& extra : extras) {
+    if (extra.starts_with("-")) {
+      unknown = extra.substr(0, extra.find('='));
+      break;
+    }
+  }
+  const bool is_option = unknown.starts_with("-");
+  if (is_option) {
+    for (const CLI::Option* option : app.get_options()) {
+      if (!option->get_lnames().empty()) names.push_back("--" + option->get_lnames().front());
+    }
+  } else {
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  }
+  const std::string word = one_line(unknown);
+  if (names.empty()) throw UsageError(fmt::format("'{}': one word too many after '{}'", word, app.get_name()));
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  throw UsageError(
+      fmt::format("'{}': unknown {}; {}", word, is_option ? "option" : "command", spelling_hint(unknown, views)));
+}
+
+std::string version_text() {
+  const BuildRecord build = this_build();
+  return fmt::format("thinwall {} (commit {}{}, {}, {})\n", build.version, build.commit.substr(0, 12),
+                     build.dirty ? " with uncommitted changes" : "", build.compiler, build.build_type);
+}
+
+}  // namespace
+
+CommandLine parse_command_line(std::vector<std::string> argv) {
+  CommandLine out;
+  out.argv = argv;
+  std::string seed = "0", trials, threads;
+
+  CLI::App app(root_help, "thinwall");
+  app.footer(exit_codes);
+  app.allow_extras();
+  app.set_help_flag("-h,--help", "Print this");
+  app.set_version_flag("--version", version_text());
+
+  CLI::App* const list = app.add_subcommand("list", "Print every experiment and its question");
+  list->add_flag("--json", out.json, "Print a JSON array on stdout");
+
+  CLI::App* const run = app.add_subcommand("run", "Run an experiment");
+  run->description(run_help);
+  run->footer(exit_codes);
+  run->add_option("experiment", out.target, "The name of an experiment, or a TOML file")->option_text("NAME|FILE.toml");
+  run->add_option("--out", out.out, "The result folder (default: results/NAME)")->option_text("DIR");
+  run->add_option("--seed", seed, "Chooses the random numbers (default: 0)")->option_text("N");
+  run->add_option("--trials", trials, "Overrides the number of trials in the configuration")->option_text("N");
+  run->add_option("--threads", threads, "Threads to compute with (default: all cores)")->option_text("N");
+  run->add_flag("--dry-run", out.dry_run, "Print the size and an estimate of the time, and write nothing");
+  run->add_flag("--json", out.json, "Print one JSON object on stdout");
+  for (CLI::App* command : {list, run}) command->allow_extras();
+
+  const auto chosen = [&]() -> CLI::App& { return run->parsed() ? *run : list->parsed() ? *list : app; };
+  try {
+    std::vector<std::string> words(argv.rbegin(), argv.rend() - (argv.empty() ? 0 : 1));
+    app.parse(words);
+  } catch (const CLI::CallForHelp&) {
+    out.text = chosen().help();
+    return out;
+  } catch (const CLI::CallForVersion&) {
+    out.text = version_text();
+    return out;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(one_line(error.what()) + "; see thinwall --help");
+  }
+  refuse_extras(chosen(), chosen().remaining());
+  refuse_extras(app, app.remaining());
+  if (!list->parsed() && !run->parsed()) throw UsageError("a command is missing; list or run, see thinwall --help");
+  out.command = run->parsed() ? Command::run : Command::list;
+  if (!run->parsed()) return out;
+
+  if (out.target.empty()) throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
+  out.seed = parse_seed(seed);
+  if (run->count("--trials") > 0)
+    out.trials = parse_positive("--trials", trials, std::numeric_limits<std::int64_t>::max());
+  out.threads = default_threads();
+  if (run->count("--threads") > 0) out.threads = static_cast<int>(parse_positive("--threads", threads, most_threads));
+  if (run->count("--out") > 0 && out.out.empty()) throw UsageError("--out: '' is not allowed; a folder");
+  return out;
+}
+
+}  // namespace thinwall

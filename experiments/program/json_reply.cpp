@@ -1,0 +1,45 @@
+#include <thinwall/experiments/program/json_reply.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace thinwall {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json size_of(const RunRecord& run, const std::string& out) {
+  return {{"experiment", run.experiment}, {"out", out},       {"units", run.units},
+          {"trials", run.total_trials},   {"seed", run.seed}, {"threads", run.threads}};
+}
+
+std::string line(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string list_reply(std::span<const Experiment> experiments) {
+  ordered_json out = ordered_json::array();
+  for (const Experiment& experiment : experiments) {
+    out.push_back({{"name", experiment.name}, {"question", experiment.question}});
+  }
+  return line(out);
+}
+
+std::string dry_run_reply(const RunRecord& run, const std::string& out, double estimated_seconds) {
+  ordered_json reply = size_of(run, out);
+  reply["dry_run"] = true;
+  reply["estimated_seconds"] = estimated_seconds;
+  return line(reply);
+}
+
+std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report) {
+  ordered_json reply = size_of(run, out);
+  reply["resumed_units"] = run.resumed_units;
+  reply["answer"] = outcome.answer;
+  reply["self_test_passed"] = outcome.self_test_passed;
+  reply["report"] = report;
+  return line(reply);
+}
+
+}  // namespace thinwall

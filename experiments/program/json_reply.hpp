@@ -1,0 +1,16 @@
+#pragma once
+/// What `--json` prints: one object or array, ended by a newline.
+
+#include <span>
+#include <string>
+
+#include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/results/record.hpp>
+
+namespace thinwall {
+
+std::string list_reply(std::span<const Experiment> experiments);
+std::string dry_run_reply(const RunRecord& run, const std::string& out, double estimated_seconds);
+std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report);
+
+}  // namespace thinwall

@@ -1,0 +1,120 @@
+#include <thinwall/experiments/program/run_command.hpp>
+
+#include <filesystem>
+#include <numeric>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/program/configured_run.hpp>
+#include <thinwall/experiments/program/json_reply.hpp>
+#include <thinwall/experiments/program/progress_bar.hpp>
+#include <thinwall/experiments/results/results.hpp>
+#include <thinwall/experiments/run/runner.hpp>
+#include <thinwall/experiments/run/stop_signal.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+namespace {
+
+using Clock = std::chrono::system_clock;
+
+constexpr int exit_done = 0, exit_failed = 1, exit_interrupted = 130;
+
+std::string plural(std::int64_t count, const std::string& noun) {
+  return grouped_text(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string size_text(const RunRecord& run) {
+  return fmt::format("{}: {}, {} on {}", run.experiment, plural(static_cast<std::int64_t>(run.units), "unit"),
+                     plural(run.total_trials, "trial"), plural(run.threads, "thread"));
+}
+
+int dry_run(const CommandLine& line, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
+  const double seconds = estimate_seconds(units, line.threads);
+  if (line.json) {
+    out << dry_run_reply(run, line.out, seconds);
+  } else {
+    out << fmt::format("{}\nabout {}; results would go to {}\n", size_text(run), duration_text(seconds), line.out);
+  }
+  return exit_done;
+}
+
+int reply(const CommandLine& line, const RunRecord& run, const Outcome& outcome, std::ostream& out, std::ostream& err) {
+  const std::string report = (std::filesystem::path(line.out) / "report.html").string();
+  if (line.json) {
+    out << run_reply(run, line.out, outcome, report);
+  } else {
+    if (!outcome.summary.empty()) out << outcome.summary << (outcome.summary.ends_with('\n') ? "\n" : "\n\n");
+    out << outcome.answer << "\n\nreport: " << report << "\n";
+  }
+  out.flush();
+  if (outcome.self_test_passed) return exit_done;
+  err << "the self-test failed: do not trust these numbers; the report says more\n";
+  return exit_failed;
+}
+
+int interrupted(const CommandLine& line, const std::string& kept, std::ostream& err) {
+  err << fmt::format("interrupted: {} in {}; to continue:\n{}\n", kept, line.out, shell_line(line.argv));
+  return exit_interrupted;
+}
+
+}  // namespace
+
+int run_command(const CommandLine& given, std::span<const Experiment> experiments, std::ostream& out,
+                std::ostream& err) {
+  const ConfiguredRun chosen = configure_run(given.target, {given.seed, given.trials}, experiments);
+  const std::vector<Unit> units = chosen.run->units();
+  CommandLine line = given;
+  if (line.out.empty()) line.out = "results/" + std::string(chosen.experiment->name);
+  RunRecord record{.experiment = std::string(chosen.experiment->name),
+                   .question = std::string(chosen.experiment->question),
+                   .config = chosen.config,
+                   .default_config = chosen.default_config,
+                   .seed = line.seed,
+                   .trials = line.trials,
+                   .argv = line.argv,
+                   .threads = line.threads,
+                   .units = units.size(),
+                   .started = Clock::now(),
+                   .finished = {},
+                   .build = this_build(),
+                   .machine = this_machine()};
+  for (const Unit& unit : units) record.total_trials += unit.trials;
+  if (line.dry_run) return dry_run(line, record, units, out);
+
+  ResultFolder folder(line.out, {record.experiment, record.config, line.seed, line.trials, this_program_sha256()});
+  for (const std::string& note : folder.notes()) err << note << "\n";
+  if (const auto& kept = folder.complete()) {
+    Outcome outcome;
+    outcome.answer = kept->answer;
+    outcome.summary = kept->summary;
+    outcome.self_test_passed = kept->self_test_passed;
+    return reply(line, record, outcome, out, err);
+  }
+
+  watch_for_stop();
+  err << size_text(record) << std::endl;
+  UnitResults results;
+  {
+    ProgressBar bar(stderr_is_terminal());
+    results =
+        compute_units(units, folder.journal(),
+                      {.threads = line.threads, .stop = stop_requested, .on_progress = [&](const Progress& progress) {
+                         bar.show(progress);
+                       }});
+  }
+  if (!results.complete) return interrupted(line, "finished units are kept", err);
+  record.resumed_units = results.resumed;
+  if (results.resumed > 0)
+    err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
+
+  const Outcome outcome = chosen.run->finish(results.results, results.seconds);
+  record.finished = Clock::now();
+  const auto notes = write_results(folder, record, outcome);
+  for (const std::string& note : notes) err << note << "\n";
+  return reply(line, record, outcome, out, err);
+}
+
+}  // namespace thinwall
