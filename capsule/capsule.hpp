@@ -97,10 +97,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& a, const Capsule<S>& b
   const Vec3<S> across = cross(safe_unit(core_a), safe_unit(core_b));
   gap.along = core_a == Vec3<S>::Zero() ? core_b : core_a;
   if (largest(across) <= gap_noise(S(1))) return gap;
-  gap.normal = safe_unit(across);
-  for (int i = 2; i >= 0; --i) {  // of the two sides the one towards +x, then +y, then +z
-    if (across[i] != S(0)) gap.normal = across[i] < S(0) ? Vec3<S>(-safe_unit(across)) : safe_unit(across);
-  }
+  gap.normal = towards_positive<S>(safe_unit(across));
   return gap;
 }
 

@@ -116,7 +116,8 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
 }
 
 /// The deepest points of boxes that part along n, found on the axes (i, j).
-template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n, const S& depth) {
+template <Scalar S>
+BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n, const S& depth) {
   if (i >= 0 && j >= 0) return closest_on_edges(pair, i, j, n);
   BoxPoints<S> points;
   if (j < 0) {  // a face of A: the corner of B that is farthest inside, the middle of an edge or face alongside

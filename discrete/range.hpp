@@ -53,6 +53,9 @@ template <Scalar S> bool square_in_range(const S& square) {
   return square >= lower && square <= upper;
 }
 
+/// A gap this small between cores of this size is round-off: it has a length but no direction.
+template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits<S>::epsilon() * size; }
+
 /// |v|, at any scale.
 template <Scalar S> S safe_norm(const Vec3<S>& v) {
   using std::sqrt;

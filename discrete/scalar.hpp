@@ -33,6 +33,12 @@ template <Scalar S> Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// v or -v, whichever points towards +x, or +y where x is zero, or +z.
+template <Scalar S> Vec3<S> towards_positive(const Vec3<S>& v) {
+  const S& first = v[0] != S(0) ? v[0] : v[1] != S(0) ? v[1] : v[2];
+  return first < S(0) ? Vec3<S>(-v) : v;
+}
+
 template <Scalar S> Vec3<S> nan_vector() { return Vec3<S>::Constant(std::numeric_limits<S>::quiet_NaN()); }
 
 template <Scalar S> bool is_finite(const S& x) { return x - x == S(0); }

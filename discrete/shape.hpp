@@ -41,9 +41,6 @@ template <Scalar S> CoreGap<S> flipped(const CoreGap<S>& g) {
   return {g.distance, -g.normal, g.local_b, g.local_a, g.along};
 }
 
-/// A gap this small between cores of this size is round-off: it has a length but no direction.
-template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits<S>::epsilon() * size; }
-
 /// The unit vector perpendicular to `along` that is nearest to +x; +x itself where `along` is zero, +y where it is
 /// parallel to x. This is the normal of shapes whose cores coincide, whichever way round they are passed.
 template <Scalar S> Vec3<S> arbitrary_normal(const Vec3<S>& along) {

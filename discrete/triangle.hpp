@@ -1,0 +1,130 @@
+#pragma once
+/// The triangle: a wall of no thickness, solid from both sides. Serves spheres and rays here, capsules in capsule/.
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include <thinwall/discrete/core_entry.hpp>
+#include <thinwall/discrete/sphere.hpp>
+
+namespace thinwall {
+
+/// All points between three corners.
+template <thinwall::Scalar S> struct Triangle {
+  using Scalar = S;
+  static constexpr int rank = 3;
+
+  Vec3<S> a, b, c;  ///< [length] corners, in any order; on one line they make a segment, in one place a point
+};
+template <Scalar S> Triangle(Vec3<S>, Vec3<S>, Vec3<S>) -> Triangle<S>;
+
+/// The centroid.
+template <Scalar S> Vec3<S> center(const Triangle<S>& t) { return t.a + ((t.b - t.a) + (t.c - t.a)) / S(3); }
+template <Scalar S> S rounding(const Triangle<S>&) { return S(0); }
+template <Scalar S> S magnitude(const Triangle<S>& t) {
+  return t.a.cwiseAbs().sum() + t.b.cwiseAbs().sum() + t.c.cwiseAbs().sum();
+}
+template <Scalar S> bool has_valid_sizes(const Triangle<S>&) { return true; }
+template <Scalar S> bool valid(const Triangle<S>& t) { return is_finite(t.a) && is_finite(t.b) && is_finite(t.c); }
+template <Scalar S> Triangle<S> scaled(const Triangle<S>& t, int e) {
+  return {times_power_of_two(t.a, e), times_power_of_two(t.b, e), times_power_of_two(t.c, e)};
+}
+template <Scalar T, Scalar S> Triangle<T> cast(const Triangle<S>& t) {
+  return {t.a.template cast<T>(), t.b.template cast<T>(), t.c.template cast<T>()};
+}
+template <Scalar S> Triangle<S> moved(const Triangle<S>& t, const Vec3<S>& by) {
+  return {t.a + by, t.b + by, t.c + by};
+}
+template <Scalar S> Vec3<S> half_widths(const Triangle<S>& t) {
+  const Vec3<S> middle = center(t);
+  return (t.a - middle).cwiseAbs().cwiseMax((t.b - middle).cwiseAbs()).cwiseMax((t.c - middle).cwiseAbs());
+}
+template <Scalar S> Vec3<S> contact_point(const Triangle<S>&, const Vec3<S>& core_point, const Vec3<S>&) {
+  return core_point;
+}
+
+/// The part of the triangle (0, e1, e2) that is closest to x: 0 the face, 1 to 3 the edges e1, e2 - e1, -e2, 4 to 6 the
+/// corners they start from. Inside the face by the signs of three areas, else the nearest of the edges; a triangle of no
+/// area has edges only. Requires lengths whose products of four are in range.
+/// Error: a few u (|x| + |e1| + |e2|), more for the normal of a sliver. Source: derived here.
+template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3<S>& e1, const Vec3<S>& e2) {
+  const Vec3<S> normal = cross(e1, e2);
+  const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
+  CorePart<S> part;
+  if (normal != Vec3<S>::Zero()) {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], x - from[k]).dot(normal) >= S(0);
+    if (inside) {
+      const Vec3<S> unit = safe_unit(normal);
+      return {0, CorePart<S>::face, Vec3<S>::Zero(), normal, unit * x.dot(unit)};
+    }
+  }
+  S least = std::numeric_limits<S>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const S length_square = along[k].squaredNorm();
+    const Vec3<S> to_x = x - from[k];
+    const S s = length_square > S(0) ? S(along[k].dot(to_x) / length_square) : S(0);
+    if (s >= S(1)) continue;  // the corner is the next edge's
+    const bool corner = s <= S(0);
+    const Vec3<S> gap = corner ? to_x : Vec3<S>(to_x - along[k] * s);
+    if (gap.squaredNorm() >= least) continue;
+    least = gap.squaredNorm();
+    part = {static_cast<int>(k) + (corner ? 4 : 1), corner ? CorePart<S>::corner : CorePart<S>::edge, from[k], along[k],
+            gap};
+  }
+  return part;
+}
+
+/// First time at which p + v t is within R of the triangle (0, e1, e2).
+template <Scalar S>
+CoreEntry<S> rounded_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
+                                    const S& R) {
+  return core_entry_at_any_scale<S>(p, v, R, e1, e2, [](const Vec3<S>& x, const Vec3<S>& u1, const Vec3<S>& u2) {
+    return closest_on_triangle(x, u1, u2);
+  });
+}
+
+/// The unit normal of the plane, on the side of +x, then +y, then +z; zero for a triangle of no area.
+template <Scalar S> Vec3<S> plane_normal(const Triangle<S>& t) {
+  return towards_positive<S>(safe_unit(cross(safe_unit<S>(t.b - t.a), safe_unit<S>(t.c - t.a))));
+}
+
+/// The part of the triangle that is closest to x, relative to corner a, at any scale; the part's `gap` alone is set.
+template <Scalar S> Vec3<S> gap_from_triangle(const Vec3<S>& x, const Triangle<S>& t) {
+  const Vec3<S> e1 = t.b - t.a, e2 = t.c - t.a;
+  const S size = largest(x, e1, e2);
+  const int e = products_in_range(size) ? 0 : binary_exponent(size);
+  if (e == 0) return closest_on_triangle(x, e1, e2).gap;
+  const CorePart<S> part =
+      closest_on_triangle(times_power_of_two(x, -e), times_power_of_two(e1, -e), times_power_of_two(e2, -e));
+  return times_power_of_two(part.gap, e);
+}
+
+template <Scalar S> bool cores_within(const Triangle<S>& triangle, const Sphere<S>& sphere, const S& reach) {
+  return within<S>(gap_from_triangle<S>(sphere.center - triangle.a, triangle), reach);
+}
+
+/// Degenerate: a center on the triangle leaves along the plane's normal; on a triangle of no area sideways.
+template <Scalar S> CoreGap<S> core_gap(const Triangle<S>& triangle, const Sphere<S>& sphere) {
+  const Vec3<S> x = sphere.center - triangle.a, e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+  const Vec3<S> between = gap_from_triangle(x, triangle);
+  CoreGap<S> gap;
+  gap.distance = safe_norm(between);
+  gap.local_a = (x - between) - (e1 + e2) / S(3);
+  gap.normal = gap.distance > gap_noise(largest(x, e1, e2)) ? safe_unit(between) : plane_normal(triangle);
+  gap.along = largest(e1) < largest(e2) ? e2 : e1;
+  return gap;
+}
+
+/// Degenerate: a ray in the plane meets the nearest edge, the normal then in the plane; a triangle of no area is met by
+/// its edges only, exactly. Source: the walk of core_entry.hpp.
+template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Triangle<S>& triangle) {
+  const CoreEntry<S> entry = rounded_triangle_entry<S>(ray.origin - triangle.a, ray.direction, triangle.b - triangle.a,
+                                                       triangle.c - triangle.a, S(0));
+  if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
+  if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
+  return RayHit<S>{entry.time, ray.origin + ray.direction * entry.time, entry.normal};
+}
+
+}  // namespace thinwall
