@@ -63,12 +63,13 @@ std::optional<double> center_ray_miss_probability(const RoundedBox& box, double 
 
 Lateness pose_lateness(double chord, double spacing) {
   const double largest = std::min(spacing, chord);
-  return {largest / 2, largest};
+  return {largest / 2, largest / std::sqrt(12.0), largest};
 }
 
 Lateness center_ray_lateness(double lead, double step) {
-  if (lead >= step) return {step / 2, step};
-  return {lead - lead * lead / (2 * step), lead};
+  if (lead >= step) return pose_lateness(lead, step);  // the step always ends first
+  const double share = lead / step;
+  return {lead * (1 - share / 2), lead * std::sqrt(share / 3 - share * share / 4), lead};
 }
 
 }  // namespace thinwall

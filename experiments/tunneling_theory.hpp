@@ -37,6 +37,7 @@ std::optional<double> center_ray_miss_probability(const RoundedBox& box, double 
 /// [length] How far past first contact the ball is when it is detected, if it is.
 struct Lateness {
   double mean;
+  double deviation;  ///< standard
   double largest;
 };
 

@@ -149,20 +149,24 @@ TEST(TunnelingTheory, lateness_of_poses) {
   EXPECT_EQ(pose_lateness(1, 4).mean, 0.5);
   EXPECT_EQ(pose_lateness(1, 4).largest, 1);
   EXPECT_EQ(pose_lateness(4, 1).largest, 1);
+  EXPECT_DOUBLE_EQ(pose_lateness(4, 1).deviation, 1 / std::sqrt(12.0));
 }
 
-/// E[min(s X, q)] over a uniform X, by the midpoint rule.
+/// The moments of min(s X, q) over a uniform X, by the midpoint rule.
 TEST(TunnelingTheory, lateness_of_the_center_ray) {
-  for (const double lead : {0.0, 0.1, 0.9, 2.0}) {
-    double mean = 0, largest = 0;
-    constexpr int parts = 100000;
+  constexpr int parts = 100000;
+  for (const double lead : {0.0, 0.1, 0.9, 1.5, 2.0}) {
+    double mean = 0, square = 0, largest = 0;
     for (int i = 0; i < parts; ++i) {
       const double late = std::min(1.5 * (i + 0.5) / parts, lead);
       mean += late / parts;
+      square += late * late / parts;
       largest = std::max(largest, late);
     }
-    EXPECT_NEAR(center_ray_lateness(lead, 1.5).mean, mean, 1e-9);
-    EXPECT_NEAR(center_ray_lateness(lead, 1.5).largest, largest, 1e-4);
+    const Lateness theory = center_ray_lateness(lead, 1.5);
+    EXPECT_NEAR(theory.mean, mean, 1e-9);
+    EXPECT_NEAR(theory.deviation * theory.deviation, square - mean * mean, 1e-9);
+    EXPECT_NEAR(theory.largest, largest, 1e-4);
   }
 }
 

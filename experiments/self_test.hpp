@@ -1,0 +1,45 @@
+#pragma once
+/// Do measured counts agree with theory, over many cells at once? A theory that is wrong, or a measurement that is,
+/// fails here; chance alone fails a right one about once in 500 times for each method and scalar.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/table.hpp>
+
+namespace thinwall {
+
+/// What came out of one cell, and what should.
+struct CellCount {
+  std::string method, scalar;
+  std::int64_t shots;     ///< > 0
+  std::int64_t tunneled;  ///< in [0, shots]
+  double theory;          ///< [1] probability in [0, 1]
+};
+
+/// The verdict on one method at one scalar.
+struct SelfTest {
+  std::string method, scalar;
+  std::int64_t certain_cells = 0;        ///< theory is 0 or 1: the count must be exactly that
+  std::int64_t certain_wrong = 0;        ///< ... and is not
+  std::int64_t judged_cells = 0;         ///< at least 5 expected to tunnel, and 5 not to
+  std::int64_t covered = 0;              ///< ... whose 95 % Wilson interval holds the theory
+  Interval covered_allowed = {0, 0};     ///< central 99.9 % of Binomial(judged_cells, 0.95)
+  double chi_square = 0;                 ///< sum of squared standard residuals over the judged cells
+  Interval chi_square_allowed = {0, 0};  ///< central 99.9 % of its distribution
+  std::int64_t other_cells = 0;          ///< too few expected to judge alone
+  bool passed() const;
+};
+
+/// By method and scalar, in the order of their first cell.
+std::vector<SelfTest> self_test(const std::vector<CellCount>& cells);
+
+Table self_test_table(const std::vector<SelfTest>& tests);
+bool all_passed(const std::vector<SelfTest>& tests);
+
+/// True if at least five shots are expected to tunnel and five not to: a cell that can be judged by its residual.
+bool can_be_judged(std::int64_t shots, double theory);
+
+}  // namespace thinwall

@@ -1,0 +1,96 @@
+#include <thinwall/experiments/thin_wall.hpp>
+
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/thin_wall/figures.hpp>
+#include <thinwall/experiments/thin_wall/summary.hpp>
+#include <thinwall/experiments/thin_wall/tables.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+class ThinWallRun final : public Run {
+ public:
+  explicit ThinWallRun(Plan plan) : plan_(std::move(plan)), stratified_(stratified_plan(plan_)) {}
+
+  /// First every cell at every detector, cell by cell, then the stratified cells.
+  std::vector<Unit> units() const override {
+    std::vector<Unit> units;
+    for (const Cell& cell : plan_.cells) {
+      for (const Detector& detector : plan_.detectors) {
+        units.push_back({fmt::format("{} {} {}", key(cell), detector.method, detector.scalar), plan_.shots,
+                         [this, &cell, &detector] { return to_line(fired(cell, detector)); }});
+      }
+    }
+    for (const Cell& cell : stratified_.cells) {
+      const auto shots = stratified_shots * static_cast<std::int64_t>(stratified_.detectors.size());
+      units.push_back({fmt::format("{} stratified", key(cell)), shots,
+                       [this, &cell] { return stratified_counts(cell, stratified_.detectors, plan_.seed); }});
+    }
+    return units;
+  }
+
+  Outcome finish(const std::vector<std::string>& results, const std::vector<double>& seconds) const override {
+    const std::size_t count = plan_.cells.size() * plan_.detectors.size();
+    std::vector<Tally> tallies;
+    for (std::size_t i = 0; i < count; ++i) tallies.push_back(tally_from_line(results[i]));
+    const std::vector<Line> lines = make_lines(plan_, tallies, seconds);
+    const std::vector<Total> sums = totals(lines);
+    const Verdicts verdicts = {
+        self_test(counts_of(lines)),
+        stratified_test(stratified_, {results.begin() + static_cast<std::ptrdiff_t>(count), results.end()}),
+        lateness_test(lines)};
+    return {.answer = answer_text(sums),
+            .summary = summary_text(lines, sums, verdicts),
+            .tables = {bullet_table(lines), totals_table(sums), self_test_table(verdicts.counts),
+                       stratified_table(verdicts.stratified), lateness_table(verdicts.lateness), cells_table(lines),
+                       timings_table(lines)},
+            .figures = {probability_figure(lines), lateness_figure(lines), finite_figure(lines)},
+            .sections = report_sections(sums, verdicts),
+            .self_test_passed = verdicts.passed()};
+  }
+
+ private:
+  Tally fired(const Cell& cell, const Detector& detector) const {
+    const Target aimed = target(cell);
+    const RandomStream stream = random_stream(cell, plan_.seed);
+    Tally tally;
+    for (std::int64_t i = 0; i < plan_.shots; ++i) {
+      detector.fire(aimed, random_start(aimed, stream, static_cast<std::uint64_t>(i)), tally);
+    }
+    return tally;
+  }
+
+  static std::vector<CellCount> counts_of(const std::vector<Line>& lines) {
+    std::vector<CellCount> counts;
+    for (const Line& line : lines) {
+      if (!line.theory.probability) continue;
+      counts.push_back({line.detector->method, line.detector->scalar, line.tally.shots, line.tally.tunneled,
+                        *line.theory.probability});
+    }
+    return counts;
+  }
+
+  Plan plan_;
+  StratifiedPlan stratified_;
+};
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  return std::make_unique<ThinWallRun>(make_plan(settings, options));
+}
+
+}  // namespace
+
+Experiment thin_wall_experiment() {
+  return {
+      "thin_wall",
+      "How often does a fast ball pass through a thin wall, for each way of detecting the hit, and does theory agree?",
+      embedded_toml("thin_wall"), configure};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,103 @@
+#include <thinwall/experiments/thin_wall/detectors.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/sphere.hpp>
+#include <thinwall/swept/methods.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+namespace thinwall {
+
+namespace {
+
+/// One shot: step by step, pose k at start + k s, until the method sees a contact or the ball is past the wall.
+template <Scalar S, class Method>
+void fire_at(const Method& method, const Target& target, const Vec3<double>& start, Tally& tally) {
+  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{Vec3<S>::Zero(), target.half_extents.cast<S>()});
+  const Vec3<S> displacement = target.displacement.cast<S>();
+  ++tally.shots;
+  for (std::int64_t k = 0;; ++k) {
+    const Vec3<double> pose = start + static_cast<double>(k) * target.displacement;
+    if (is_past(target, pose)) {
+      ++tally.tunneled;
+      return;
+    }
+    const Moving<Sphere<S>> ball = {{pose.cast<S>(), static_cast<S>(target.radius)}, displacement};
+    const Toi<S> toi = time_of_impact(method, ball, wall);
+    ++tally.queries;
+    tally.evaluations += toi.evaluations;
+    if (toi.status == ToiStatus::apart) continue;
+    if (toi.status == ToiStatus::gave_up || toi.status == ToiStatus::invalid) {
+      ++tally.undecided;
+      return;
+    }
+    const double steps = static_cast<double>(k) + static_cast<double>(toi.time);
+    const double late = steps * target.step_length - path_to_contact(target, start);
+    tally.lateness += std::llround(late / target.lateness_unit);
+    tally.latest = std::max(tally.latest, late);
+    tally.earliest = std::min(tally.earliest, late);
+    tally.widest = std::max(tally.widest, gap(target, start + steps * target.displacement));
+    return;
+  }
+}
+
+/// The settings a method is run with: itself, but for the one whose number of poses is a factor of the experiment.
+template <class Method> std::vector<Method> variants(const Method& method, std::span<const std::int64_t>) {
+  return {method};
+}
+template <Scalar S> std::vector<Substeps<S>> variants(const Substeps<S>&, std::span<const std::int64_t> poses) {
+  std::vector<Substeps<S>> all;
+  for (const std::int64_t n : poses) all.push_back({.n = static_cast<int>(n)});
+  return all;
+}
+
+template <class Method> int poses_of(const Method&) { return 0; }
+template <Scalar S> int poses_of(const EndOfStep<S>&) { return 1; }
+template <Scalar S> int poses_of(const Substeps<S>& method) { return method.n; }
+
+template <class Method> std::string name_of(const Method&) { return std::string(Method::name); }
+template <Scalar S> std::string name_of(const Substeps<S>& m) { return fmt::format("{}_{}", Substeps<S>::name, m.n); }
+
+template <Scalar S>
+void append(std::string_view scalar, std::span<const std::string> methods, std::span<const std::int64_t> poses,
+            std::vector<Detector>& all) {
+  for_each_type(Methods<S>{}, [&]<class Method>(TypeTag<Method>) {
+    if constexpr (serves<Method, Sphere<S>, Aabb<S>>) {
+      if (std::find(methods.begin(), methods.end(), Method::name) == methods.end()) return;
+      for (const Method& method : variants(Method{}, poses)) {
+        all.push_back({name_of(method), std::string(scalar), poses_of(method),
+                       static_cast<double>(std::numeric_limits<S>::epsilon()),
+                       [method](const Target& target, const Vec3<double>& start, Tally& tally) {
+                         fire_at<S>(method, target, start, tally);
+                       },
+                       [method](const Cell& cell) { return theory_of(method, cell); }});
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<std::string_view> method_names() {
+  std::vector<std::string_view> names;
+  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
+    if constexpr (serves<Method, Sphere<double>, Aabb<double>>) names.push_back(Method::name);
+  });
+  return names;
+}
+
+std::vector<Detector> detectors(std::span<const std::string> methods, std::span<const std::int64_t> substeps,
+                                std::span<const std::string> scalars) {
+  std::vector<Detector> all;
+  for (const std::string& scalar : scalars) {
+    if (scalar == "float") append<float>(scalar, methods, substeps, all);
+    if (scalar == "double") append<double>(scalar, methods, substeps, all);
+  }
+  return all;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,95 @@
+#include <thinwall/experiments/thin_wall/plan.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace thinwall {
+
+namespace {
+
+/// A shot must end: no ball takes more steps than this to cross.
+constexpr double most_steps_across = 1e4;
+/// Poses lie on a grid that float holds: a step must not be longer than this many times what it crosses.
+constexpr double most_walls_a_step = 1e6;
+
+std::vector<std::string> selected_methods(const Settings& settings) {
+  std::vector<std::string_view> allowed = method_names();
+  const std::vector<std::string> all(allowed.begin(), allowed.end());
+  allowed.push_back("all");
+  const std::vector<std::string> chosen = settings.choices("method", allowed);
+  return std::find(chosen.begin(), chosen.end(), "all") == chosen.end() ? chosen : all;
+}
+
+void check(const Settings& settings, const Cell& cell) {
+  if (cell.radius == 0 && cell.thickness == 0) {
+    settings.complain("thickness", "not 0 where radius is 0 too: a point is never in a wall of no thickness");
+  }
+  const double step = step_length(cell), thick = cell.thickness + 2 * cell.radius;
+  if (slab_chord(cell) > most_steps_across * step) {
+    settings.complain("step", fmt::format("longer: at speed {} and angle_deg {}, more than {} steps to cross thickness "
+                                          "{} + 2 * radius {}",
+                                          cell.speed, cell.angle_deg, most_steps_across, cell.thickness, cell.radius));
+  }
+  if (step > most_walls_a_step * thick) {
+    settings.complain("step",
+                      fmt::format("shorter: at speed {}, a step is more than {} times thickness {} + 2 * radius "
+                                  "{}",
+                                  cell.speed, most_walls_a_step, cell.thickness, cell.radius));
+  }
+  if (cell.wall == Wall::finite && cell.wall_size < thick) {
+    settings.complain("wall_size", fmt::format("at least thickness {} + 2 * radius {}", cell.thickness, cell.radius));
+  }
+}
+
+std::vector<Cell> make_cells(const Settings& settings) {
+  constexpr std::array<std::string_view, 2> wall_names = {name(Wall::infinite), name(Wall::finite)};
+  const auto speeds = settings.numbers("speed", {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"});
+  const auto steps = settings.numbers("step", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"});
+  const auto radii = settings.numbers("radius", {.lower = 0, .upper = 1e3, .unit = "m"});
+  const auto thicknesses = settings.numbers("thickness", {.lower = 0, .upper = 1e3, .unit = "m"});
+  const auto angles = settings.numbers("angle_deg", {.lower = 0, .upper = 89.9, .unit = "deg"});
+  const auto walls = settings.choices("wall", wall_names);
+  const double wall_size = settings.number("wall_size", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"});
+
+  std::vector<Cell> cells = {bullet};
+  const std::size_t combinations =
+      speeds.size() * steps.size() * radii.size() * thicknesses.size() * angles.size() * walls.size();
+  for (std::size_t i = 0; i < combinations; ++i) {
+    std::size_t rest = i;  // its digits, in the base of each list's length, choose from the lists
+    const auto next = [&rest](const auto& list) {
+      const std::size_t digit = rest % list.size();
+      rest /= list.size();
+      return list[digit];
+    };
+    Cell cell = {.speed = next(speeds),
+                 .step = next(steps),
+                 .radius = next(radii),
+                 .thickness = next(thicknesses),
+                 .angle_deg = next(angles),
+                 .wall = Wall::infinite,
+                 .wall_size = 0};
+    if (next(walls) == name(Wall::finite)) {
+      cell.wall = Wall::finite;
+      cell.wall_size = wall_size;
+    }
+    check(settings, cell);
+    if (cell != bullet) cells.push_back(cell);
+  }
+  return cells;
+}
+
+}  // namespace
+
+Plan make_plan(const Settings& settings, const RunOptions& options) {
+  Plan plan;
+  plan.cells = make_cells(settings);
+  plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", 2, 1000),
+                             settings.choices("scalar", scalar_names));
+  plan.shots = options.trials.value_or(settings.integer("shots", 1, std::int64_t(1) << 30));
+  plan.seed = options.seed;
+  return plan;
+}
+
+}  // namespace thinwall
