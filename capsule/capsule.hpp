@@ -6,14 +6,15 @@
 #include <thinwall/capsule/ray_capsule.hpp>
 #include <thinwall/capsule/segment.hpp>
 #include <thinwall/capsule/segment_box.hpp>
-#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/capsule/segment_triangle.hpp>
+#include <thinwall/discrete/obb.hpp>
 
 namespace thinwall {
 
 /// All points within `radius` of the segment [a, b].
 template <thinwall::Scalar S> struct Capsule {
   using Scalar = S;
-  static constexpr int rank = 3;
+  static constexpr int rank = 4;
 
   Vec3<S> a, b;  ///< [length] ends of the core segment; a == b is a ball
   S radius;      ///< [length] >= 0; 0 is a segment
@@ -44,12 +45,21 @@ template <Scalar S> Vec3<S> contact_point(const Capsule<S>& c, const Vec3<S>& co
   return core_point + outward * c.radius;
 }
 
+/// The capsule in an oriented box's own axes, around its center, and the box there.
+template <Scalar S> Capsule<S> into(const Obb<S>& box, const Capsule<S>& c) {
+  return {into<S>(box, c.a - box.center), into<S>(box, c.b - box.center), c.radius};
+}
+template <Scalar S> Aabb<S> own_aabb(const Obb<S>& box) { return {Vec3<S>::Zero(), box.half_extents}; }
+
 /// The parameter in [0, 1] of the core's point that is closest to the other shape's core; docs of segment.hpp.
 template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Sphere<S>& sphere) {
   return closest_parameter<S>(sphere.center - capsule.a, capsule.b - capsule.a);
 }
 template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Aabb<S>& box) {
   return closest_parameter_to_box<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents);
+}
+template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Obb<S>& box) {
+  return closest_core_parameter(into(box, capsule), own_aabb(box));
 }
 template <Scalar S> S closest_core_parameter(const Capsule<S>& a, const Capsule<S>& b) {
   return closest_on_segments<S>(b.a - a.a, a.b - a.a, b.b - b.a).s;
@@ -63,6 +73,10 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Sphere<S>
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Aabb<S>& box, const S& reach) {
   const S s = closest_core_parameter(capsule, box);
   return within(excess_of<S>((capsule.a - box.center) + (capsule.b - capsule.a) * s, box.half_extents), reach);
+}
+
+template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Obb<S>& box, const S& reach) {
+  return cores_within(into(box, capsule), own_aabb(box), reach);
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& a, const Capsule<S>& b, const S& reach) {
@@ -118,13 +132,53 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Aabb<S>
   return gap;
 }
 
+template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Obb<S>& box) {
+  return out_of(box, core_gap(into(box, capsule), own_aabb(box)));
+}
+
+/// The closest points of a capsule's core and a triangle, at any scale; `gap` from the triangle.
+template <Scalar S> PrismPart<S> closest_on_core_and_triangle(const Capsule<S>& capsule, const Triangle<S>& triangle) {
+  const Vec3<S> x = capsule.a - triangle.a, core = capsule.b - capsule.a;
+  const Vec3<S> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+  const S size = largest(x, core, e1, e2);
+  const int e = products_in_range(size) ? 0 : binary_exponent(size);
+  if (e == 0) return closest_on_swept_triangle(x, core, e1, e2);
+  PrismPart<S> closest = closest_on_swept_triangle(times_power_of_two(x, -e), times_power_of_two(core, -e),
+                                                   times_power_of_two(e1, -e), times_power_of_two(e2, -e));
+  closest.on_triangle = times_power_of_two(closest.on_triangle, e);
+  closest.part.depth = times_power_of_two(closest.part.depth, e);
+  if (closest.part.depth == S(0)) closest.part.gap = times_power_of_two(closest.part.gap, e);
+  return closest;
+}
+
+template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Triangle<S>& triangle, const S& reach) {
+  const CorePart<S> part = closest_on_core_and_triangle(capsule, triangle).part;
+  return part.depth > S(0) || within(part.gap, reach);
+}
+
+/// Degenerate: a core that pierces the triangle leaves past its nearer end or the nearest edge; one that only touches it
+/// leaves along the plane's normal.
+template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangle<S>& triangle) {
+  const PrismPart<S> closest = closest_on_core_and_triangle(capsule, triangle);
+  const Vec3<S> core = capsule.b - capsule.a;
+  CoreGap<S> gap;
+  gap.distance = closest.part.distance();
+  gap.local_a = core * (closest.s - S(1) / S(2));
+  gap.local_b = closest.on_triangle - (center(triangle) - triangle.a);
+  gap.along = core;
+  const bool clear =
+      closest.part.depth > S(0) || gap.distance > gap_noise(largest(Vec3<S>(capsule.a - triangle.a), core));
+  gap.normal = clear ? Vec3<S>(-safe_unit(closest.part.gap)) : plane_normal(triangle);
+  return gap;
+}
+
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Capsule<S>& capsule) {
-  const SegmentEntry<S> entry =
-      rounded_segment_entry<S>(ray.origin - capsule.a, ray.direction, capsule.b - capsule.a, capsule.radius);
+  const Vec3<S> from_a = ray.origin - capsule.a, core = capsule.b - capsule.a;
+  const Entry<S> entry = rounded_segment_entry(from_a, ray.direction, core, capsule.radius);
   if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
   if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
-  const Vec3<S> core_point = capsule.a + (capsule.b - capsule.a) * entry.s;
-  return RayHit<S>{entry.time, core_point + entry.normal * capsule.radius, entry.normal};
+  const S s = closest_parameter<S>(from_a + ray.direction * entry.time, core);
+  return RayHit<S>{entry.time, capsule.a + core * s + entry.normal * capsule.radius, entry.normal};
 }
 
 }  // namespace thinwall

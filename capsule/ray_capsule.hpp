@@ -14,42 +14,32 @@
 
 namespace thinwall {
 
-template <Scalar S> struct SegmentEntry {
-  bool inside = false;                          ///< already so at time 0, touching included
-  S time = std::numeric_limits<S>::infinity();  ///< [1] > 0; infinity: never
-  S s = 0;                                      ///< [1] the parameter on the segment nearest to the point at `time`
-  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, away from the segment
-};
-
 /// First time at which p + v t is within R of the segment s * d, s in [0, 1].
-template <Scalar S>
-SegmentEntry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
-  SegmentEntry<S> entry;
+template <Scalar S> Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+  Entry<S> entry;
   if (within<S>(p - d * closest_parameter(p, d), R)) {
     entry.inside = true;
     return entry;
   }
   const auto cap = [&](bool far_end) {
-    const BallEntry<S> ball = ball_entry<S>(far_end ? Vec3<S>(p - d) : p, v, R);
-    if (!ball.inside) {
-      entry.time = ball.time;
-      entry.normal = ball.normal;
-      entry.s = far_end ? S(1) : S(0);
-    }
-    return entry;
+    const Entry<S> ball = ball_entry<S>(far_end ? Vec3<S>(p - d) : p, v, R);
+    return ball.inside ? entry : ball;
   };
   const S length = safe_norm(d);
   if (length == S(0)) return cap(false);
   const Vec3<S> u = safe_unit(d);
   const Vec3<S> k = cross(p, u);
-  const BallEntry<S> side = ball_entry<S>(k, cross(v, u), R);
+  const Entry<S> side = ball_entry<S>(k, cross(v, u), R);
   const S along = p.dot(u);
-  if (side.inside) return cap(along > length / 2);  // between the ends it would be inside the capsule
+  if (side.inside && along >= S(0) && along <= length) {  // touching, but for the rounding of the test above
+    entry.inside = true;
+    return entry;
+  }
+  if (side.inside) return cap(along > length / 2);
   if (!is_finite(side.time)) return entry;
   const S at = along + v.dot(u) * side.time;
   if (at < S(0) || at > length) return cap(at > length);
   entry.time = side.time;
-  entry.s = clamp01(S(at / length));
   entry.normal = safe_unit(cross(u, side.normal));
   return entry;
 }

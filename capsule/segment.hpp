@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <thinwall/discrete/core_entry.hpp>
 #include <thinwall/discrete/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
 
@@ -57,6 +58,31 @@ template <Scalar S> SegmentPair<S> closest_on_segments(const Vec3<S>& r, const V
   pair.s = closest_parameter<S>(r + d2 * pair.t, d1);
   pair.gap = r + (d2 * pair.t - d1 * pair.s);
   return pair;
+}
+
+/// Which part of a segment a parameter names: 0 its inside, 1 its start, 2 its end.
+template <Scalar S> int segment_part(const S& s) { return s <= S(0) ? 1 : s >= S(1) ? 2 : 0; }
+
+/// The part closest to x of the parallelogram { s * d1 - t * d2 }: the start of the second segment, seen from that of the
+/// first, is at x; a corner or an edge of the parallelogram is where one or both segments end.
+template <Scalar S> CorePart<S> closest_on_parallelogram(const Vec3<S>& x, const Vec3<S>& d1, const Vec3<S>& d2) {
+  const SegmentPair<S> closest = closest_on_segments(x, d1, d2);
+  const int first = segment_part(closest.s), second = segment_part(closest.t);
+  CorePart<S> part;
+  part.id = 3 * first + second;
+  part.gap = closest.gap;
+  part.origin = (first == 2 ? d1 : Vec3<S>::Zero()) - (second == 2 ? d2 : Vec3<S>::Zero());
+  if (first == 0) part.direction = second == 0 ? cross(d1, d2) : d1;
+  if (first != 0 && second == 0) part.direction = d2;
+  part.kind = first == 0 && second == 0   ? CorePart<S>::face
+              : first == 0 || second == 0 ? CorePart<S>::edge
+                                          : CorePart<S>::corner;
+  if (part.kind == CorePart<S>::face &&
+      part.direction == Vec3<S>::Zero()) {  // parallel: the parallelogram is a segment
+    part.kind = CorePart<S>::edge;
+    part.direction = d1;
+  }
+  return part;
 }
 
 }  // namespace thinwall

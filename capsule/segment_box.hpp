@@ -7,7 +7,7 @@
 #include <limits>
 
 #include <thinwall/capsule/segment.hpp>
-#include <thinwall/discrete/shape.hpp>
+#include <thinwall/discrete/aabb.hpp>
 
 namespace thinwall {
 
@@ -107,6 +107,49 @@ template <Scalar S> CoreGap<S> segment_through_box(const Vec3<S>& p, const Vec3<
   }
   gap.local_a = d * (s - S(1) / S(2));
   return gap;
+}
+
+/// The part of { y - s * d : y in the box [-h, h], s in [0, 1] } that is closest to x, the start of a segment beside a box.
+template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& h) {
+  const S s = closest_parameter_to_box(x, d, h);
+  const Vec3<S> nearest = x + d * s;
+  const int end = segment_part(s);
+  CorePart<S> part;
+  part.gap = excess_of(nearest, h);
+  part.id = end;
+  int outside = 0, free_axis = 0, fixed_axis = 0;
+  Vec3<S> corner = Vec3<S>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    part.id = 3 * part.id + (part.gap[i] < S(0) ? 1 : part.gap[i] > S(0) ? 2 : 0);
+    if (part.gap[i] == S(0)) {
+      free_axis = i;
+      continue;
+    }
+    corner[i] = part.gap[i] < S(0) ? S(-h[i]) : h[i];
+    fixed_axis = i;
+    ++outside;
+  }
+  if (outside == 0) {  // the segment crosses the box
+    const CoreGap<S> crossing = segment_through_box(x, d, h);
+    part = {-1, CorePart<S>::face, x + crossing.normal * crossing.distance, crossing.normal};
+    part.depth = std::max(S(0), S(-crossing.distance));
+    part.gap = -crossing.normal;
+    return part;
+  }
+  part.origin = end == 0 ? corner : Vec3<S>(corner - d * s);
+  if (outside == 1) {
+    part.kind = CorePart<S>::face;
+    part.direction = axis_vector<S>(fixed_axis);
+    part.origin = corner - d * s;
+  } else if (outside == 2) {
+    const Vec3<S> edge = axis_vector<S>(free_axis), swept = cross(edge, d);
+    part.kind = end == 0 && swept != Vec3<S>::Zero() ? CorePart<S>::face : CorePart<S>::edge;
+    part.direction = part.kind == CorePart<S>::face ? swept : edge;
+  } else if (end == 0) {
+    part.kind = CorePart<S>::edge;
+    part.direction = d;
+  }
+  return part;
 }
 
 }  // namespace thinwall

@@ -77,17 +77,19 @@ template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>&
   return chord;
 }
 
-/// The first time at which a point is in the closed ball, and where it is then.
-template <Scalar S> struct BallEntry {
+/// The first time at which a moving point is in a closed convex body.
+template <Scalar S> struct Entry {
   bool inside = false;                          ///< already so at time 0, touching included
-  S time = std::numeric_limits<S>::infinity();  ///< [1] in (0, inf); infinity: never
-  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, from the ball's center to the point at `time`
+  bool gave_up = false;                         ///< out of rounds; `time` is proven free
+  S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
+  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, out of the body, where the point is at `time`
+  int rounds = 1;                               ///< how many closed forms were solved
 };
 
 /// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
 /// v = 0 never enters.
-template <Scalar S> BallEntry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
-  BallEntry<S> entry;
+template <Scalar S> Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  Entry<S> entry;
   if (within(p, R)) {
     entry.inside = true;
     return entry;

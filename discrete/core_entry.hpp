@@ -31,13 +31,6 @@ template <Scalar S> struct CorePart {
   S closing_speed(const Vec3<S>& v) const { return -safe_unit(gap).dot(v); }
 };
 
-template <Scalar S> struct CoreEntry {
-  bool inside = false;                          ///< already so at time 0, touching included
-  S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
-  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, away from the core
-  int rounds = 0;                               ///< how often closest() was asked
-};
-
 /// When the line p + v t enters and is closest to a part extended without end and rounded by R.
 template <Scalar S> struct PartEntry {
   bool exists = false;               ///< it enters, while approaching
@@ -89,9 +82,9 @@ template <Scalar S> PartEntry<S> part_entry(const CorePart<S>& part, const Vec3<
 /// First time t >= 0 at which p + v t is within R of the core. `size` [length] is the core's own, for the noise level.
 /// Requires lengths and displacements whose products of four are in range.
 template <Scalar S, class Closest>
-CoreEntry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& size, const Closest& closest) {
+Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& size, const Closest& closest) {
   constexpr int round_limit = 256;
-  CoreEntry<S> answer;
+  Entry<S> answer;
   CorePart<S> part = closest(p);
   answer.inside = part.depth > S(0) || within(part.gap, R);
   if (answer.inside) return answer;
@@ -112,7 +105,7 @@ CoreEntry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S&
     if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : answer;
     const S ahead = there.distance() - R;
     if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
-    if (ahead > S(0) ? there.closing_speed(v) > S(0) : ahead >= -noise && target > now) {
+    if (target > now && (ahead > S(0) ? there.closing_speed(v) > S(0) : ahead >= -noise)) {
       now = target;
       part = there;
       continue;
@@ -122,23 +115,24 @@ CoreEntry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S&
     now += step;
     part = closest(p + v * now);
   }
+  answer.gave_up = true;
+  answer.time = now;
   return answer;
 }
 
-/// The same for a core spanned by two vectors, at any scale; closest(x, d1, d2) gets all three at a scale that is safe.
-template <Scalar S, class Closest>
-CoreEntry<S> core_entry_at_any_scale(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d1,
-                                     const Vec3<S>& d2, const Closest& closest) {
-  const S length = largest(p, R, d1, d2), speed = largest(v);
+/// The same for a core spanned by vectors, at any scale; closest(x, spans...) gets all of them at a scale that is safe.
+template <Scalar S, class Closest, class... Spans>
+Entry<S> core_entry_at_any_scale(const Closest& closest, const Vec3<S>& p, const Vec3<S>& v, const S& R,
+                                 const Spans&... spans) {
+  const S length = largest(p, R, spans...), speed = largest(v);
   const int length_exponent = products_in_range(length) ? 0 : binary_exponent(length);
   const int speed_exponent = products_in_range(speed) ? 0 : binary_exponent(speed);
   if (length_exponent == 0 && speed_exponent == 0) {
-    return core_entry(p, v, R, largest(d1, d2), [&](const Vec3<S>& x) { return closest(x, d1, d2); });
+    return core_entry(p, v, R, largest(spans...), [&](const Vec3<S>& x) { return closest(x, spans...); });
   }
-  const Vec3<S> small1 = times_power_of_two(d1, -length_exponent), small2 = times_power_of_two(d2, -length_exponent);
-  CoreEntry<S> entry = core_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                                     times_power_of_two(R, -length_exponent), largest(small1, small2),
-                                     [&](const Vec3<S>& x) { return closest(x, small1, small2); });
+  Entry<S> entry = core_entry_at_any_scale<S>(
+      closest, times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+      times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
   entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
   return entry;
 }

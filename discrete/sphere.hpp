@@ -51,7 +51,7 @@ template <Scalar S> CoreGap<S> core_gap(const Sphere<S>& a, const Sphere<S>& b) 
 }
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Sphere<S>& sphere) {
-  const BallEntry<S> entry = ball_entry<S>(ray.origin - sphere.center, ray.direction, sphere.radius);
+  const Entry<S> entry = ball_entry<S>(ray.origin - sphere.center, ray.direction, sphere.radius);
   if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
   if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
   return RayHit<S>{entry.time, sphere.center + entry.normal * sphere.radius, entry.normal};

@@ -78,11 +78,8 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
 
 /// First time at which p + v t is within R of the triangle (0, e1, e2).
 template <Scalar S>
-CoreEntry<S> rounded_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
-                                    const S& R) {
-  return core_entry_at_any_scale<S>(p, v, R, e1, e2, [](const Vec3<S>& x, const Vec3<S>& u1, const Vec3<S>& u2) {
-    return closest_on_triangle(x, u1, u2);
-  });
+Entry<S> rounded_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& e1, const Vec3<S>& e2) {
+  return core_entry_at_any_scale<S>(&closest_on_triangle<S>, p, v, R, e1, e2);
 }
 
 /// The unit normal of the plane, on the side of +x, then +y, then +z; zero for a triangle of no area.
@@ -120,8 +117,8 @@ template <Scalar S> CoreGap<S> core_gap(const Triangle<S>& triangle, const Spher
 /// Degenerate: a ray in the plane meets the nearest edge, the normal then in the plane; a triangle of no area is met by
 /// its edges only, exactly. Source: the walk of core_entry.hpp.
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Triangle<S>& triangle) {
-  const CoreEntry<S> entry = rounded_triangle_entry<S>(ray.origin - triangle.a, ray.direction, triangle.b - triangle.a,
-                                                       triangle.c - triangle.a, S(0));
+  const Entry<S> entry = rounded_triangle_entry<S>(ray.origin - triangle.a, ray.direction, S(0),
+                                                   triangle.b - triangle.a, triangle.c - triangle.a);
   if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
   if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
   return RayHit<S>{entry.time, ray.origin + ray.direction * entry.time, entry.normal};

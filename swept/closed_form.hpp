@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#include <thinwall/capsule/capsule.hpp>
+#include <thinwall/swept/boxes_entry.hpp>
 #include <thinwall/swept/rounded_box_entry.hpp>
 #include <thinwall/swept/serves.hpp>
 
@@ -16,27 +18,155 @@ template <Scalar S> struct ClosedForm {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
+/// Turns an entry (its normal from A to B) into the answer; point(time) says where they touch.
+template <class A, class B, Scalar T, class Point>
+Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const Entry<T>& entry, const Point& point) {
+  if (entry.inside) return overlapping_at_start(a, b, entry.rounds);
+  if (entry.gave_up) return {ToiStatus::gave_up, entry.rounds, std::min(T(1), entry.time)};
+  if (!(entry.time <= T(1))) return {ToiStatus::apart, entry.rounds};
+  return {ToiStatus::hit, entry.rounds, entry.time, entry.normal, point(entry.time)};
+}
+
+/// Where a moving sphere touches something that lies along `outward` at `time`; the middle of the gap if there is one.
+template <Scalar T>
+Vec3<T> sphere_point(const Moving<Sphere<T>>& s, const T& time, const Vec3<T>& outward, const T& gap) {
+  return (s.shape.center + s.displacement * time) + outward * (s.shape.radius + gap / 2);
+}
+
+/// The middle of the closest points at `time`.
+template <class A, class B, Scalar T> Vec3<T> middle_point(const Moving<A>& a, const Moving<B>& b, const T& time) {
+  const Separation<T> closest = separation(pose_at(a, time), pose_at(b, time));
+  return (closest.point_a + closest.point_b) / T(2);
+}
+
+template <Scalar T> Entry<T> flipped(Entry<T> entry) {
+  entry.normal = Vec3<T>::Zero() - entry.normal;
+  return entry;
+}
+
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
-  const T margin(method.min_separation);
-  const BallEntry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
-                                           a.shape.radius + b.shape.radius + margin);
-  if (entry.inside) return overlapping_at_start(a, b, 1);
-  if (!(entry.time <= T(1))) return {ToiStatus::apart, 1};
-  const Vec3<T> center_then = a.shape.center + a.displacement * entry.time;
-  return {ToiStatus::hit, 1, entry.time, entry.normal, center_then + entry.normal * (a.shape.radius + margin / 2)};
+  const T gap(method.min_separation);
+  const Entry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
+                                       a.shape.radius + b.shape.radius + gap);
+  return toi_of(a, b, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
-  const T margin(method.min_separation);
-  const RoundedBoxEntry<T> entry =
+  const T gap(method.min_separation);
+  const Entry<T> entry =
       rounded_box_entry<T>(sphere.shape.center - box.shape.center, relative_displacement(sphere, box),
-                           box.shape.half_extents, sphere.shape.radius + margin);
-  if (entry.inside) return overlapping_at_start(box, sphere, 1);
-  if (!(entry.time <= T(1))) return {ToiStatus::apart, 1};
-  const Vec3<T> center_then = sphere.shape.center + sphere.displacement * entry.time;
-  return {ToiStatus::hit, 1, entry.time, entry.normal, center_then - entry.normal * (sphere.shape.radius + margin / 2)};
+                           box.shape.half_extents, sphere.shape.radius + gap);
+  return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
+  const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
+                                              a.shape.half_extents + b.shape.half_extents, T(method.min_separation));
+  return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
+  const T gap(method.min_separation);
+  const Obb<T>& frame = box.shape;
+  Entry<T> entry = rounded_box_entry<T>(into<T>(frame, sphere.shape.center - frame.center),
+                                        into<T>(frame, relative_displacement(sphere, box)), frame.half_extents,
+                                        sphere.shape.radius + gap);
+  entry.normal = out_of(frame, entry.normal);
+  return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+/// The motion of B seen from A, in the axes that `pair` is in.
+template <Scalar T>
+Entry<T> boxes_entry(const BoxPair<T>& pair, const Vec3<T>& motion, const Vec3<T>& between_on_b,
+                     const Vec3<T>& motion_on_b, const T& gap) {
+  MovingBoxPair<T> moving{pair, motion, between_on_b, motion_on_b};
+  if (boxes_within(pair, gap)) return {true};
+  return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
+  const Vec3<T> motion = relative_displacement(b, a);
+  Entry<T> entry = boxes_entry<T>(box_pair(a.shape, b.shape), into(a.shape, motion),
+                                  into<T>(b.shape, b.shape.center - a.shape.center), into(b.shape, motion),
+                                  T(method.min_separation));
+  entry.normal = out_of(a.shape, entry.normal);
+  return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Aabb<T>>& b) {
+  const Vec3<T> motion = relative_displacement(a, b);
+  const Entry<T> entry =
+      boxes_entry<T>(box_pair(b.shape, a.shape), motion, into<T>(a.shape, a.shape.center - b.shape.center),
+                     into(a.shape, motion), T(method.min_separation));
+  return toi_of(a, b, flipped(entry), [&](const T& time) { return middle_point(a, b, time); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, const Moving<Sphere<T>>& sphere) {
+  const T gap(method.min_separation);
+  const Triangle<T>& t = triangle.shape;
+  const Entry<T> entry = rounded_triangle_entry<T>(sphere.shape.center - t.a, relative_displacement(sphere, triangle),
+                                                   sphere.shape.radius + gap, t.b - t.a, t.c - t.a);
+  return toi_of(triangle, sphere, entry,
+                [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Sphere<T>>& sphere) {
+  const T gap(method.min_separation);
+  const Entry<T> entry =
+      rounded_segment_entry<T>(sphere.shape.center - capsule.shape.a, relative_displacement(sphere, capsule),
+                               capsule.shape.b - capsule.shape.a, capsule.shape.radius + sphere.shape.radius + gap);
+  return toi_of(capsule, sphere, entry,
+                [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Moving<Capsule<T>>& b) {
+  const Entry<T> entry =
+      core_entry_at_any_scale<T>(&closest_on_parallelogram<T>, b.shape.a - a.shape.a, relative_displacement(b, a),
+                                 a.shape.radius + b.shape.radius + T(method.min_separation),
+                                 Vec3<T>(a.shape.b - a.shape.a), Vec3<T>(b.shape.b - b.shape.a));
+  return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Aabb<T>>& box) {
+  const Entry<T> entry =
+      core_entry_at_any_scale<T>(&closest_on_swept_box<T>, capsule.shape.a - box.shape.center,
+                                 relative_displacement(capsule, box), capsule.shape.radius + T(method.min_separation),
+                                 Vec3<T>(capsule.shape.b - capsule.shape.a), box.shape.half_extents);
+  return toi_of(capsule, box, flipped(entry), [&](const T& time) { return middle_point(capsule, box, time); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
+  const Capsule<T> own = into(box.shape, capsule.shape);
+  Entry<T> entry = core_entry_at_any_scale<T>(
+      &closest_on_swept_box<T>, own.a, into<T>(box.shape, relative_displacement(capsule, box)),
+      own.radius + T(method.min_separation), Vec3<T>(own.b - own.a), box.shape.half_extents);
+  entry.normal = -out_of(box.shape, entry.normal);
+  return toi_of(capsule, box, entry, [&](const T& time) { return middle_point(capsule, box, time); });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Triangle<T>>& triangle) {
+  const Triangle<T>& t = triangle.shape;
+  const auto closest = [](const Vec3<T>& x, const Vec3<T>& d, const Vec3<T>& e1, const Vec3<T>& e2) {
+    return closest_on_swept_triangle(x, d, e1, e2).part;
+  };
+  const Entry<T> entry =
+      core_entry_at_any_scale<T>(closest, capsule.shape.a - t.a, relative_displacement(capsule, triangle),
+                                 capsule.shape.radius + T(method.min_separation),
+                                 Vec3<T>(capsule.shape.b - capsule.shape.a), Vec3<T>(t.b - t.a), Vec3<T>(t.c - t.a));
+  return toi_of(capsule, triangle, flipped(entry),
+                [&](const T& time) { return middle_point(capsule, triangle, time); });
 }
 
 }  // namespace thinwall

@@ -23,12 +23,6 @@
 
 namespace thinwall {
 
-template <Scalar S> struct RoundedBoxEntry {
-  bool inside = false;                          ///< already so at time 0, touching included
-  S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
-  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, away from the box
-};
-
 /// The times and places at which a moving point p + v t meets the slabs of the box [-h, h].
 template <Scalar S> struct SlabTimes {
   Vec3<S> enter, leave;  ///< [1] of the box's own slabs; before `enter` and from `leave` on the axis takes part
@@ -64,9 +58,8 @@ template <Scalar S> struct SlabTimes {
 };
 
 /// First time at which p + v t is within R of the box [-h, h].
-template <Scalar S>
-RoundedBoxEntry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
-  RoundedBoxEntry<S> entry;
+template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
+  Entry<S> entry;
   if (within(excess_of(p, h), R)) {
     entry.inside = true;
     return entry;
@@ -81,6 +74,7 @@ RoundedBoxEntry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const V
     entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
     return entry;
   }
+  entry.rounds = 0;
   const SlabTimes<S> slabs(p, v, h, R);
   if (!(slabs.first <= slabs.last)) return entry;
   S now = slabs.first;
@@ -109,6 +103,7 @@ RoundedBoxEntry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const V
     }
     if (u == Vec3<S>::Zero()) return entry;  // at constant distance until it grows
     const Chord<S> chord = chord_through_ball(q, u, R);
+    ++entry.rounds;
     if (chord.exists && chord.approach > S(0)) {
       const S root = chord.entry_time();
       if (root <= next && chord.approach + chord.half >= now * chord.speed_square) {

@@ -1,0 +1,75 @@
+#pragma once
+/// A segment and a triangle: the closest points while they are apart, the least way out once they cross.
+///
+/// Apart, the closest points are an end of the segment and the inside of the face, or the segment and an edge. As the
+/// start of the segment moves, it meets the prism that the triangle sweeps along the segment backwards: its caps are the
+/// triangle, its sides are spanned by an edge and the segment. Source: derived here.
+
+#include <limits>
+
+#include <thinwall/capsule/segment.hpp>
+#include <thinwall/discrete/shape.hpp>
+#include <thinwall/discrete/triangle.hpp>
+
+namespace thinwall {
+
+/// The part of { y - s * d : y in the triangle (0, e1, e2), s in [0, 1] } that is closest to x, the start of a segment.
+/// `on_triangle` is the closest point of the triangle, `s` names that of the segment.
+template <Scalar S> struct PrismPart {
+  CorePart<S> part;
+  Vec3<S> on_triangle = Vec3<S>::Zero();
+  S s = 0;
+};
+
+/// Requires lengths whose products of four are in range.
+template <Scalar S>
+PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
+  const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
+  const Vec3<S> normal = cross(e1, e2);
+  PrismPart<S> best;
+  S least = std::numeric_limits<S>::infinity();
+  for (int end = 0; end < 2; ++end) {
+    const Vec3<S> tip = end == 0 ? x : Vec3<S>(x + d);
+    const CorePart<S> face = closest_on_triangle(tip, e1, e2);
+    if (face.kind != CorePart<S>::face || face.gap.squaredNorm() >= least) continue;
+    least = face.gap.squaredNorm();
+    best = {
+        {end, CorePart<S>::face, end == 0 ? Vec3<S>::Zero() : Vec3<S>(-d), normal, face.gap}, tip - face.gap, S(end)};
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SegmentPair<S> pair = closest_on_segments<S>(x - from[k], along[k], d);
+    if (pair.gap.squaredNorm() >= least) continue;
+    least = pair.gap.squaredNorm();
+    CorePart<S> side = closest_on_parallelogram<S>(x - from[k], along[k], d);
+    side.origin += from[k];
+    side.id += 10 * (static_cast<int>(k) + 1);
+    best = {side, from[k] + along[k] * pair.s, pair.t};
+  }
+  const S start_height = x.dot(normal), end_height = (x + d).dot(normal);
+  if ((start_height < S(0)) == (end_height < S(0)) || least == S(0)) return best;
+  const S s = start_height / (start_height - end_height);
+  const Vec3<S> crossing = x + d * s;
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], crossing - from[k]).dot(normal) >= S(0);
+  if (!inside) return best;
+  // The segment pierces the face: out past an end along the normal, or past an edge along its product with d.
+  const S length = safe_norm(normal);
+  const bool by_start = largest(start_height) <= largest(end_height);
+  const Vec3<S> up = normal / length;
+  S depth = largest(by_start ? start_height : end_height) / length;
+  Vec3<S> out = ((by_start ? start_height : end_height) > S(0)) ? Vec3<S>(-up) : up;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3<S> side = safe_unit(cross(along[k], d));
+    const S offset = (crossing - from[k]).dot(side);
+    if (side == Vec3<S>::Zero() || largest(offset) >= depth) continue;
+    depth = largest(offset);
+    out = offset > S(0) ? Vec3<S>(-side) : side;
+  }
+  best.part = {-1, CorePart<S>::face, x + out * depth, out, out};
+  best.part.depth = depth;
+  best.on_triangle = crossing;
+  best.s = s;
+  return best;
+}
+
+}  // namespace thinwall
