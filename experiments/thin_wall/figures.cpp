@@ -30,6 +30,7 @@ std::vector<Line> drawn(const std::vector<Line>& lines, Wall wall, const Number&
 }
 
 /// Of the cells that would be drawn into the same sixth of a decade, the first: enough to see, few enough to see through.
+/// From left to right.
 std::vector<Line> thinned(const std::vector<Line>& lines, const Number& x) {
   std::map<double, const Cell*> first;
   std::set<const Cell*> kept;
@@ -39,6 +40,7 @@ std::vector<Line> thinned(const std::vector<Line>& lines, const Number& x) {
   for (const Line& line : lines) {
     if (kept.count(line.cell) > 0) chosen.push_back(line);
   }
+  std::stable_sort(chosen.begin(), chosen.end(), [&x](const Line& a, const Line& b) { return x(a) < x(b); });
   return chosen;
 }
 

@@ -8,7 +8,7 @@ namespace thinwall {
 namespace {
 
 using Read = std::function<Value(const Line&)>;
-struct Entry {
+struct Field {
   Column column;
   Read read;
 };
@@ -25,7 +25,7 @@ Read of_detected(double Tally::*extreme) {
   return [extreme](const Line& l) { return l.tally.detected() > 0 ? Value(l.tally.*extreme) : Value(); };
 }
 
-std::vector<Entry> factors() {
+std::vector<Field> factors() {
   using enum ColumnType;
   return {
       {{"method", text, "", "Way of detecting the hit; substeps_N tests N poses a step."},
@@ -45,7 +45,7 @@ std::vector<Entry> factors() {
   };
 }
 
-std::vector<Entry> counts() {
+std::vector<Field> counts() {
   using enum ColumnType;
   return {
       {{"step_ratio", number, "1", "speed * step * cos(angle_deg) / (thickness + 2 * radius)."},
@@ -68,7 +68,7 @@ std::vector<Entry> counts() {
   };
 }
 
-std::vector<Entry> lateness_and_cost() {
+std::vector<Field> lateness_and_cost() {
   using enum ColumnType;
   return {
       {{"lateness_mean", number, "m", "Mean path length from first contact to detection, of the detected."},
@@ -90,17 +90,17 @@ std::vector<Entry> lateness_and_cost() {
   };
 }
 
-Table make_table(const std::vector<std::vector<Entry>>& groups, const std::vector<Line>& lines) {
+Table make_table(const std::vector<std::vector<Field>>& groups, const std::vector<Line>& lines) {
   Table table;
   for (const auto& group : groups) {
-    for (const Entry& entry : group) table.columns.push_back(entry.column);
+    for (const Field& field : group) table.columns.push_back(field.column);
   }
   table.rows.reserve(lines.size());
   for (const Line& line : lines) {
     std::vector<Value>& row = table.rows.emplace_back();
     row.reserve(table.columns.size());
     for (const auto& group : groups) {
-      for (const Entry& entry : group) row.push_back(entry.read(line));
+      for (const Field& field : group) row.push_back(field.read(line));
     }
   }
   return table;
@@ -128,7 +128,7 @@ Table bullet_table(const std::vector<Line>& lines) {
 }
 
 Table timings_table(const std::vector<Line>& lines) {
-  std::vector<Entry> time = {
+  std::vector<Field> time = {
       {{"shots", ColumnType::integer, "1", "Shots fired."}, [](const Line& l) { return l.tally.shots; }},
       {{"nanoseconds_per_shot", ColumnType::number, "ns", "Wall-clock time over shots, drawing the shot included."},
        [](const Line& l) { return 1e9 * l.seconds / static_cast<double>(l.tally.shots); }}};
