@@ -11,6 +11,7 @@
 
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/text/ranges.hpp>
 #include <thinwall/experiments/text/spelling.hpp>
 
 namespace thinwall {
@@ -39,36 +40,17 @@ std::string json_text(const toml::node& node) {
 
 /// A value as a complaint shows it.
 std::string shown(const toml::node& node) {
-  constexpr std::size_t limit = 40;
-  std::string text = node.is_floating_point() ? exact_text(*node.value_exact<double>())
-                     : node.is_string()       ? "'" + *node.value_exact<std::string>() + "'"
-                     : node.is_table()        ? "a table"
-                     : node.is_date() || node.is_time() || node.is_date_time() ? "a date or time"
-                                                                               : json_text(node);
-  if (text.size() > limit) text = text.substr(0, limit) + "...";
-  return one_line(text);
-}
-
-std::string range_text(std::string_view kind, const Range& range) {
-  std::string text(kind);
-  const char* link = " ";
-  if (std::isfinite(range.lower)) {
-    text += fmt::format(" {} {}", range.lower_open ? ">" : ">=", exact_text(range.lower));
-    link = " and ";
-  }
-  if (std::isfinite(range.upper)) {
-    text += fmt::format("{}{} {}", link, range.upper_open ? "<" : "<=", exact_text(range.upper));
-  }
-  if (!range.unit.empty() && range.unit != "1") text += fmt::format(" [{}]", range.unit);
-  return text;
+  const std::string text = node.is_floating_point() ? exact_text(*node.value_exact<double>())
+                           : node.is_string()       ? "'" + *node.value_exact<std::string>() + "'"
+                           : node.is_table()        ? "a table"
+                           : node.is_date() || node.is_time() || node.is_date_time() ? "a date or time"
+                                                                                     : json_text(node);
+  return one_line(clipped(text, 40));
 }
 
 std::optional<double> in_range(const toml::node& node, const Range& range) {
   const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value)) return std::nullopt;
-  const bool above = range.lower_open ? *value > range.lower : *value >= range.lower;
-  const bool below = range.upper_open ? *value < range.upper : *value <= range.upper;
-  return above && below ? std::optional(*value + 0.0) : std::nullopt;  // -0 becomes 0
+  return value && contains(range, *value) ? std::optional(*value + 0.0) : std::nullopt;  // -0 becomes 0
 }
 
 std::optional<std::int64_t> in_range(const toml::node& node, std::int64_t lower, std::int64_t upper) {
@@ -159,14 +141,13 @@ struct Settings::Impl {
 
   template <class Read, class Allowed> auto several(std::string_view key, Read read, Allowed allowed) const {
     const toml::node& node = *entry(key).node;
-    const auto a_list_of = [&](const toml::node& of) { return "a list of " + allowed(of); };
     const auto* const array = node.as_array();
-    if (!array) complain(key, node, shown(node) + " is not a list", a_list_of(node));
-    if (array->empty()) complain(key, node, "an empty list is not allowed", a_list_of(node));
+    if (!array) complain(key, node, shown(node) + " is not a list", allowed(node));
+    if (array->empty()) complain(key, node, "an empty list is not allowed", allowed(node));
     std::vector<std::remove_cvref_t<decltype(*read(node))>> values;
     for (const toml::node& item : *array) {
       const auto value = read(item);
-      if (!value) refuse(key, item, a_list_of(item));
+      if (!value) refuse(key, item, allowed(item));
       if (std::ranges::find(values, *value) != values.end()) {
         complain(key, item, shown(item) + " stands twice", "every value once");
       }
@@ -203,6 +184,8 @@ Settings::~Settings() = default;
 Settings::Settings(Settings&&) noexcept = default;
 Settings& Settings::operator=(Settings&&) noexcept = default;
 
+bool Settings::has(std::string_view key) const { return find(impl_->user, key) || find(impl_->defaults, key); }
+
 double Settings::number(std::string_view key, const Range& range) const {
   return impl_->one(
       key, [&](const toml::node& node) { return in_range(node, range); },
@@ -212,7 +195,7 @@ double Settings::number(std::string_view key, const Range& range) const {
 std::vector<double> Settings::numbers(std::string_view key, const Range& range) const {
   return impl_->several(
       key, [&](const toml::node& node) { return in_range(node, range); },
-      [&](const toml::node&) { return range_text("numbers", range); });
+      [&](const toml::node&) { return range_text("a list of numbers", range); });
 }
 
 std::int64_t Settings::integer(std::string_view key, std::int64_t lower, std::int64_t upper) const {
@@ -224,7 +207,7 @@ std::int64_t Settings::integer(std::string_view key, std::int64_t lower, std::in
 std::vector<std::int64_t> Settings::integers(std::string_view key, std::int64_t lower, std::int64_t upper) const {
   return impl_->several(
       key, [&](const toml::node& node) { return in_range(node, lower, upper); },
-      [&](const toml::node&) { return fmt::format("whole numbers from {} to {}", lower, upper); });
+      [&](const toml::node&) { return fmt::format("a list of whole numbers from {} to {}", lower, upper); });
 }
 
 bool Settings::flag(std::string_view key) const {

@@ -35,6 +35,9 @@ class Settings {
   Settings(Settings&&) noexcept;
   Settings& operator=(Settings&&) noexcept;
 
+  /// True if the user's file or the defaults have the key.
+  bool has(std::string_view key) const;
+
   double number(std::string_view key, const Range& range) const;
   std::vector<double> numbers(std::string_view key, const Range& range) const;  ///< non-empty, no value twice
   std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper) const;

@@ -27,17 +27,13 @@ Examples:
   thinwall run thin_wall --trials 1e6 --json  one JSON object on stdout, for scripts
 )";
 
-constexpr const char* run_help = R"(Runs an experiment and leaves its data, figures, tables and report in a folder.
-
-Examples:
+constexpr const char* run_examples = R"(Examples:
   thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
 
-A folder that holds the same run, unfinished, is continued; one that holds another run is refused.
 )";
 
-constexpr const char* exit_codes = R"(
-Exit codes:
+constexpr const char* exit_codes = R"(Exit codes:
   0    done
   1    a run failed, or its self-test did
   2    bad input: one line on stderr says where and what is allowed
@@ -109,21 +105,22 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   app.footer(exit_codes);
   app.allow_extras();
   app.set_help_flag("-h,--help", "Print this");
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", version_text(), "Print the version, the commit and the compiler");
 
   CLI::App* const list = app.add_subcommand("list", "Print every experiment and its question");
-  list->add_flag("--json", out.json, "Print a JSON array on stdout");
+  list->add_flag("--json", out.json, "Print a JSON array on stdout")->disable_flag_override();
 
-  CLI::App* const run = app.add_subcommand("run", "Run an experiment");
-  run->description(run_help);
-  run->footer(exit_codes);
+  CLI::App* const run =
+      app.add_subcommand("run", "Run an experiment; leave its data, figures, tables and report in a folder");
+  run->footer("A folder that holds the same run, unfinished, is continued; one that holds another run is refused.\n");
   run->add_option("experiment", out.target, "The name of an experiment, or a TOML file")->option_text("NAME|FILE.toml");
   run->add_option("--out", out.out, "The result folder (default: results/NAME)")->option_text("DIR");
   run->add_option("--seed", seed, "Chooses the random numbers (default: 0)")->option_text("N");
   run->add_option("--trials", trials, "Overrides the number of trials in the configuration")->option_text("N");
   run->add_option("--threads", threads, "Threads to compute with (default: all cores)")->option_text("N");
-  run->add_flag("--dry-run", out.dry_run, "Print the size and an estimate of the time, and write nothing");
-  run->add_flag("--json", out.json, "Print one JSON object on stdout");
+  run->add_flag("--dry-run", out.dry_run, "Print the size and an estimate of the time, and write nothing")
+      ->disable_flag_override();
+  run->add_flag("--json", out.json, "Print one JSON object on stdout")->disable_flag_override();
   for (CLI::App* command : {list, run}) command->allow_extras();
 
   const auto chosen = [&]() -> CLI::App& { return run->parsed() ? *run : list->parsed() ? *list : app; };
@@ -131,11 +128,14 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
     std::vector<std::string> words(argv.rbegin(), argv.rend() - (argv.empty() ? 0 : 1));
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
-    out.text = chosen().help();
+    out.text = run->parsed() ? run_examples + run->help("thinwall") : chosen().help();
     return out;
   } catch (const CLI::CallForVersion&) {
     out.text = version_text();
     return out;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string what = error.what();
+    throw UsageError(one_line(what.substr(0, what.find(':'))) + ": exactly one value is needed; see thinwall --help");
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + "; see thinwall --help");
   }

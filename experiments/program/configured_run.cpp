@@ -39,6 +39,17 @@ const Experiment* find_experiment(std::span<const Experiment> experiments, std::
   return found == experiments.end() ? nullptr : &*found;
 }
 
+std::string experiment_named_in(const std::string& text, const std::string& file,
+                                std::span<const std::string_view> names) {
+  constexpr std::string_view key = "experiment";
+  const Settings settings(text, file, "");
+  if (!settings.has(key)) {
+    throw UsageError(fmt::format("{}:1: key '{}': missing; it says what the file is, as in {} = \"{}\"; {}",
+                                 one_line(file), key, key, names.front(), spelling_hint("", names)));
+  }
+  return settings.choice(key, names);
+}
+
 }  // namespace
 
 ConfiguredRun configure_run(const std::string& target, const RunOptions& options,
@@ -56,7 +67,7 @@ ConfiguredRun configure_run(const std::string& target, const RunOptions& options
     }
     file = target;
     text = read_config(file);
-    out.experiment = find_experiment(experiments, Settings(text, file, "").choice("experiment", names));
+    out.experiment = find_experiment(experiments, experiment_named_in(text, file, names));
   }
   const Settings settings(text, file, out.experiment->default_toml);
   settings.reject_unknown_keys();

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/text/escape.hpp>
+
 namespace thinwall {
 namespace {
 
@@ -16,12 +18,8 @@ json to_json(const RunIdentity& identity) {
 }
 
 std::string difference(const std::string& name, const json& theirs, const json& ours) {
-  const auto shown = [](const json& value) {
-    constexpr std::size_t limit = 40;
-    const std::string text = value.dump();
-    return text.size() <= limit ? text : text.substr(0, limit) + "...";
-  };
-  return name + " = " + shown(theirs) + ", not " + shown(ours);
+  constexpr std::size_t letters = 40;
+  return name + " = " + clipped(theirs.dump(), letters) + ", not " + clipped(ours.dump(), letters);
 }
 
 }  // namespace

@@ -34,6 +34,13 @@ std::string one_line(std::string_view text) {
   return out;
 }
 
+std::string clipped(std::string_view text, std::size_t letters) {
+  if (text.size() <= letters) return std::string(text);
+  const auto continues = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80; };
+  while (letters > 0 && continues(letters)) --letters;
+  return std::string(text.substr(0, letters)) + "...";
+}
+
 std::string json_string(std::string_view text) {
   std::string out = "\"";
   for (const char letter : text) {

@@ -10,6 +10,9 @@ namespace thinwall {
 /// One line for a terminal: control characters, which could also drive it, become `\x1b` and the like.
 std::string one_line(std::string_view text);
 
+/// At most `letters` bytes of `text`, then dots if there was more; never half a UTF-8 letter.
+std::string clipped(std::string_view text, std::size_t letters);
+
 /// A JSON string with its quotes; also a TOML one.
 std::string json_string(std::string_view text);
 

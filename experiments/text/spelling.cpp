@@ -43,16 +43,13 @@ std::string_view nearest_spelling(std::string_view word, std::span<const std::st
 }
 
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates) {
-  std::string hint;
-  if (const auto nearest = nearest_spelling(word, candidates); !nearest.empty()) {
-    hint = "did you mean '" + std::string(nearest) + "'? ";
-  }
-  hint += "(allowed: ";
+  std::string list = "allowed: ";
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i > 0) hint += ", ";
-    hint += candidates[i];
+    if (i > 0) list += ", ";
+    list += candidates[i];
   }
-  return hint + ")";
+  const std::string_view nearest = nearest_spelling(word, candidates);
+  return nearest.empty() ? list : "did you mean '" + std::string(nearest) + "'? (" + list + ")";
 }
 
 }  // namespace thinwall
