@@ -69,16 +69,24 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
       steps, steps == "1e1" ? "set" : "unset");
 }
 
+std::size_t point_count(const Panel& panel) {
+  std::size_t count = 0;
+  for (const Series& series : panel.series) count += series.mark == Mark::points ? series.x.size() : 0;
+  return count;
+}
+
 /// What plots one series: its bars first, so that its points lie on them.
-std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block,
-                                    std::size_t style) {
+std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block, std::size_t style,
+                                    bool crowded) {
   const std::string from = fmt::format("'{}' index {}", file, block);
-  const char* with = series.mark == Mark::points ? "points" : "lines";
+  const bool points = series.mark == Mark::points;
+  const char* with = points ? "points" : "lines";
+  const char* size = points && crowded ? " pointsize 0.5" : "";
   std::vector<std::string> items;
   if (!series.lower.empty()) {
     items.push_back(fmt::format("{0} using 1:3:(0):($4-$3) with vectors nohead linestyle {1} notitle", from, style));
   }
-  items.push_back(fmt::format("{} using 1:2 with {} linestyle {} notitle", from, with, style));
+  items.push_back(fmt::format("{} using 1:2 with {} linestyle {}{} notitle", from, with, style, size));
   return items;
 }
 
@@ -136,9 +144,11 @@ std::string plot_script(const Figure& figure) {
     out += fmt::format("set label 3 {} at graph 0.5, screen {:.5f} center noenhanced\n",
                        quoted(x_labeled ? panel.x_label : ""), up(box.bottom + 50));
     std::vector<std::string> items;
+    const bool crowded = point_count(panel) > 400;
     for (const Series& series : panel.series) {
       const auto style = static_cast<std::size_t>(&style_of(styles, series.label) - styles.data()) + 1;
-      for (std::string& item : plot_items(figure.name + ".dat", series, block, style)) items.push_back(std::move(item));
+      for (std::string& item : plot_items(figure.name + ".dat", series, block, style, crowded))
+        items.push_back(std::move(item));
       ++block;
     }
     for (std::size_t i = 0; p == 0 && i < styles.size(); ++i) items.push_back(legend_item(styles[i], i + 1));

@@ -10,10 +10,11 @@ inline constexpr std::string_view report_style = R"css(
 * { box-sizing: border-box; }
 body { margin: 0; background: #fff; color: var(--ink); font: 17px/1.55 system-ui, "Segoe UI", Roboto, Helvetica, Arial, sans-serif;
   overflow-wrap: break-word; }
-main { max-width: 50rem; margin: 0 auto; padding: 2rem 1.1rem 4rem; }
+main { max-width: 56rem; margin: 0 auto; padding: 2rem 1.1rem 4rem; }
 h1 { font-size: 1.75rem; line-height: 1.25; margin: .2rem 0 1rem; text-wrap: balance; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; padding-top: 1.2rem; border-top: 1px solid var(--line); }
-p { margin: .7rem 0; }
+p { margin: .7rem 0; max-width: 46rem; }
+figcaption { max-width: 46rem; }
 a { color: var(--link); }
 .kicker { color: var(--soft); margin: 0; font-size: .9rem; }
 .answer { font-size: 1.15rem; }
@@ -21,10 +22,10 @@ a { color: var(--link); }
 .verdict.failed { border-color: #d55e00; }
 figure { margin: 1.6rem 0; }
 figure svg { display: block; width: 100%; height: auto; }
-figcaption, caption { color: var(--soft); font-size: .92rem; text-align: left; }
+figcaption, .caption { color: var(--soft); font-size: .92rem; }
 figcaption { margin-top: .5rem; }
-caption { padding-bottom: .5rem; caption-side: top; }
-.wide { overflow-x: auto; margin: 1.2rem 0; }
+.caption { margin: 1.8rem 0 .4rem; }
+.wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
 thead th { border-top: 2px solid var(--ink); border-bottom: 1px solid var(--ink); vertical-align: bottom; }
 tbody tr:last-child td { border-bottom: 2px solid var(--ink); }
@@ -37,7 +38,9 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .25rem 1.2rem; font-size: .92rem; }
 dt { color: var(--soft); }
 dd { margin: 0; }
-ul { padding-left: 1.2rem; }
+sup { line-height: 0; }
+ul { padding-left: 1.2rem; columns: 17rem; }
+.caption a { white-space: nowrap; }
 @media (max-width: 40rem) {
   body { font-size: 16px; }
   h1 { font-size: 1.4rem; }
@@ -53,7 +56,7 @@ ul { padding-left: 1.2rem; }
   pre { white-space: pre-wrap; }
   table { font-size: 7.5pt; }
   figure, tr, pre { break-inside: avoid; }
-  h2 { break-after: avoid; }
+  h2, .caption { break-after: avoid; }
   thead { display: table-header-group; }
 }
 )css";
