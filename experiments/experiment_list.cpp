@@ -1,0 +1,17 @@
+#include <thinwall/experiments/experiment_list.hpp>
+
+#include <array>
+
+#include <thinwall/experiments/thin_wall.hpp>
+
+namespace thinwall {
+
+std::span<const Experiment> experiments() {
+  // A new experiment is a line here: one that registered itself could be dropped by the linker.
+  static const std::array list = {
+      thin_wall_experiment(),
+  };
+  return list;
+}
+
+}  // namespace thinwall
