@@ -2,11 +2,25 @@
 /// The front door of every time of impact: checks the input, puts the later shape first (and flips the answer back),
 /// keeps coordinates near the largest number from overflowing, and computes a float query in double.
 
+#include <cassert>
 #include <type_traits>
 
 #include <thinwall/swept/closed_form.hpp>
 
 namespace thinwall {
+
+template <class Method, Shape A, Shape B>
+Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b);
+
+/// The same question with every length divided by 2^8, for coordinates near the largest number.
+template <class Method, Shape A, Shape B>
+Toi<typename A::Scalar> impact_scaled_down(Method method, const Moving<A>& a, const Moving<B>& b) {
+  using std::ldexp;
+  method.min_separation = ldexp(method.min_separation, -8);
+  Toi<typename A::Scalar> toi = time_of_impact(method, scaled(a, -8), scaled(b, -8));
+  toi.point = times_power_of_two(toi.point, 8);
+  return toi;
+}
 
 /// When A and B first touch during the step, by `method`.
 /// Returns `invalid` with time NaN for a NaN, an infinity, a negative size or a negative min_separation.
@@ -21,22 +35,20 @@ Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a,
   if constexpr (A::rank < B::rank) {
     return flipped(time_of_impact(method, b, a));
   } else {
-    if (!valid(a) || !valid(b) || !is_finite(method.min_separation) || method.min_separation < 0) {
-      return {ToiStatus::invalid, 0, std::numeric_limits<S>::quiet_NaN()};
+    const auto gap = method.min_separation;
+    const S size = magnitude(a) + magnitude(b) + S(gap);
+    if (!has_valid_sizes(a.shape) || !has_valid_sizes(b.shape) || !(gap >= 0) || !is_finite(size)) {
+      const bool huge =
+          valid(a) && valid(b) && gap >= 0 && is_finite(gap);  // finite all the same, but their sum is not
+      return huge ? impact_scaled_down(method, a, b) : Toi<S>{ToiStatus::invalid, 0, nan_vector<S>()[0]};
     }
+    assert(valid(a.shape) && valid(b.shape) && "axes must be orthonormal");
     if constexpr (std::is_same_v<S, float>) {
       const Toi<double> toi = impact(method, cast<double>(a), cast<double>(b));
       return {toi.status, toi.evaluations, static_cast<float>(toi.time), toi.normal.template cast<float>(),
               toi.point.template cast<float>()};
-    } else if (is_ordinary(S(magnitude(a) + magnitude(b) + S(method.min_separation)))) {
-      return impact(method, a, b);
     } else {
-      Method smaller = method;
-      using std::ldexp;
-      smaller.min_separation = ldexp(method.min_separation, -8);
-      Toi<S> toi = time_of_impact(smaller, scaled(a, -8), scaled(b, -8));
-      toi.point = times_power_of_two(toi.point, 8);
-      return toi;
+      return is_ordinary(size) ? impact(method, a, b) : impact_scaled_down(method, a, b);
     }
   }
 }
