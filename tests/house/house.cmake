@@ -2,30 +2,31 @@
 set(house "${CMAKE_CURRENT_LIST_DIR}")
 
 # Every header alone: one file a header, which includes it twice and nothing else. A broken one stops the build.
-# `all_FOLDER.cpp` includes a whole folder: one file for clang-tidy to read.
-function(thinwall_headers_alone folder prefix location)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${location}" "${location}/*.hpp")
-  if(NOT headers)
-    return()
-  endif()
-  set(sources "")
-  set(all "")
-  foreach(header IN LISTS headers)
-    string(REPLACE "@" "${header}" include "#include ${prefix}\n")
-    file(CONFIGURE OUTPUT "headers_alone/${folder}/${header}.cpp" CONTENT "${include}${include}" @ONLY)
-    list(APPEND sources "${CMAKE_CURRENT_BINARY_DIR}/headers_alone/${folder}/${header}.cpp")
-    string(APPEND all "${include}")
-  endforeach()
-  file(CONFIGURE OUTPUT "headers_alone/all_${folder}.cpp" CONTENT "${all}" @ONLY)
-  add_library(headers_alone_${folder} OBJECT ${sources} "${CMAKE_CURRENT_BINARY_DIR}/headers_alone/all_${folder}.cpp")
-  target_compile_options(headers_alone_${folder} PRIVATE -O0 -g0)
-  target_link_libraries(headers_alone_${folder} PRIVATE ${ARGN} thinwall_options)
-endfunction()
-
+# `all_FOLDER.cpp` includes a whole folder: one file for clang-tidy to read, never built.
 foreach(folder IN ITEMS discrete capsule swept experiments)
-  thinwall_headers_alone(${folder} "<thinwall/${folder}/@>" "${PROJECT_SOURCE_DIR}/${folder}" thinwall::${folder})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/${folder}" "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
+  set(sources "")
+  set(all "${CMAKE_CURRENT_BINARY_DIR}/headers/all_${folder}.cpp")
+  set(all_includes "")
+  foreach(header IN LISTS headers)
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/headers/${folder}/${header}.cpp")
+    set(include "#include <thinwall/${folder}/${header}>\n")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "${include}${include}" @ONLY)
+    list(APPEND sources "${source}")
+    string(APPEND all_includes "${include}")
+  endforeach()
+  file(CONFIGURE OUTPUT "${all}" CONTENT "${all_includes}" @ONLY)
+
+  add_library(headers_alone_${folder} OBJECT ${sources})
+  target_compile_options(headers_alone_${folder} PRIVATE -O0 -g0)
+  add_library(headers_all_${folder} OBJECT EXCLUDE_FROM_ALL "${all}")
+  foreach(target IN ITEMS headers_alone_${folder} headers_all_${folder})
+    target_link_libraries(${target} PRIVATE thinwall::${folder} thinwall_options)
+  endforeach()
+  if(NOT THINWALL_HEADERS_ALONE)
+    set_target_properties(headers_alone_${folder} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
 endforeach()
-thinwall_headers_alone(support "\"support/@\"" "${CMAKE_CURRENT_SOURCE_DIR}/support" thinwall_test_support thinwall::swept)
 
 # Dependencies point one way, and the check itself is checked on trees that break each rule.
 add_test(NAME house/include_direction
