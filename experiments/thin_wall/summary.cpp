@@ -46,12 +46,14 @@ std::string bullet_row(const Line& line) {
 }
 
 std::string total_row(const Total& total) {
-  const std::string theory = total.theory_shots == 0 ? "-" : percent(share(total.theory_expected, total.theory_shots));
-  const std::string counted =
-      total.theory_shots == 0 ? "-" : percent(share(static_cast<double>(total.theory_tunneled), total.theory_shots));
-  return fmt::format("{:<18}{:>12}  {:>12}  {:>8}  {:>9}  {:>9}  {:>13}\n", total.method, grouped_text(total.shots),
-                     grouped_text(total.tunneled), grouped_text(total.cells - total.clean_cells), counted, theory,
-                     total.worst_residual == 0 ? "-" : fmt::format("{:+.2f}", total.worst_residual));
+  const bool known = total.theory_shots > 0;
+  return fmt::format("{:<18}{:>11}  {:>10}  {:>8}  {:>8}  {:>8}  {:>8}  {:>9.0f}\n", total.method,
+                     grouped_text(total.shots), grouped_text(total.tunneled),
+                     grouped_text(total.cells - total.clean_cells),
+                     known ? percent(share(static_cast<double>(total.theory_tunneled), total.theory_shots)) : "-",
+                     known ? percent(share(total.theory_expected, total.theory_shots)) : "-",
+                     total.worst_residual == 0 ? "-" : fmt::format("{:+.2f}", total.worst_residual),
+                     1e9 * total.seconds / static_cast<double>(total.shots));
 }
 
 /// How many cells count differently at float and at double.
@@ -133,10 +135,11 @@ std::string summary_text(const std::vector<Line>& lines, const std::vector<Total
     if (*line.cell == bullet && line.detector->scalar == spoken[0].scalar) text += bullet_row(line);
   }
   text += fmt::format(
-      "\nAll {} cells together ({}); share and theory where there is a formula.\n"
-      "{:<18}{:>12}  {:>12}  {:>8}  {:>9}  {:>9}  {:>13}\n",
+      "\nAll {} cells ({}). Share and theory: of the shots for which there is a formula. Residual: the\n"
+      "worst of any cell that can be judged, in standard errors. Time a shot includes drawing it.\n"
+      "{:<18}{:>11}  {:>10}  {:>8}  {:>8}  {:>8}  {:>8}  {:>9}\n",
       grouped_text(spoken[0].cells), spoken[0].scalar, "method", "shots", "tunneled", "in cells", "share", "theory",
-      "worst residual");
+      "residual", "time [ns]");
   for (const Total& total : spoken) text += total_row(total);
   text += "\n";
   text += scalar_line(lines);
