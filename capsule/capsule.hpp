@@ -71,6 +71,8 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Sphere<S>
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Aabb<S>& box, const S& reach) {
+  const auto [first, last] = stretch_between_faces<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents);
+  if (first <= last) return true;  // the core pierces the box, be it a plate without thickness
   const S s = closest_core_parameter(capsule, box);
   return within(excess_of<S>((capsule.a - box.center) + (capsule.b - capsule.a) * s, box.half_extents), reach);
 }

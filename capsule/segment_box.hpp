@@ -62,6 +62,24 @@ template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& 
   return falling + (rising - falling) * (falling_slope / (falling_slope - rising_slope));
 }
 
+/// The stretch [first, last] of [0, 1] on which p + s * d is between the two faces of the box [-h, h] across each axis but
+/// `skipped`. Empty if first > last. No point is computed, whose rounding could put it beside a box without thickness.
+template <Scalar S>
+std::array<S, 2> stretch_between_faces(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h, int skipped = -1) {
+  S first = 0, last = 1;
+  for (int i = 0; i < 3; ++i) {
+    if (i == skipped) continue;
+    if (d[i] == S(0)) {
+      if (largest(p[i]) > h[i]) return {S(1), S(0)};
+      continue;
+    }
+    const S side = d[i] > S(0) ? S(1) : S(-1);
+    first = std::max(first, S((-side * h[i] - p[i]) / d[i]));
+    last = std::min(last, S((side * h[i] - p[i]) / d[i]));
+  }
+  return {first, last};
+}
+
 /// The least translation that parts a segment p + s d from the box [-h, h] that it touches or crosses, as a gap from
 /// the segment (relative to its middle) to the box: the smallest overlap along the three face normals and the three
 /// products of an edge with d, which are all the faces their Minkowski difference has.
@@ -93,8 +111,12 @@ template <Scalar S> CoreGap<S> segment_through_box(const Vec3<S>& p, const Vec3<
   gap.distance = -least;
   gap.normal = -outward;
   S s = closest_parameter_to_box(p, d, h);
-  if (edge < 0) {  // the deepest end; the middle of the crossing where the segment runs along the face
-    if (d[face] != S(0)) s = (d[face] > S(0)) == (outward[face] > S(0)) ? S(0) : S(1);
+  if (least <= S(0)) {  // they only touch, within rounding
+    gap.local_b = Vec3<S>(p + d * s).cwiseMin(h).cwiseMax(-h);
+  } else if (edge < 0) {  // the deepest end; the middle of the crossing where the segment runs along the face
+    const auto [first, last] =
+        stretch_between_faces(p, d, h, face);  // an end beyond the face is no deeper than rounding
+    if (first <= last && d[face] != S(0)) s = (d[face] > S(0)) == (outward[face] > S(0)) ? first : last;
     gap.local_b = Vec3<S>(p + d * s).cwiseMin(h).cwiseMax(-h);
     gap.local_b[face] = outward[face] * h[face];
   } else {
