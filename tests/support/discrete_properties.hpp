@@ -18,36 +18,67 @@ template <class First, class Second> struct PairOf {
   using S = typename First::Scalar;
 };
 
+/// The rounding of a gap: of all coordinates, for every one of them may decide where the shapes are nearest.
+template <class S> oracle::Real rounding_of(const oracle::Pair& pair) {
+  return oracle::unit_roundoff<S>() * size_at(pair, 0);
+}
+
+/// True if the cores are apart by so little that a query may take them for touching: then the normal is arbitrary, and
+/// the points are off by the gap.
+inline bool cores_nearly_touch(const oracle::Gap& truth, const oracle::Real& rounding) {
+  return truth.core >= 0 && truth.core <= 64 * rounding;
+}
+
+/// How far a surface of this radius curves away within the error of the normal: cores that are near each other leave
+/// little to tell the direction by.
+inline oracle::Real curvature(const oracle::Real& core, const oracle::Real& radius, const oracle::Real& rounding) {
+  if (core <= 0) return 0;
+  const oracle::Real turned = core > 16 * rounding ? oracle::Real(16 * rounding / core) : oracle::Real(1);
+  return radius * turned * turned / 2;
+}
+
+/// Is this the direction in which the shapes are that far apart?
+template <class S> bool is_contact_normal(const oracle::Pair& pair, const oracle::Gap& truth, const Vec3<S>& normal) {
+  if (!is_unit(normal)) return false;
+  const oracle::Vector found = oracle::lift_vector(normal);
+  const oracle::Real rounding = rounding_of<S>(pair);
+  if (cores_nearly_touch(truth, rounding)) return true;
+  if (truth.core > 0) return oracle::length(found - truth.normal) * truth.core <= 16 * rounding;
+  return oracle::separation_along(pair, 0, found) >= truth.separation - 16 * rounding;
+}
+
 /// overlaps() is the sign of the separation, but for inputs within 4 u of a touch.
 template <class A, class B> void overlaps_has_the_sign_of_the_separation() {
   using S = typename A::Scalar;
   const auto [a, b] = draw_pair<A, B>();
   const oracle::Pair pair = oracle::pair(a, b);
   const oracle::Gap truth = oracle::gap(pair, 0);
-  const oracle::Real rounding = oracle::unit_roundoff<S>() * oracle::scale(pair, 0, truth.normal);
-  if (abs(truth.separation) <= 4 * rounding) return;
+  if (abs(truth.separation) <= 4 * rounding_of<S>(pair)) return;
   RC_ASSERT(overlaps(a, b) == (truth.separation < 0));
   RC_ASSERT(overlaps(b, a) == (truth.separation < 0));
 }
 
-/// separation(): the distance within 8 u, a normal along which the shapes are that far apart, a point on each surface.
+/// separation(): the distance within 4 u, a normal along which the shapes are that far apart, a point on each surface.
 template <class A, class B> void separation_is_the_distance() {
   using S = typename A::Scalar;
   const auto [a, b] = draw_pair<A, B>();
   const oracle::Pair pair = oracle::pair(a, b);
   const oracle::Gap truth = oracle::gap(pair, 0);
-  const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(pair, 0);
   const Separation<S> found = separation(a, b);
 
-  RC_ASSERT(abs(oracle::lift(found.distance) - truth.separation) <= 8 * rounding);
-  RC_ASSERT(is_unit(found.normal));
+  const oracle::Real error = abs(oracle::lift(found.distance) - truth.separation);
+  RC_ASSERT(error <= 4 * rounding_of<S>(pair));
+  RC_ASSERT(is_contact_normal<S>(pair, truth, found.normal));
+
   const oracle::Vector normal = oracle::lift_vector(found.normal);
-  RC_ASSERT(oracle::separation_along(pair, 0, normal) >= truth.separation - 8 * rounding);
+  const oracle::Real rounding = rounding_of<S>(pair);
+  const oracle::Real allowed =
+      (cores_nearly_touch(truth, rounding) ? 96 : 32) * rounding + curvature(truth.core, pair.reach(), rounding);
   const oracle::Vector point_a = oracle::lift_vector(found.point_a), point_b = oracle::lift_vector(found.point_b);
-  RC_ASSERT(off_surface(point_a, pair.a) <= 16 * rounding);
-  RC_ASSERT(off_surface(point_b, pair.b) <= 16 * rounding);
+  RC_ASSERT(off_surface(point_a, pair.a) <= allowed);
+  RC_ASSERT(off_surface(point_b, pair.b) <= allowed);
   const oracle::Vector between = point_b - point_a;
-  RC_ASSERT(oracle::length(between - oracle::lift(found.distance) * normal) <= 16 * rounding);
+  RC_ASSERT(oracle::length(between - oracle::lift(found.distance) * normal) <= allowed);
 }
 
 /// contact(): there when overlaps() says so; moving B by the penetration along the normal leaves a touch.
@@ -60,42 +91,52 @@ template <class A, class B> void contact_moves_out() {
   RC_ASSERT(found->penetration >= S(0));
   RC_ASSERT(is_unit(found->normal));
   oracle::Pair pair = oracle::pair(a, b);
-  const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(pair, 0);
+  const oracle::Real rounding = rounding_of<S>(pair);
+  const oracle::Real shortfall = curvature(oracle::gap(pair, 0).core, oracle::lift(found->penetration), rounding);
   pair.b.center = pair.b.center + oracle::lift(found->penetration) * oracle::lift_vector(found->normal);
-  RC_ASSERT(abs(oracle::gap(pair, 0).separation) <= 16 * rounding);
+  RC_ASSERT(abs(oracle::gap(pair, 0).separation) <= 32 * rounding + shortfall);
 }
 
-/// Passing A and B the other way round flips the normal and swaps the points: to the bit between different shapes.
+/// Passing A and B the other way round flips the normal and swaps the points: to the bit between different shapes. A
+/// normal that is arbitrary (the cores touch) does not flip, and takes the points with it.
 template <class A, class B> void other_way_round_is_the_same() {
   using S = typename A::Scalar;
   const auto [a, b] = draw_pair<A, B>();
-  RC_ASSERT(overlaps(a, b) == overlaps(b, a));
+  const oracle::Pair pair = oracle::pair(a, b);
+  const oracle::Gap truth = oracle::gap(pair, 0);
+  const oracle::Real rounding = rounding_of<S>(pair);
   const Separation<S> there = separation(a, b), back = separation(b, a);
   const auto contact_there = contact(a, b), contact_back = contact(b, a);
-  RC_ASSERT(contact_there.has_value() == contact_back.has_value());
   if constexpr (std::is_same_v<A, B>) {
-    const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(oracle::pair(a, b), 0);
-    RC_ASSERT(abs(oracle::lift(there.distance) - oracle::lift(back.distance)) <= 16 * rounding);
-    if (contact_there)
-      RC_ASSERT(abs(oracle::lift(contact_there->penetration) - oracle::lift(contact_back->penetration)) <=
-                16 * rounding);
+    RC_ASSERT(abs(oracle::lift(there.distance) - oracle::lift(back.distance)) <= 8 * rounding);
+    if (abs(truth.separation) <= 4 * rounding) return;  // too near a touch to call
+    RC_ASSERT(contact_there.has_value() == contact_back.has_value());
+    if (!contact_there) return;
+    const auto penetration = oracle::lift(contact_there->penetration), other = oracle::lift(contact_back->penetration);
+    RC_ASSERT(abs(oracle::Real(penetration - other)) <= 8 * rounding);
   } else {
+    RC_ASSERT(overlaps(a, b) == overlaps(b, a));
     RC_ASSERT(there.distance == back.distance);
+    RC_ASSERT(contact_there.has_value() == contact_back.has_value());
+    if (contact_there) RC_ASSERT(contact_there->penetration == contact_back->penetration);
+    if (there.normal == back.normal) {
+      RC_ASSERT(cores_nearly_touch(truth, rounding));
+      return;
+    }
+    RC_ASSERT(there.normal == -back.normal);
     RC_ASSERT(there.point_a == back.point_b);
     RC_ASSERT(there.point_b == back.point_a);
-    if (there.distance + S(1) != S(1)) RC_ASSERT(there.normal == -back.normal);
-    if (contact_there) {
-      RC_ASSERT(contact_there->penetration == contact_back->penetration);
-      RC_ASSERT(contact_there->local_a == contact_back->local_b);
-      RC_ASSERT(contact_there->local_b == contact_back->local_a);
-    }
+    if (!contact_there) return;
+    RC_ASSERT(contact_there->normal == -contact_back->normal);
+    RC_ASSERT(contact_there->local_a == contact_back->local_b);
+    RC_ASSERT(contact_there->local_b == contact_back->local_a);
   }
 }
 
 /// Lengths times 2^k: the same bits, as long as nothing leaves the range of the scalar.
 template <class A, class B> void same_bits_at_every_size() {
   using S = typename A::Scalar;
-  const auto [a, b] = draw_pair<A, B>();
+  const auto [a, b] = draw_pair<A, B>(*rc::gen::element(Style::lattice, Style::plain));
   const int k = *rc::gen::element(-600, -90, -60, -1, 1, 60, 90, 600);
   const A large_a = resized(a, k);
   const B large_b = resized(b, k);

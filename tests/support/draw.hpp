@@ -17,6 +17,10 @@ namespace thinwall::testing {
 /// How the coordinates of one case are drawn.
 enum class Style { lattice, plain, decades };
 
+inline std::ostream& operator<<(std::ostream& out, Style style) {
+  return out << (style == Style::lattice ? "lattice" : style == Style::plain ? "plain" : "decades");
+}
+
 inline Style draw_style() { return *rc::gen::element(Style::lattice, Style::plain, Style::plain, Style::decades); }
 
 /// A coordinate of magnitude about one; with Style::decades down to 2^-30 and up to 2^30.
@@ -106,13 +110,13 @@ template <class A, class B> void bring_together(const A& a, B& b, const oracle::
 }
 
 /// Two shapes at rest, a third of them all but touching.
-template <class A, class B> std::pair<A, B> draw_pair() {
-  const Style style = draw_style();
+template <class A, class B> std::pair<A, B> draw_pair(Style style) {
   const A a = Draw<A>::shape(style);
   B b = Draw<B>::shape(style);
   if (draw_integer(0, 2) == 0) bring_together(a, b, 0);
   RC_LOG() << describe(a) << "\n" << describe(b) << "\n";
   return {a, b};
 }
+template <class A, class B> std::pair<A, B> draw_pair() { return draw_pair<A, B>(draw_style()); }
 
 }  // namespace thinwall::testing

@@ -28,12 +28,12 @@ TYPED_TEST_SUITE(ExactCases, Scalars, ScalarNames);
 
 /// A touch cannot be told from a miss by kappa: the time of a graze must not be later than the contact, nor earlier
 /// than a backward error of 4 u would put it.
-template <class S>::testing::AssertionResult judge_graze(const oracle::Pair& pair, const S& time) {
+template <class S> AssertionResult judge_graze(const oracle::Pair& pair, const S& time) {
   const oracle::Impact truth = oracle::impact(pair);
   const oracle::Real slack = truth.time - oracle::earliest_time<S>(pair, truth, 4);
   const oracle::Real late = oracle::lift(time) - truth.time;
-  if (abs(late) <= slack) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "off by " << late << " where " << slack << " is the most";
+  if (abs(late) <= slack) return AssertionSuccess();
+  return AssertionFailure() << "off by " << late << " where " << slack << " is the most";
 }
 
 template <class A, class B> void expect_exact(const Moving<A>& a, const Moving<B>& b) {
