@@ -23,8 +23,8 @@ template <Scalar S> DoubleWord<S> exact_sum(const S& a, const S& b) {
 
 /// a * b exactly, by splitting each factor into halves whose products fit.
 template <Scalar S> DoubleWord<S> exact_product(const S& a, const S& b) {
-  static const S splitter = power_of_two<S>((std::numeric_limits<S>::digits + 1) / 2) + S(1);
-  const auto split = [](const S& x) {
+  const S splitter = constant_power_of_two<S, (std::numeric_limits<S>::digits + 1) / 2>() + S(1);
+  const auto split = [&splitter](const S& x) {
     const S big = splitter * x;
     const S high = big - (big - x);
     return DoubleWord<S>{high, x - high};

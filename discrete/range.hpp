@@ -4,6 +4,7 @@
 /// every length is multiplied by one power of two, which is exact, and the answer is scaled back.
 
 #include <algorithm>
+#include <type_traits>
 
 #include <thinwall/discrete/scalar.hpp>
 
@@ -13,6 +14,22 @@ namespace thinwall {
 template <Scalar S> S power_of_two(int e) {
   using std::ldexp;
   return ldexp(S(1), e);
+}
+
+/// The same as a constant: computed by the compiler for the built-in types, once for the others.
+template <Scalar S, int e> const S& constant_power_of_two() {
+  if constexpr (std::is_floating_point_v<S>) {
+    static constexpr S value = [] {
+      S power = 1;
+      for (int i = 0; i < e; ++i) power *= 2;
+      for (int i = 0; i > e; --i) power /= 2;
+      return power;
+    }();
+    return value;
+  } else {
+    static const S value = power_of_two<S>(e);
+    return value;
+  }
 }
 
 /// The exponent e for which 2^e <= |x| < 2^(e + 1); 0 for zero, infinity and NaN.
@@ -41,16 +58,14 @@ template <class First, class... Rest> auto largest(const First& first, const Res
 
 /// Products of up to four lengths of magnitude x neither overflow nor lose their leading digits.
 template <Scalar S> bool products_in_range(const S& x) {
-  static const S lower = power_of_two<S>(std::numeric_limits<S>::min_exponent / 5);
-  static const S upper = power_of_two<S>(std::numeric_limits<S>::max_exponent / 5);
-  return x >= lower && x <= upper;
+  return x >= constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 5>() &&
+         x <= constant_power_of_two<S, std::numeric_limits<S>::max_exponent / 5>();
 }
 
 /// A square that stands for its root: neither overflowed nor gnawed at by underflow.
 template <Scalar S> bool square_in_range(const S& square) {
-  static const S lower = power_of_two<S>(std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits);
-  static const S upper = std::numeric_limits<S>::max();
-  return square >= lower && square <= upper;
+  constexpr int lower = std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits;
+  return square >= constant_power_of_two<S, lower>() && square <= std::numeric_limits<S>::max();
 }
 
 /// A gap this small between cores of this size is round-off: it has a length but no direction.
