@@ -1,5 +1,5 @@
 # Sourced by demo and check: what they need, and how it gets there.
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 
 # To build and run the program.
 program_packages=(
@@ -44,7 +44,7 @@ missing_commands() {
 # install_packages PACKAGE...: installs what is missing of them, and says which.
 install_packages() {
   local missing as_root=()
-  mapfile -t missing < <(missing_packages "$@")
+  read -ra missing <<<"$(missing_packages "$@" | tr '\n' ' ')"
   if ((${#missing[@]} == 0)); then
     echo "All $# packages are installed."
     return
@@ -66,7 +66,7 @@ install_packages() {
 # need_commands NAME...: on a system without apt, stops if a tool is missing. CMake itself names missing libraries.
 need_commands() {
   local missing
-  mapfile -t missing < <(missing_commands "$@")
+  read -ra missing <<<"$(missing_commands "$@" | tr '\n' ' ')"
   ((${#missing[@]} == 0)) || die "this is not Debian or Ubuntu, so nothing is installed for you; missing: ${missing[*]}
 Install them, then run this again with THINWALL_FETCH=ON ./$(basename "$0"): CMake downloads the missing libraries."
   echo "All of these are there: $*"
