@@ -39,7 +39,8 @@ constexpr const char* exit_codes = R"(Exit codes:
   2    bad input: one line on stderr says where and what is allowed
   130  interrupted: what was finished is kept, and the line that continues is printed
 
-Results and --json go to stdout, progress and notes to stderr. NO_COLOR and TERM=dumb are respected.
+Results and --json go to stdout, notes and progress to stderr; the progress bar only to a terminal that is not dumb.
+Nothing is colored, with NO_COLOR or without.
 )";
 
 constexpr int most_threads = 4096;
@@ -134,8 +135,10 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
     out.text = version_text();
     return out;
   } catch (const CLI::ArgumentMismatch& error) {
-    const std::string what = error.what();
-    throw UsageError(one_line(what.substr(0, what.find(':'))) + ": exactly one value is needed; see thinwall --help");
+    const std::string what = one_line(error.what()), option = what.substr(0, what.find_first_of(": "));
+    const bool is_flag = what.find("flag override") != std::string::npos;
+    throw UsageError((is_flag ? "--" + option + ": takes no value" : option + ": exactly one value is needed") +
+                     "; see thinwall --help");
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + "; see thinwall --help");
   }

@@ -29,11 +29,6 @@ bool stderr_is_terminal() {
   return ::isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
 }
 
-bool stderr_has_color() {
-  const char* const no_color = std::getenv("NO_COLOR");
-  return stderr_is_terminal() && (no_color == nullptr || *no_color == '\0');
-}
-
 std::string progress_line(const Progress& progress, double seconds) {
   constexpr int width = 24;
   const bool weighed = progress.trials > 0;  // units differ in size: their trials tell more than their number

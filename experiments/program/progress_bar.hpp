@@ -11,9 +11,6 @@ namespace thinwall {
 /// True if stderr is a terminal that can redraw a line (TERM is not `dumb`).
 bool stderr_is_terminal();
 
-/// True if stderr may be colored: a terminal, and NO_COLOR is not set.
-bool stderr_has_color();
-
 /// One line of at most 79 letters: bar, share, trials, rate and time left.
 std::string progress_line(const Progress& progress, double seconds);
 

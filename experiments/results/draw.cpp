@@ -39,7 +39,7 @@ std::string draw(const std::filesystem::path& folder, const std::string& name) {
 std::string inline_svg(std::string svg, const std::string& name, const std::string& label) {
   svg.erase(0, std::min(svg.find("<svg"), svg.size()));
   for (const std::string& id : ids_in(svg)) {
-    const std::string own = id.starts_with(name) ? id : name + "_" + id;
+    const std::string own = id.starts_with(name + "_") ? id : name + "_" + id;
     for (const char* form : {" id='{}'", " id=\"{}\"", "'#{}'", "\"#{}\"", "url(#{})"}) {
       replace_all(svg, fmt::format(fmt::runtime(form), id), fmt::format(fmt::runtime(form), own));
     }

@@ -1,5 +1,6 @@
 #include <thinwall/experiments/results/plot.hpp>
 
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -159,6 +160,7 @@ std::string plot_script(const Figure& figure) {
 }
 
 std::string plot_data(const Figure& figure) {
+  const auto number = [](double value) { return std::isfinite(value) ? exact_text(value) : "NaN"; };
   std::string out;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     for (const Series& series : figure.panels[p].series) {
@@ -166,8 +168,8 @@ std::string plot_data(const Figure& figure) {
       out += fmt::format("# panel {}, {}: x y{}\n", p + 1, one_line(series.label), bars ? " lower upper" : "");
       if (series.x.empty()) out += "NaN NaN NaN NaN\n";  // a block must not be empty
       for (std::size_t i = 0; i < series.x.size(); ++i) {
-        out += exact_text(series.x[i]) + " " + exact_text(series.y[i]);
-        if (bars) out += " " + exact_text(series.lower[i]) + " " + exact_text(series.upper[i]);
+        out += number(series.x[i]) + " " + number(series.y[i]);
+        if (bars) out += " " + number(series.lower[i]) + " " + number(series.upper[i]);
         out += "\n";
       }
       out += "\n\n";

@@ -36,10 +36,21 @@ std::string read_file(const fs::path& file) {
 
 }  // namespace
 
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool FolderLock::take(const fs::path& folder) {
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
+  return ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+}
+
 ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(std::move(path)) {
   try {
     fs::create_directories(path_);
-    lock();
+    if (!lock_.take(path_)) refuse("another run is at work here; wait for it or name another folder");
+    fs::remove_all(staging());  // of a run that was killed while it wrote its results
     look_at_manifest(identity);
     if (!complete_) look_at_journal(identity);
   } catch (const std::system_error& error) {
@@ -50,17 +61,10 @@ ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(s
 ResultFolder::~ResultFolder() {
   std::error_code none;
   fs::remove_all(staging(), none);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void ResultFolder::refuse(const std::string& why) const {
   throw UsageError(fmt::format("--out {}: {}", one_line(path_.string()), why));
-}
-
-void ResultFolder::lock() {
-  lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw std::system_error(errno, std::generic_category());
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) refuse("another run is at work here; wait for it or name another folder");
 }
 
 void ResultFolder::look_at_manifest(const RunIdentity& identity) {

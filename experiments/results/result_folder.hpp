@@ -18,6 +18,21 @@
 
 namespace thinwall {
 
+/// Holds a folder for this process alone, as long as it lives.
+class FolderLock {
+ public:
+  FolderLock() = default;
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  /// False if another process holds it. Throws std::system_error if there is no such folder.
+  bool take(const std::filesystem::path& folder);
+
+ private:
+  int descriptor_ = -1;
+};
+
 class ResultFolder {
  public:
   /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
@@ -50,16 +65,15 @@ class ResultFolder {
   void publish();
 
  private:
-  void lock();
   void look_at_manifest(const RunIdentity& identity);
   void look_at_journal(const RunIdentity& identity);
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::filesystem::path path_;
+  FolderLock lock_;
   std::vector<std::string> notes_;
   std::optional<Manifest> complete_, replaced_;
   std::unique_ptr<Journal> journal_;
-  int lock_ = -1;
 };
 
 }  // namespace thinwall

@@ -18,8 +18,8 @@ json to_json(const RunIdentity& identity) {
 }
 
 std::string difference(const std::string& name, const json& theirs, const json& ours) {
-  constexpr std::size_t letters = 40;
-  return name + " = " + clipped(theirs.dump(), letters) + ", not " + clipped(ours.dump(), letters);
+  const auto shown = [](const json& value) { return value.is_null() ? "none" : clipped(value.dump(), 40); };
+  return name + " = " + shown(theirs) + ", not " + shown(ours);
 }
 
 }  // namespace
