@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include <thinwall/experiments/results/plot.hpp>
+#include <thinwall/experiments/results/plot_axis.hpp>
+#include <thinwall/experiments/results/plot_style.hpp>
+
+#include "support/temporary_folder.hpp"
+
+namespace thinwall {
+namespace {
+
+Figure two_panels() {
+  const double gap = std::numeric_limits<double>::quiet_NaN();
+  const Series theory{
+      .label = "theory", .mark = Mark::line, .x = {1, 10, 100}, .y = {0, gap, 1}, .lower = {}, .upper = {}};
+  const Series points{
+      .label = "it's_@{a}", .mark = Mark::points, .x = {1, 10}, .y = {0, 0.5}, .lower = {0, 0.4}, .upper = {0.1, 0.6}};
+  Series residuals = points;
+  residuals.lower.clear();
+  residuals.upper.clear();
+  return {.name = "probability",
+          .title = "Seen",
+          .caption = "Meant.",
+          .panels = {{"x [1]", "p [1]", true, false, 1, {theory, points}},
+                     {"x [1]", "r [1]", true, false, 0.4, {residuals}}}};
+}
+
+bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null") == 0; }
+
+TEST(Plot, is_drawn_the_same_every_time_and_again_by_a_reader) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "probability.gp", plot_script(two_panels()));
+  write_text(folder / "probability.dat", plot_data(two_panels()));
+  ASSERT_EQ(draw(folder.path(), "probability"), "");
+  const std::string first = read_text(folder / "probability.svg");
+  ASSERT_EQ(std::system(("cd " + folder.path().string() + " && gnuplot probability.gp").c_str()), 0);
+  EXPECT_EQ(read_text(folder / "probability.svg"), first);
+  for (const char* text : {"Seen", "x [1]", "p [1]", "r [1]", "it&#39;s_@{a}", "it's_@{a}"}) {
+    if (first.find(text) != std::string::npos) continue;
+    EXPECT_STREQ(text, "it&#39;s_@{a}") << "not in the figure";  // either spelling of the quote is right
+  }
+}
+
+TEST(Plot, says_what_gnuplot_minds) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "broken.gp", "set nonsense\n");
+  const std::string trouble = draw(folder.path(), "broken");
+  EXPECT_TRUE(trouble.starts_with("gnuplot ended with 1: ")) << trouble;
+  EXPECT_EQ(trouble.find('\n'), std::string::npos);
+}
+
+TEST(Plot, data_are_a_block_a_series) {
+  EXPECT_EQ(plot_data(two_panels()),
+            "# panel 1, theory: x y\n1 0\n10 NaN\n100 1\n\n\n"
+            "# panel 1, it's_@{a}: x y lower upper\n1 0 0 0.1\n10 0.5 0.4 0.6\n\n\n"
+            "# panel 2, it's_@{a}: x y\n1 0\n10 0.5\n\n\n");
+}
+
+TEST(Plot, refuses_what_cannot_be_drawn) {
+  Figure figure = two_panels();
+  figure.name = "../up";
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+  figure = two_panels();
+  figure.panels[0].series[0].y.pop_back();
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+  figure.panels.clear();
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+}
+
+TEST(PlotStyle, is_one_look_a_label) {
+  Figure figure = two_panels();
+  for (const char* label : {"a", "b", "c", "d"}) {
+    figure.panels[0].series.push_back(
+        {.label = label, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}});
+  }
+  const auto styles = series_styles(figure);
+  ASSERT_EQ(styles.size(), 6u);
+  EXPECT_EQ(styles[0].color, "#000000") << "theory is black";
+  std::set<std::string> colors;
+  std::set<int> points;
+  for (const SeriesStyle& style : styles) {
+    colors.insert(style.color);
+    if (style.has_points) points.insert(style.point_type);
+  }
+  EXPECT_EQ(colors.size(), 6u);
+  EXPECT_EQ(points.size(), 5u) << "told apart without color too";
+}
+
+TEST(PlotAxis, shows_every_value_and_skips_what_it_cannot_show) {
+  const std::vector<double> values = {0, 1, std::nan(""), 100};
+  const Axis linear = axis_around(values, false);
+  EXPECT_LT(linear.lower, 0);
+  EXPECT_GT(linear.upper, 100);
+  const Axis log = axis_around(values, true);
+  EXPECT_LT(log.lower, 1);
+  EXPECT_GT(log.lower, 0.5);
+  EXPECT_GT(log.upper, 100);
+  EXPECT_LT(axis_around(std::vector<double>{5}, false).lower, 5);
+  EXPECT_LT(axis_around(std::vector<double>{}, true).lower, axis_around(std::vector<double>{}, true).upper);
+}
+
+TEST(PlotAxis, has_round_tics) {
+  EXPECT_EQ(tics({false, -0.04, 1.04}, 360, 44), "0.2");
+  EXPECT_EQ(tics({true, 0.01, 1000}, 640, 80), "1e1");
+  EXPECT_EQ(tics({true, 1e-12, 1}, 640, 80), "1e2");
+  EXPECT_EQ(tics({true, 9, 60}, 360, 44), "(10, 20, 50)");
+}
+
+TEST(InlineSvg, has_ids_of_its_own) {
+  const std::string svg =
+      "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\"><title>x</title><path id='p1'/>"
+      "<use xlink:href='#p1'/><g id=\"q\" filter=\"url(#q)\"/></svg>";
+  EXPECT_EQ(inline_svg(svg, "fig", "A & B"),
+            "<svg role=\"img\" aria-label=\"A &amp; B\" viewBox=\"0 0 1 1\"><title>A &amp; B</title><path id='fig_p1'/>"
+            "<use xlink:href='#fig_p1'/><g id=\"fig_q\" filter=\"url(#fig_q)\"/></svg>");
+}
+
+}  // namespace
+}  // namespace thinwall

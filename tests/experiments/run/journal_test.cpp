@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <thinwall/experiments/run/journal.hpp>
+
+#include "support/temporary_folder.hpp"
+
+namespace thinwall {
+namespace {
+
+struct JournalTest : testing::Test {
+  TemporaryFolder folder;
+  std::string file = folder / "journal.tsv";
+
+  void write_three() const {
+    Journal journal(file, "the run");
+    journal.add("a", {0.1, "1 2 3"});
+    journal.add("b", {0.2, "tab\there"});
+    journal.add("c", {0.3, ""});
+  }
+};
+
+TEST_F(JournalTest, gives_back_what_was_added) {
+  write_three();
+  const Journal journal(file, "the run");
+  ASSERT_EQ(journal.finished().size(), 3u);
+  EXPECT_EQ(journal.finished().find("a")->second.result, "1 2 3");
+  EXPECT_EQ(journal.finished().find("b")->second.result, "tab\there");
+  EXPECT_EQ(journal.finished().find("b")->second.seconds, 0.2);
+  EXPECT_EQ(journal.finished().find("c")->second.result, "");
+  EXPECT_TRUE(journal.damage().empty());
+}
+
+TEST_F(JournalTest, knows_whose_it_is) {
+  EXPECT_EQ(Journal::identity_in(file), "");
+  write_three();
+  EXPECT_EQ(Journal::identity_in(file), "the run");
+  write_text(file, "something else\n");
+  EXPECT_EQ(Journal::identity_in(file), "");
+}
+
+TEST_F(JournalTest, drops_a_torn_last_row_wherever_it_was_torn) {
+  write_three();
+  const std::string whole = read_text(file);
+  const auto end_of_b = whole.rfind('\n', whole.size() - 2) + 1;
+  for (auto length = end_of_b; length < whole.size(); ++length) {
+    write_text(file, whole.substr(0, length));
+    Journal journal(file, "the run");
+    EXPECT_EQ(journal.finished().size(), 2u) << length;
+    EXPECT_TRUE(journal.damage().empty());
+    journal.add("c", {0.3, ""});
+    EXPECT_EQ(read_text(file), whole);
+  }
+}
+
+TEST_F(JournalTest, names_a_damaged_row_and_forgets_it) {
+  write_three();
+  std::string text = read_text(file);
+  text[text.find("1 2 3")] = '7';
+  write_text(file, text);
+  const Journal journal(file, "the run");
+  EXPECT_EQ(journal.finished().size(), 2u);
+  EXPECT_FALSE(journal.finished().contains("a"));
+  ASSERT_EQ(journal.damage().size(), 1u);
+  EXPECT_EQ(journal.damage()[0], file + ":2: the row of 'a' is damaged; that unit is computed again");
+  EXPECT_TRUE(Journal(file, "the run").damage().empty());  // the row is gone
+}
+
+TEST_F(JournalTest, cannot_be_written_where_nothing_can) {
+  write_text(file, "");
+  EXPECT_THROW(Journal(file + "/below.tsv", "the run"), std::system_error);
+}
+
+}  // namespace
+}  // namespace thinwall
