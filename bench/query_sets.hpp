@@ -1,0 +1,113 @@
+#pragma once
+/// Query sets for the benchmarks: 100 000 shots, half of them hits, all apart at the start, streamed from memory. A set small
+/// enough for the branch predictor to learn would flatter every method.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <thinwall/discrete/triangle.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+namespace thinwall::bench {
+
+inline constexpr std::size_t query_count = 100'000;
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A reproducible stream of uniform numbers in [0, 1): SplitMix64.
+class Uniform {
+ public:
+  double operator()() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+  double between(double low, double high) { return low + (high - low) * (*this)(); }
+  Vec3<double> direction() {
+    Vec3<double> v;
+    do {
+      v = {between(-1, 1), between(-1, 1), between(-1, 1)};
+    } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
+    return v / std::sqrt(v.squaredNorm());
+  }
+  Mat3<double> axes() {
+    Mat3<double> m;
+    m.col(0) = direction();
+    m.col(1) = safe_unit(cross<double>(m.col(0), direction()));
+    m.col(2) = cross<double>(m.col(0), m.col(1));
+    return m;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+/// A shape around the origin, of a size between 0.05 and 0.5.
+template <class A> A any_shape(Uniform& uniform);
+template <> inline Sphere<double> any_shape(Uniform& u) { return {Vec3<double>::Zero(), u.between(0.05, 0.5)}; }
+template <> inline Aabb<double> any_shape(Uniform& u) {
+  return {Vec3<double>::Zero(), {u.between(0.05, 0.5), u.between(0.05, 0.5), u.between(0.05, 0.5)}};
+}
+template <> inline Obb<double> any_shape(Uniform& u) {
+  return {Vec3<double>::Zero(), any_shape<Aabb<double>>(u).half_extents, u.axes()};
+}
+template <> inline Capsule<double> any_shape(Uniform& u) {
+  const Vec3<double> half = u.direction() * u.between(0.05, 0.5);
+  return {-half, half, u.between(0.05, 0.25)};
+}
+template <> inline Triangle<double> any_shape(Uniform& u) {
+  return {u.direction() * u.between(0.2, 0.6), u.direction() * u.between(0.2, 0.6),
+          u.direction() * u.between(0.2, 0.6)};
+}
+
+template <class A, class B> struct Shot {
+  Moving<A> a;
+  Moving<B> b;
+};
+
+/// Shots and when they truly hit, `never` for a miss: the closed form in long double.
+template <class A, class B> struct Shots {
+  std::vector<Shot<A, B>> queries;
+  std::vector<double> truth;
+};
+
+/// Shots of shapes made by `make_a` at shapes made by `make_b`, hits and misses in turn, both moving.
+template <class A, class B, class MakeA, class MakeB> Shots<A, B> shots(const MakeA& make_a, const MakeB& make_b) {
+  Uniform uniform;
+  Shots<A, B> set;
+  while (set.queries.size() < query_count) {
+    const Vec3<double> from = uniform.direction() * uniform.between(1.5, 3);
+    const Vec3<double> aim = uniform.direction() * uniform.between(0, 2);
+    const Vec3<double> drift = uniform.direction() * uniform.between(0, 2);
+    const Moving<A> a{moved<double>(make_a(uniform), from), (aim - from) * uniform.between(0.5, 3) + drift};
+    const Moving<B> b{make_b(uniform), drift};
+    const auto truth = time_of_impact(cast<long double>(a), cast<long double>(b));
+    const bool hit = truth.status == ToiStatus::hit;
+    if (hit != (set.queries.size() % 2 == 0) || overlaps_within(a.shape, b.shape, 0.02)) continue;
+    set.queries.push_back({a, b});
+    set.truth.push_back(hit ? static_cast<double>(truth.time) : never);
+  }
+  return set;
+}
+
+/// Bullets at thin walls, and any two shapes: the sets are made when first asked for.
+template <class A, class B> const Shots<A, B>& any_shots() {
+  static const Shots<A, B> set = shots<A, B>([](Uniform& u) { return any_shape<A>(u); },  //
+                                             [](Uniform& u) { return any_shape<B>(u); });
+  return set;
+}
+inline const Shots<Sphere<double>, Aabb<double>>& thin_wall_shots() {
+  static const auto set = shots<Sphere<double>, Aabb<double>>(
+      [](Uniform& u) {
+        return Sphere<double>{Vec3<double>::Zero(), u.between(0.02, 0.1)};
+      },
+      [](Uniform& u) {
+        return Aabb<double>{Vec3<double>::Zero(), {u.between(0.001, 0.02), 0.7, 0.7}};
+      });
+  return set;
+}
+
+}  // namespace thinwall::bench
