@@ -113,7 +113,11 @@ template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& 
         return entry;
       }
     }
-    if (chord.approach <= next * chord.speed_square) return entry;  // the closest approach was too far
+    S slope = 0;  // of half the squared distance at `next`; the axis that changes there takes no part
+    for (int i = 0; i < 3; ++i) {
+      if (u[i] != S(0) && slabs.enter[i] != next) slope += (q[i] + u[i] * next) * u[i];
+    }
+    if (slope >= S(0)) return entry;  // the closest approach was too far
     now = next;
   }
   return entry;
