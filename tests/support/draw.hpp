@@ -103,8 +103,7 @@ template <class Shape> void shift(Moving<Shape>& m, const Vec3<typename Shape::S
 template <class S> Vec3<S> lower(const oracle::Vector& v) { return {S(v[0]), S(v[1]), S(v[2])}; }
 
 /// Moves B until the two all but touch at `time`: by the separation, rounded to the scalar.
-template <class A, class B> void bring_together(const A& a, B& b, const oracle::Real& time) {
-  using S = typename decltype(Draw<B>::shape(Style::plain))::Scalar;
+template <class S, class A, class B> void bring_together(const A& a, B& b, const oracle::Real& time) {
   const oracle::Gap there = oracle::gap(oracle::pair(a, b), time);
   shift(b, lower<S>(-there.separation * there.normal));
 }
@@ -113,7 +112,7 @@ template <class A, class B> void bring_together(const A& a, B& b, const oracle::
 template <class A, class B> std::pair<A, B> draw_pair(Style style) {
   const A a = Draw<A>::shape(style);
   B b = Draw<B>::shape(style);
-  if (draw_integer(0, 2) == 0) bring_together(a, b, 0);
+  if (draw_integer(0, 2) == 0) bring_together<typename A::Scalar>(a, b, 0);
   RC_LOG() << describe(a) << "\n" << describe(b) << "\n";
   return {a, b};
 }

@@ -48,6 +48,42 @@ template <class S> Real backward_error_in_u(const Pair& pair, const S& time) {
   return high;
 }
 
+/// True if a relative change of the inputs by at most `change`, each coordinate by itself, makes the bodies touch: the
+/// cores grow by all that the inputs may give.
+inline bool touch_is_possible(Pair pair, const Impact& truth, const Real& change, bool at_start) {
+  const Vector play = change * sizes(pair, at_start ? Real(0) : truth.time);
+  pair.a.core.box = pair.a.core.box + play;
+  pair.min_separation += change * pair.reach();
+  return at_start ? touching(pair, 0) : impact(pair).verdict != Verdict::apart;
+}
+
+/// True if such a change makes `verdict` right, which is not the one where they touch sooner. Tries the corners of the
+/// box of inputs: what lies beyond a touch stays so farther out.
+inline bool miss_is_possible(const Pair& pair, Verdict verdict, const Real& change) {
+  const Vector place = change * sizes(pair, 0);
+  const Vector path = change * (magnitude(pair.a.displacement) + magnitude(pair.b.displacement));
+  for (unsigned corner = 0; corner < 64; ++corner) {
+    const auto sign = [&](std::size_t bit) { return (corner >> bit & 1U) != 0 ? 1 : -1; };
+    Pair changed = pair;
+    changed.min_separation -= change * pair.reach();
+    for (std::size_t i = 0; i < 3; ++i) {
+      changed.b.center[i] += sign(i) * place[i];
+      changed.b.displacement[i] += sign(i + 3) * path[i];
+    }
+    if (impact(changed).verdict == verdict) return true;
+  }
+  return false;
+}
+
+/// True if `verdict` is right but for a relative change of the inputs by at most `change`.
+inline bool verdict_is_near(const Pair& pair, const Impact& truth, Verdict verdict, const Real& change) {
+  if (verdict == truth.verdict) return true;
+  if (change == 0) return false;
+  if (verdict == Verdict::overlapping) return touch_is_possible(pair, truth, change, true);
+  if (truth.verdict == Verdict::apart) return touch_is_possible(pair, truth, change, false);
+  return miss_is_possible(pair, verdict, change);
+}
+
 /// The first time at which the separation is at most `allowance` in u * scale: how early a backward error that
 /// small can put a graze. Inflates the reach, which bounds the scale at the true contact.
 template <class S> Real earliest_time(Pair pair, const Impact& truth, int allowance) {

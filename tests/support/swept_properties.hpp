@@ -1,0 +1,103 @@
+#pragma once
+/// What the closed form must fulfil for any two moving shapes, against the oracle.
+
+#include <thinwall/swept/swept_volume.hpp>
+
+#include "support/discrete_properties.hpp"
+#include "support/draw_moving.hpp"
+#include "support/judge.hpp"
+
+namespace thinwall::testing {
+
+/// The accuracy contract; a verdict may be wrong only where 1 u of the inputs makes it right.
+inline constexpr Allowance contract{4, 4, 1};
+
+template <class A, class B> void time_of_impact_meets_the_contract() {
+  const auto [a, b] = draw_moving_pair<A, B>();
+  THINWALL_PROPERTY(judge(oracle::pair(a, b), time_of_impact(a, b), contract));
+}
+
+/// The kernel computes in the shapes' own scalar, where the front door would promote float to double.
+template <class A, class B> void kernel_meets_the_contract() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_moving_pair<A, B>();
+  THINWALL_PROPERTY(judge(oracle::pair(a, b), impact(ClosedForm<S>{}, a, b), {4, 4, 4}));
+}
+
+template <class A, class B> void min_separation_meets_the_contract() {
+  using S = typename A::Scalar;
+  const Style style = draw_style();
+  const auto [a, b] = draw_moving_pair<A, B>(style);
+  const ClosedForm<S> method{.min_separation = draw_size<S>(style)};
+  RC_LOG() << "min_separation " << method.min_separation << "\n";
+  oracle::Pair pair = oracle::pair(a, b);
+  pair.min_separation = oracle::lift(method.min_separation);
+  THINWALL_PROPERTY(judge(pair, time_of_impact(method, a, b), contract));
+}
+
+/// Contract 1: a hit at `time` and a discrete test at that pose agree within rounding.
+template <class A, class B> void shapes_touch_at_the_hit() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_moving_pair<A, B>();
+  const Toi<S> toi = time_of_impact(a, b);
+  if (toi.status != ToiStatus::hit && toi.status != ToiStatus::overlapping) return;
+  const oracle::Real rounding = oracle::unit_roundoff<S>() * size_at(oracle::pair(a, b), oracle::lift(toi.time));
+  const Separation<S> there = separation(pose_at(a, toi.time), pose_at(b, toi.time));
+  RC_ASSERT(oracle::lift(there.distance) <= 16 * rounding);
+  if (toi.status == ToiStatus::hit) RC_ASSERT(oracle::lift(there.distance) >= -16 * rounding);
+}
+
+template <class A, class B> void other_way_round_flips_the_normal() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_moving_pair<A, B>();
+  const Toi<S> there = time_of_impact(a, b), back = time_of_impact(b, a);
+  if constexpr (std::is_same_v<A, B>) {
+    THINWALL_PROPERTY(judge(oracle::pair(b, a), back, contract));
+  } else {
+    RC_ASSERT(there.status == back.status);
+    RC_ASSERT(there.time == back.time);
+    if (there.status != ToiStatus::overlapping) RC_ASSERT(there.normal == -back.normal);
+    if (there.status != ToiStatus::overlapping) RC_ASSERT(there.point == back.point);
+  }
+}
+
+/// Lengths times 2^k leave time and normal as they are, to the bit; displacements times 2^k divide the time.
+template <class A, class B> void powers_of_two_change_no_bits() {
+  using S = typename A::Scalar;
+  const auto [a, b] = draw_moving_pair<A, B>(*rc::gen::element(Style::lattice, Style::plain));
+  const int k = *rc::gen::element(-700, -80, -60, -1, 1, 60, 80, 700);
+  const auto large_a = resized(a, k);
+  const auto large_b = resized(b, k);
+  const Toi<S> here = time_of_impact(a, b);
+  if (same_body(oracle::body(large_a), oracle::body(a), k) && same_body(oracle::body(large_b), oracle::body(b), k)) {
+    const Toi<S> there = time_of_impact(large_a, large_b);
+    RC_ASSERT(there.status == here.status);
+    RC_ASSERT(there.time == here.time);
+    RC_ASSERT(there.normal == here.normal);
+    RC_ASSERT(there.point == times_power(here.point, k));
+  }
+  if (here.status != ToiStatus::hit) return;
+  const int speed = *rc::gen::element(1, 5, 40);
+  const Toi<S> faster = time_of_impact(Moving<A>{a.shape, times_power(a.displacement, speed)},
+                                       Moving<B>{b.shape, times_power(b.displacement, speed)});
+  RC_ASSERT(faster.status == ToiStatus::hit);
+  RC_ASSERT(faster.time == times_power(here.time, -speed));
+  RC_ASSERT(faster.normal == here.normal);
+}
+
+/// swept_bounds() contains the shape at every time, exactly: it is rounded outward.
+template <class A> void bounds_contain_the_shape() {
+  using S = typename A::Scalar;
+  const Style style = draw_style();
+  const Moving<A> moving{Draw<A>::shape(style), draw_vector<S>(style)};
+  RC_LOG() << describe(moving) << "\n";
+  const oracle::Body bounds = oracle::body(swept_bounds(moving)), body = oracle::body(moving);
+  const oracle::Vector half = oracle::half_size(body.core);
+  for (int step = 0; step <= 8; ++step) {
+    const oracle::Vector at = at_time(body, oracle::Real(step) / 8).center;
+    for (std::size_t i = 0; i < 3; ++i)
+      RC_ASSERT(abs(oracle::Real(at[i] - bounds.center[i])) + half[i] + body.radius <= bounds.core.box[i]);
+  }
+}
+
+}  // namespace thinwall::testing
