@@ -7,6 +7,7 @@
 #include <thinwall/capsule/segment.hpp>
 #include <thinwall/capsule/segment_box.hpp>
 #include <thinwall/capsule/segment_triangle.hpp>
+#include <thinwall/discrete/flat_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
 
 namespace thinwall {
@@ -82,7 +83,9 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Obb<S>& b
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& a, const Capsule<S>& b, const S& reach) {
-  return within(closest_on_segments<S>(b.a - a.a, a.b - a.a, b.b - b.a).gap, reach);
+  const Vec3<S> between = b.a - a.a, core_a = a.b - a.a, core_b = b.b - b.a;
+  if (reach == S(0)) return in_flat_set<S>(FlatShape::parallelogram, between, core_a, -core_b);
+  return within(closest_on_segments<S>(between, core_a, core_b).gap, reach);
 }
 
 /// Degenerate: a center on the core leaves sideways; the direction is the caller's.

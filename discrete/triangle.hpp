@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <thinwall/discrete/core_entry.hpp>
+#include <thinwall/discrete/flat_entry.hpp>
 #include <thinwall/discrete/sphere.hpp>
 
 namespace thinwall {
@@ -99,7 +100,9 @@ template <Scalar S> Vec3<S> gap_from_triangle(const Vec3<S>& x, const Triangle<S
 }
 
 template <Scalar S> bool cores_within(const Triangle<S>& triangle, const Sphere<S>& sphere, const S& reach) {
-  return within<S>(gap_from_triangle<S>(sphere.center - triangle.a, triangle), reach);
+  const Vec3<S> x = sphere.center - triangle.a;
+  if (reach == S(0)) return in_flat_set<S>(FlatShape::triangle, x, triangle.b - triangle.a, triangle.c - triangle.a);
+  return within<S>(gap_from_triangle<S>(x, triangle), reach);
 }
 
 /// Degenerate: a center on the triangle leaves along the plane's normal; on a triangle of no area sideways.
@@ -114,11 +117,11 @@ template <Scalar S> CoreGap<S> core_gap(const Triangle<S>& triangle, const Spher
   return gap;
 }
 
-/// Degenerate: a ray in the plane meets the nearest edge, the normal then in the plane; a triangle of no area is met by
-/// its edges only, exactly. Source: the walk of core_entry.hpp.
+/// Degenerate: a ray in the plane meets the nearest edge, the normal then in the plane; a triangle of no area is met
+/// only exactly. Source: flat_entry.hpp.
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Triangle<S>& triangle) {
-  const Entry<S> entry = rounded_triangle_entry<S>(ray.origin - triangle.a, ray.direction, S(0),
-                                                   triangle.b - triangle.a, triangle.c - triangle.a);
+  const Entry<S> entry = flat_entry<S>(FlatShape::triangle, ray.origin - triangle.a, ray.direction,
+                                       triangle.b - triangle.a, triangle.c - triangle.a, ray.max_t);
   if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
   if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
   return RayHit<S>{entry.time, ray.origin + ray.direction * entry.time, entry.normal};

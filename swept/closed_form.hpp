@@ -111,8 +111,11 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Triangle<T>& t = triangle.shape;
-  const Entry<T> entry = rounded_triangle_entry<T>(sphere.shape.center - t.a, relative_displacement(sphere, triangle),
-                                                   sphere.shape.radius + gap, t.b - t.a, t.c - t.a);
+  const T reach = sphere.shape.radius + gap;
+  const Vec3<T> start = sphere.shape.center - t.a, motion = relative_displacement(sphere, triangle);
+  const Vec3<T> e1 = t.b - t.a, e2 = t.c - t.a;
+  const Entry<T> entry = reach == T(0) ? flat_entry(FlatShape::triangle, start, motion, e1, e2, T(1))
+                                       : rounded_triangle_entry(start, motion, reach, e1, e2);
   return toi_of(triangle, sphere, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
@@ -129,10 +132,12 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Moving<Capsule<T>>& b) {
+  const T reach = a.shape.radius + b.shape.radius + T(method.min_separation);
+  const Vec3<T> start = b.shape.a - a.shape.a, motion = relative_displacement(b, a);
+  const Vec3<T> core_a = a.shape.b - a.shape.a, core_b = b.shape.b - b.shape.a;
   const Entry<T> entry =
-      core_entry_at_any_scale<T>(&closest_on_parallelogram<T>, b.shape.a - a.shape.a, relative_displacement(b, a),
-                                 a.shape.radius + b.shape.radius + T(method.min_separation),
-                                 Vec3<T>(a.shape.b - a.shape.a), Vec3<T>(b.shape.b - b.shape.a));
+      reach == T(0) ? flat_entry<T>(FlatShape::parallelogram, start, motion, core_a, -core_b, T(1))
+                    : core_entry_at_any_scale(&closest_on_parallelogram<T>, start, motion, reach, core_a, core_b);
   return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
 }
 
