@@ -57,18 +57,22 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
   const bool by_start = largest(start_height) <= largest(end_height);
   const Vec3<S> up = normal / length;
   S depth = largest(by_start ? start_height : end_height) / length;
+  const Vec3<S> end = by_start ? x : Vec3<S>(x + d);
   Vec3<S> out = ((by_start ? start_height : end_height) > S(0)) ? Vec3<S>(-up) : up;
+  best.on_triangle = end + out * depth;
+  best.s = by_start ? S(0) : S(1);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3<S> side = safe_unit(cross(along[k], d));
     const S offset = (crossing - from[k]).dot(side);
     if (side == Vec3<S>::Zero() || largest(offset) >= depth) continue;
     depth = largest(offset);
     out = offset > S(0) ? Vec3<S>(-side) : side;
+    const SegmentPair<S> closest = closest_on_segments<S>(x - from[k], along[k], d);
+    best.on_triangle = from[k] + along[k] * closest.s;
+    best.s = closest.t;
   }
   best.part = {-1, CorePart<S>::face, x + out * depth, out, out};
   best.part.depth = depth;
-  best.on_triangle = crossing;
-  best.s = s;
   return best;
 }
 
