@@ -1,0 +1,192 @@
+// Manifolds of boxes, balls and triangles: known cases, then many drawn ones.
+
+#include <algorithm>
+
+#include "support/manifold_properties.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> Mat3<S> turned_eighth(int axis) {
+  using std::sqrt;
+  const S root = S(1) / S(sqrt(S(2)));
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  Mat3<S> turn = Mat3<S>::Identity();
+  turn(u, u) = turn(v, v) = turn(v, u) = root;
+  turn(u, v) = -root;
+  return turn;
+}
+
+/// The area of the convex polygon that the points of a manifold span, seen along z.
+template <class S> S spread(const Manifold<S>& m) {
+  S area = 0;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < m.size(); ++k) {
+        for (std::size_t l = 0; l < k; ++l) {  // a quadrilateral's area is half the largest product of its diagonals
+          const Vec3<S> first = m[i].local_a - m[j].local_a, second = m[k].local_a - m[l].local_a;
+          area = std::max(area, S(largest(S(first[0] * second[1] - first[1] * second[0])) / 2));
+        }
+      }
+    }
+  }
+  return area;
+}
+
+template <class S> class Manifolds : public ::testing::Test {
+ protected:
+  Aabb<S> floor{{0, 0, 0}, {4, 4, 1}};
+};
+TYPED_TEST_SUITE(Manifolds, Scalars, ScalarNames);
+
+TYPED_TEST(Manifolds, box_on_a_floor_rests_on_its_four_corners) {
+  using S = TypeParam;
+  const Aabb<S> box{{1, -1, S(15) / S(8)}, {1, 1, 1}};
+  for (const auto& found : {manifold(this->floor, box), manifold(this->floor, to_obb(box)),
+                            manifold(to_obb(this->floor), box), manifold(to_obb(this->floor), to_obb(box))}) {
+    ASSERT_EQ(found.size(), 4U);
+    EXPECT_EQ(spread(found), S(4));
+    for (const Contact<S>& c : found) {
+      EXPECT_EQ(c.penetration, S(1) / S(8));
+      EXPECT_EQ(c.normal, axis_vector<S>(2));
+      EXPECT_EQ(c.local_b.cwiseAbs(), (Vec3<S>(1, 1, 1)));
+      EXPECT_EQ(c.local_a, (Vec3<S>(c.local_b[0] + 1, c.local_b[1] - 1, 1)));
+    }
+  }
+}
+
+TYPED_TEST(Manifolds, touching_faces_have_four_points_of_no_depth) {
+  using S = TypeParam;
+  const Aabb<S> box{{1, -1, 2}, {1, 1, 1}};
+  for (const auto& found : {manifold(this->floor, box), manifold(this->floor, to_obb(box))}) {
+    ASSERT_EQ(found.size(), 4U);
+    for (const Contact<S>& c : found) EXPECT_EQ(c.penetration, S(0));
+  }
+}
+
+TYPED_TEST(Manifolds, overhanging_box_is_clipped) {
+  using S = TypeParam;
+  const auto found = manifold(this->floor, Obb<S>{{4, 4, 2}, {1, 1, 1}, Mat3<S>::Identity()});
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(spread(found), S(1));
+}
+
+TYPED_TEST(Manifolds, octagon_keeps_four_of_eight_corners_far_apart) {
+  using S = TypeParam;
+  const auto found = manifold(Aabb<S>{{0, 0, 0}, {1, 1, 1}}, Obb<S>{{0, 0, 2}, {1, 1, 1}, turned_eighth<S>(2)});
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_GT(spread(found), S(2));  // of the octagon's 8 (sqrt(2) - 1) = 3.31; the best four have 2.83
+}
+
+TYPED_TEST(Manifolds, all_but_parallel_boxes_keep_four_points) {
+  using S = TypeParam;
+  Mat3<S> tilt = Mat3<S>::Identity();  // a turn about x and one about y
+  const S sine = parallel_sine<S>() / 8;
+  tilt(1, 2) = tilt(2, 0) = -sine;
+  tilt(2, 1) = tilt(0, 2) = sine;
+  for (const S& x : {S(0), S(4)}) {
+    const auto found = manifold(this->floor, Obb<S>{{x, x, S(31) / S(16)}, {1, 1, 1}, tilt});
+    ASSERT_EQ(found.size(), 4U) << x;
+    for (const Contact<S>& c : found) EXPECT_LE(largest(S(c.penetration - S(1) / S(16))), 4 * sine);
+  }
+}
+
+TYPED_TEST(Manifolds, edge_on_a_face_is_two_points) {
+  using S = TypeParam;
+  const Obb<S> box{{1, 0, 2}, {1, 1, 1}, turned_eighth<S>(0)};
+  for (const auto& found : {manifold(this->floor, box), flipped(manifold(box, this->floor))}) {
+    ASSERT_EQ(found.size(), 2U);
+    for (const Contact<S>& c : found) {
+      EXPECT_EQ(largest(S(c.local_a[0] - 1)), S(1));
+      EXPECT_LE(largest(c.local_a[1]), unit<S>() * 8);
+      EXPECT_LE(largest(S(found[0].penetration - found[1].penetration)), unit<S>() * 8);
+    }
+  }
+}
+
+TYPED_TEST(Manifolds, corner_on_a_face_is_one_point) {
+  using S = TypeParam;
+  Obb<S> box{{0, 0, 0}, {1, 1, 1}, turned_eighth<S>(1) * turned_eighth<S>(2) * turned_eighth<S>(0)};
+  box.center[2] = half_widths(box)[2] + S(7) / S(8);
+  const auto found = manifold(this->floor, box);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LE(largest(S(found[0].penetration - S(1) / S(8))), unit<S>() * 8);
+}
+
+TYPED_TEST(Manifolds, crossed_edges_are_one_point) {
+  using S = TypeParam;
+  const Obb<S> below{{0, 0, 0}, {4, 1, 1}, turned_eighth<S>(0)};
+  const Obb<S> above{{0, 0, S(11) / S(4)}, {1, 4, 1}, turned_eighth<S>(1)};
+  const auto found = manifold(below, above);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LE(largest<S>(found[0].normal - axis_vector<S>(2)), unit<S>() * 8);
+  EXPECT_LE(largest(S(found[0].local_a[0])) + largest(S(found[0].local_a[1])), unit<S>() * 16);
+}
+
+TYPED_TEST(Manifolds, flat_boxes_have_no_point_twice) {
+  using S = TypeParam;
+  const auto count = [&](const Vec3<S>& half) {
+    return manifold(this->floor, Obb<S>{{0, 0, 1}, half, Mat3<S>::Identity()}).size();
+  };
+  EXPECT_EQ(count({1, 1, 0}), 4U);
+  EXPECT_EQ(count({1, 0, 0}), 2U);
+  EXPECT_EQ(count({0, 0, 0}), 1U);
+  EXPECT_EQ(manifold(this->floor, Aabb<S>{{0, 0, 1}, {1, 0, 1}}).size(), 2U);
+  EXPECT_EQ(manifold(this->floor, Aabb<S>{{0, 0, 1}, {0, 0, 0}}).size(), 1U);
+}
+
+TYPED_TEST(Manifolds, points_of_an_aabb_lie_on_it_unlike_its_contact) {
+  using S = TypeParam;
+  const Sphere<S> ball{{2, 0, 2}, 1};
+  EXPECT_EQ(contact(this->floor, ball)->local_a, (Vec3<S>(0, 0, 0)));
+  const auto found = manifold(this->floor, ball);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].local_a, (Vec3<S>(2, 0, 1)));
+  EXPECT_EQ(found[0].local_b, (Vec3<S>(0, 0, -1)));
+}
+
+TYPED_TEST(Manifolds, apart_is_empty) {
+  using S = TypeParam;
+  const Aabb<S> box{{0, 0, next_up(S(2))}, {1, 1, 1}};
+  EXPECT_TRUE(manifold(this->floor, box).empty());
+  EXPECT_TRUE(manifold(this->floor, to_obb(box)).empty());
+  EXPECT_TRUE(manifold(this->floor, Sphere<S>{{0, 0, 3}, 1}).empty());
+  EXPECT_TRUE(manifold(this->floor, Sphere<S>{{nan<S>(), 0, 2}, 1}).empty());
+}
+
+TYPED_TEST(Manifolds, same_bits_at_every_size) {
+  using S = TypeParam;
+  const int far = std::min(std::numeric_limits<S>::max_exponent, 16000) - 8;
+  Shaker<S> draw(7);
+  for (int run = 0; run < 200; ++run) {
+    const auto [a, b] = nearly_touching<Obb<S>, Obb<S>>(draw);
+    const auto here = manifold(a, b);
+    for (const int e : {far / 2, -far / 2, far}) {
+      const auto there = manifold(scaled(a, e), scaled(b, e));
+      ASSERT_EQ(there.size(), here.size()) << run << " at 2^" << e;
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        EXPECT_EQ(scaled(there[i], -e).local_a, here[i].local_a) << run << " at 2^" << e;
+        EXPECT_EQ(scaled(there[i], -e).penetration, here[i].penetration) << run << " at 2^" << e;
+      }
+    }
+  }
+}
+
+template <class P> class ManifoldsOf : public ::testing::Test {};
+template <class First, class Second> struct Both {
+  using A = First;
+  using B = Second;
+};
+template <class S> using F = Both<Obb<S>, Obb<S>>;
+using Pairs = ::testing::Types<Both<Sphere<double>, Sphere<double>>, Both<Aabb<double>, Sphere<double>>,
+                               Both<Obb<double>, Sphere<double>>, Both<Triangle<double>, Sphere<double>>,
+                               Both<Aabb<double>, Aabb<double>>, Both<Obb<double>, Aabb<double>>, F<float>, F<double>,
+                               F<long double>, F<Wide>, Both<Obb<float>, Aabb<float>>, Both<Aabb<Wide>, Aabb<Wide>>>;
+TYPED_TEST_SUITE(ManifoldsOf, Pairs);
+
+TYPED_TEST(ManifoldsOf, are_real_points_as_deep_as_the_contact) {
+  expect_manifolds<typename TypeParam::A, typename TypeParam::B>(2000);
+}
+
+}  // namespace
+}  // namespace thinwall::testing
