@@ -1,0 +1,159 @@
+// The capsule at one instant, by hand.
+
+#include <gtest/gtest.h>
+#include <thinwall/capsule/capsule.hpp>
+
+#include "support/scalars.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class CapsuleQueries : public ::testing::Test {
+ protected:
+  const Capsule<S> rod{{-2, 0, 0}, {2, 0, 0}, 0.5};
+};
+TYPED_TEST_SUITE(CapsuleQueries, Scalars, ScalarNames);
+
+TYPED_TEST(CapsuleQueries, ball_at_the_side_and_at_the_caps) {
+  using S = TypeParam;
+  EXPECT_TRUE(overlaps(this->rod, Sphere<S>{{1, 1.5, 0}, 1}));
+  EXPECT_FALSE(overlaps(this->rod, Sphere<S>{{1, next_up(S(1.5)), 0}, 1}));
+  EXPECT_TRUE(overlaps(this->rod, Sphere<S>{{5, 0, 4}, 4.5}));  // 3-4-5 from the end
+  EXPECT_FALSE(overlaps(this->rod, Sphere<S>{{5, 0, 4}, next_down(S(4.5))}));
+  EXPECT_TRUE(overlaps(Sphere<S>{{-3.5, 0, 0}, 1}, this->rod));
+}
+
+TYPED_TEST(CapsuleQueries, contact_points_are_relative_to_the_middle) {
+  using S = TypeParam;
+  const Capsule<S> capsule{{2, 8, 0}, {6, 8, 0}, 0.5};
+  const auto found = contact(capsule, Sphere<S>{{5, 9, 0}, 1});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(center(capsule), Vec3<S>(4, 8, 0));
+  EXPECT_EQ(found->normal, Vec3<S>(0, 1, 0));
+  EXPECT_EQ(found->penetration, S(0.5));
+  EXPECT_EQ(found->local_a, Vec3<S>(1, 0.5, 0));
+  EXPECT_EQ(found->local_b, Vec3<S>(0, -1, 0));
+}
+
+TYPED_TEST(CapsuleQueries, without_length_it_is_a_ball) {
+  using S = TypeParam;
+  const Capsule<S> point{{1, 2, 3}, {1, 2, 3}, 0.5};
+  const Sphere<S> ball{{1, 2, 3}, 0.5}, other{{1, 3, 3}, 1};
+  const Aabb<S> box{{1, 2, 5}, {1, 1, 1}};
+  EXPECT_EQ(contact(point, other)->penetration, contact(ball, other)->penetration);
+  EXPECT_EQ(contact(point, other)->normal, contact(ball, other)->normal);
+  EXPECT_EQ(separation(point, box).distance, separation(ball, box).distance);
+  EXPECT_EQ(separation(point, box).normal, separation(ball, box).normal);
+  EXPECT_EQ(separation(point, point).distance, S(-1));
+  EXPECT_EQ(separation(point, point).normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(contact(point, ball)->normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(contact(ball, point)->normal, Vec3<S>(1, 0, 0));
+}
+
+TYPED_TEST(CapsuleQueries, a_center_on_the_core_parts_sideways) {
+  using S = TypeParam;
+  const Sphere<S> ball{{1, 0, 0}, 0.25};
+  for (const auto& found : {contact(this->rod, ball), contact(ball, this->rod)}) {
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->normal, Vec3<S>(0, 1, 0));  // the core runs along x, so +x will not do
+    EXPECT_EQ(found->penetration, S(0.75));
+  }
+  const Capsule<S> upright{{0, -2, 0}, {0, 2, 0}, 0.5};
+  EXPECT_EQ(contact(upright, Sphere<S>{{0, 1, 0}, 0.25})->normal, Vec3<S>(1, 0, 0));
+}
+
+TYPED_TEST(CapsuleQueries, crossed_apart_and_touching) {
+  using S = TypeParam;
+  EXPECT_TRUE(overlaps(this->rod, Capsule<S>{{0, -2, 1}, {0, 2, 1}, 0.5}));
+  EXPECT_FALSE(overlaps(this->rod, Capsule<S>{{0, -2, next_up(S(1))}, {0, 2, next_up(S(1))}, 0.5}));
+  const Separation<S> gap = separation(this->rod, Capsule<S>{{1, -2, 3}, {1, 2, 3}, 0.5});
+  EXPECT_EQ(gap.distance, S(2));
+  EXPECT_EQ(gap.normal, Vec3<S>(0, 0, 1));
+  EXPECT_EQ(gap.point_a, Vec3<S>(1, 0, 0.5));
+  EXPECT_EQ(gap.point_b, Vec3<S>(1, 0, 2.5));
+}
+
+TYPED_TEST(CapsuleQueries, crossing_cores_part_across_both) {
+  using S = TypeParam;
+  const auto found = contact(this->rod, Capsule<S>{{0, -2, 0}, {0, 2, 0}, 0.25});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->penetration, S(0.75));
+  EXPECT_EQ(found->normal, Vec3<S>(0, 0, 1));
+}
+
+TYPED_TEST(CapsuleQueries, parallel_and_collinear) {
+  using S = TypeParam;
+  EXPECT_EQ(separation(this->rod, Capsule<S>{{-1, 3, 0}, {5, 3, 0}, 0.5}).distance, S(2));
+  EXPECT_EQ(separation(this->rod, Capsule<S>{{-1, 3, 0}, {5, 3, 0}, 0.5}).normal, Vec3<S>(0, 1, 0));
+  EXPECT_EQ(separation(this->rod, Capsule<S>{{5, 0, 0}, {9, 0, 0}, 0.5}).distance, S(2));
+  EXPECT_EQ(separation(this->rod, Capsule<S>{{5, 0, 0}, {9, 0, 0}, 0.5}).normal, Vec3<S>(1, 0, 0));
+  const Separation<S> same = separation(this->rod, this->rod);
+  EXPECT_EQ(same.distance, S(-1));
+  EXPECT_EQ(same.normal, Vec3<S>(0, 1, 0));
+}
+
+TYPED_TEST(CapsuleQueries, box_beside_the_core_and_at_its_ends) {
+  using S = TypeParam;
+  EXPECT_TRUE(overlaps(this->rod, Aabb<S>{{0, 1.5, 0}, {8, 1, 1}}));
+  EXPECT_FALSE(overlaps(this->rod, Aabb<S>{{0, next_up(S(1.5)), 0}, {8, 1, 1}}));
+  EXPECT_TRUE(overlaps(Aabb<S>{{3.5, 0, 0}, {1, 1, 1}}, this->rod));
+  EXPECT_EQ(separation(this->rod, Aabb<S>{{6, 5, 0}, {1, 1, 1}}).distance, S(4.5));  // 3-4-5 to an edge
+}
+
+TYPED_TEST(CapsuleQueries, core_through_a_box) {
+  using S = TypeParam;
+  const Aabb<S> box{{0, 0.25, 0}, {1, 1, 3}};
+  const auto found = contact(this->rod, box);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->normal, Vec3<S>(0, 1, 0));  // the box goes up, the shorter way
+  EXPECT_EQ(found->penetration, S(1.25));
+  EXPECT_EQ(found->local_b, Vec3<S>(0, 0, 0));  // an axis-aligned box must not turn
+}
+
+TYPED_TEST(CapsuleQueries, core_within_a_box) {
+  using S = TypeParam;
+  const auto found = contact(Aabb<S>{{0, 0, 0}, {8, 8, 4}}, this->rod);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->normal, Vec3<S>(0, 0, 1));
+  EXPECT_EQ(found->penetration, S(4.5));
+}
+
+TYPED_TEST(CapsuleQueries, a_core_without_radius_pierces_a_plate_without_thickness) {
+  using S = TypeParam;
+  const Aabb<S> plate{{0, 0, 0}, {0, 8, 8}};
+  for (int i = 1; i <= 40; ++i) {  // slopes that no scalar holds exactly
+    const S tilt = S(i) / S(7), end = S(i) / S(3);
+    const Capsule<S> needle{{-end, tilt, S(1) / S(9)}, {S(1), -tilt / S(11), S(0)}, S(0)};
+    EXPECT_TRUE(overlaps(needle, plate)) << i;
+    EXPECT_TRUE(overlaps(plate, needle)) << i;
+    EXPECT_TRUE(contact(needle, plate).has_value()) << i;
+  }
+  EXPECT_FALSE(overlaps(Capsule<S>{{-1, 9, 0}, {1, 9, 0}, 0}, plate));
+  EXPECT_FALSE(overlaps(Capsule<S>{{-2, 0, 0}, {-1, 0, 0}, 0}, plate));
+}
+
+TYPED_TEST(CapsuleQueries, a_core_that_lies_on_a_narrow_beam_touches_it_there) {
+  using S = TypeParam;
+  const S tilt = unit<S>();  // too little to tell from lying flat
+  const Capsule<S> plank{{-1, S(-tilt), 0}, {64, tilt, 0}, 0.25};
+  const Separation<S> gap = separation(plank, Aabb<S>{{0, -1, 0}, {0.5, 1, 0.5}});
+  EXPECT_TRUE(gap.point_a[0] >= S(-1) && gap.point_a[0] <= S(1)) << gap.point_a.transpose();
+}
+
+TYPED_TEST(CapsuleQueries, validity_and_nan) {
+  using S = TypeParam;
+  EXPECT_TRUE(valid(this->rod));
+  EXPECT_FALSE(valid(Capsule<S>{{0, 0, 0}, {1, 0, 0}, -1}));
+  for (const Capsule<S>& bad : {Capsule<S>{{nan<S>(), 0, 0}, {1, 0, 0}, 1}, Capsule<S>{{0, 0, 0}, {1, nan<S>(), 0}, 1},
+                                Capsule<S>{{0, 0, 0}, {1, 0, 0}, nan<S>()}}) {
+    EXPECT_FALSE(valid(bad));
+    EXPECT_FALSE(overlaps(bad, this->rod));
+    EXPECT_FALSE(overlaps(bad, Sphere<S>{{0, 0, 0}, 1}));
+    EXPECT_FALSE(overlaps(bad, Aabb<S>{{0, 0, 0}, {1, 1, 1}}));
+    EXPECT_FALSE(contact(this->rod, bad).has_value());
+    EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, bad).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::testing
