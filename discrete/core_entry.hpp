@@ -41,7 +41,7 @@ template <Scalar S> struct PartEntry {
 
 template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   const Chord<S> chord = chord_through_ball(p, v, R);
-  PartEntry<S> entry{chord.exists && chord.approach > S(0), S(0), chord.approach / chord.speed_square, {}};
+  PartEntry<S> entry{chord.exists && chord.approach > S(0), S(0), chord.approach / chord.speed_square, Vec3<S>::Zero()};
   if (!entry.exists) return entry;
   entry.time = chord.entry_time();
   entry.normal = safe_unit(chord.entry_offset(v));
@@ -62,7 +62,7 @@ template <Scalar S> PartEntry<S> face_entry(const Vec3<S>& p, const Vec3<S>& v, 
   const Vec3<S> n = safe_unit(direction);
   const S height = p.dot(n), speed = v.dot(n);
   if (speed == S(0)) return {};
-  PartEntry<S> entry{(height > S(0)) != (speed > S(0)), S(0), -height / speed, {}};
+  PartEntry<S> entry{(height > S(0)) != (speed > S(0)), S(0), -height / speed, Vec3<S>::Zero()};
   if (!entry.exists) return entry;
   entry.time = (largest(height) - R) / largest(speed);
   entry.normal = speed > S(0) ? Vec3<S>(-n) : n;
