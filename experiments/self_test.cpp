@@ -11,7 +11,8 @@ constexpr double confidence = 0.95, central = 0.999;
 void add(SelfTest& test, const CellCount& cell) {
   if (cell.theory == 0 || cell.theory == 1) {
     ++test.certain_cells;
-    if (cell.tunneled != (cell.theory == 0 ? 0 : cell.shots)) ++test.certain_wrong;
+    const std::int64_t certain = cell.theory == 0 ? 0 : cell.shots;
+    if (cell.tunneled != certain) ++test.certain_wrong;
   } else if (can_be_judged(cell.shots, cell.theory)) {
     ++test.judged_cells;
     if (wilson(cell.tunneled, cell.shots, confidence).contains(cell.theory)) ++test.covered;

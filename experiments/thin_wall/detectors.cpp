@@ -7,6 +7,7 @@
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
+#include <thinwall/experiments/thin_wall/method_theory.hpp>
 #include <thinwall/swept/methods.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Every method of the method list, at every scalar, behind one interface: fire a shot at it, and ask what theory
-/// expects of it. A method added to the list appears here by itself; its theory is empty until given in theory.hpp.
+/// expects of it. A method added to the list appears here by itself; its theory is empty until given in method_theory.hpp.
 
 #include <array>
 #include <cstdint>

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <thinwall_embedded.hpp>
+
 namespace thinwall {
 
 namespace {
@@ -17,9 +19,15 @@ constexpr double most_walls_a_step = 1e6;
 std::vector<std::string> selected_methods(const Settings& settings) {
   std::vector<std::string_view> allowed = method_names();
   const std::vector<std::string> all(allowed.begin(), allowed.end());
-  allowed.push_back("all");
+  allowed.emplace_back("all");
   const std::vector<std::string> chosen = settings.choices("method", allowed);
   return std::find(chosen.begin(), chosen.end(), "all") == chosen.end() ? chosen : all;
+}
+
+/// The list of the two that is not the default, to complain about: the other is hardly to blame.
+std::string_view step_or_speed(const Settings& settings) {
+  const Settings defaults("", "defaults", embedded_toml("thin_wall"));
+  return settings.numbers("step", {}) == defaults.numbers("step", {}) ? "speed" : "step";
 }
 
 void check(const Settings& settings, const Cell& cell) {
@@ -27,19 +35,18 @@ void check(const Settings& settings, const Cell& cell) {
     settings.complain("thickness", "not 0 where radius is 0 too: a point is never in a wall of no thickness");
   }
   const double step = step_length(cell), thick = cell.thickness + 2 * cell.radius;
+  const auto where = fmt::format("not so at speed {}, step {}, radius {}, thickness {}, angle_deg {}", cell.speed,
+                                 cell.step, cell.radius, cell.thickness, cell.angle_deg);
   if (slab_chord(cell) > most_steps_across * step) {
-    settings.complain("step", fmt::format("longer: at speed {} and angle_deg {}, more than {} steps to cross thickness "
-                                          "{} + 2 * radius {}",
-                                          cell.speed, cell.angle_deg, most_steps_across, cell.thickness, cell.radius));
+    settings.complain(step_or_speed(settings),
+                      fmt::format("at most {} steps to cross the wall: {}", most_steps_across, where));
   }
   if (step > most_walls_a_step * thick) {
-    settings.complain("step",
-                      fmt::format("shorter: at speed {}, a step is more than {} times thickness {} + 2 * radius "
-                                  "{}",
-                                  cell.speed, most_walls_a_step, cell.thickness, cell.radius));
+    settings.complain(step_or_speed(settings),
+                      fmt::format("a step of at most {} times thickness + 2 * radius: {}", most_walls_a_step, where));
   }
   if (cell.wall == Wall::finite && cell.wall_size < thick) {
-    settings.complain("wall_size", fmt::format("at least thickness {} + 2 * radius {}", cell.thickness, cell.radius));
+    settings.complain("wall_size", fmt::format("at least thickness + 2 * radius: {}", where));
   }
 }
 

@@ -51,7 +51,7 @@ TEST(Random, uniform_reaches_zero_but_not_one) {
 
 /// Each word of the block on its own, over 64 bins: the chi-square statistic lies in its central 99.99 %.
 TEST(Random, uniform_is_uniform) {
-  constexpr std::int64_t bins = 64, draws = 64 * 2000;
+  constexpr std::int64_t bins = 64, draws = 128000;
   const Interval allowed = chi_square_range(bins - 1, 0.9999);
   for (std::size_t word = 0; word < 4; ++word) {
     std::vector<std::int64_t> counts(bins);

@@ -1,5 +1,6 @@
 #include <thinwall/experiments/self_test.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -40,7 +41,7 @@ TEST(SelfTest, fails_a_theory_that_is_five_percent_off) {
 /// Phases spread evenly by mistake give counts that agree too well.
 TEST(SelfTest, fails_counts_that_are_too_good) {
   auto cells = simulated(1, [](double truth) { return truth; });
-  for (CellCount& cell : cells) cell.tunneled = static_cast<std::int64_t>(500 * cell.theory + 0.5);
+  for (CellCount& cell : cells) cell.tunneled = std::llround(500 * cell.theory);
   const auto tests = self_test(cells);
   EXPECT_EQ(tests[0].covered, 200);
   EXPECT_FALSE(tests[0].passed());
