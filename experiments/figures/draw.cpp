@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/plot.hpp>
-#include <thinwall/experiments/results/subprocess.hpp>
+#include <thinwall/experiments/figures/plot.hpp>
+#include <thinwall/experiments/figures/subprocess.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 
 namespace thinwall {

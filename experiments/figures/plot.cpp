@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/plot.hpp>
+#include <thinwall/experiments/figures/plot.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/plot_axis.hpp>
-#include <thinwall/experiments/results/plot_layout.hpp>
-#include <thinwall/experiments/results/plot_style.hpp>
+#include <thinwall/experiments/figures/plot_axis.hpp>
+#include <thinwall/experiments/figures/plot_layout.hpp>
+#include <thinwall/experiments/figures/plot_style.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 

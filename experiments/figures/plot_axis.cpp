@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/plot_axis.hpp>
+#include <thinwall/experiments/figures/plot_axis.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/plot_layout.hpp>
+#include <thinwall/experiments/figures/plot_layout.hpp>
 
 #include <algorithm>
 

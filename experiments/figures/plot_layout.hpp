@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <thinwall/experiments/figure.hpp>
-#include <thinwall/experiments/results/plot_style.hpp>
+#include <thinwall/experiments/figures/plot_style.hpp>
 
 namespace thinwall {
 

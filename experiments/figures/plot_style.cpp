@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/plot_style.hpp>
+#include <thinwall/experiments/figures/plot_style.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/subprocess.hpp>
+#include <thinwall/experiments/figures/subprocess.hpp>
 
 #include <fcntl.h>
 #include <sys/wait.h>

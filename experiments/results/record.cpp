@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/sha256.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
 #include <thinwall_build_info.hpp>
 
 namespace thinwall {

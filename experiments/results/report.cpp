@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/plot.hpp>
+#include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/results/report_style.hpp>
-#include <thinwall/experiments/results/shown_table.hpp>
+#include <thinwall/experiments/tables/shown_table.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 

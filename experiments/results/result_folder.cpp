@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/sha256.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
 namespace {

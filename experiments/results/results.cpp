@@ -3,13 +3,13 @@
 #include <fstream>
 #include <iterator>
 
+#include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/results/citation.hpp>
-#include <thinwall/experiments/results/csv.hpp>
 #include <thinwall/experiments/results/manifest.hpp>
-#include <thinwall/experiments/results/plot.hpp>
 #include <thinwall/experiments/results/report.hpp>
 #include <thinwall/experiments/results/resolved_toml.hpp>
-#include <thinwall/experiments/results/shown_table.hpp>
+#include <thinwall/experiments/tables/csv.hpp>
+#include <thinwall/experiments/tables/shown_table.hpp>
 
 namespace thinwall {
 namespace {

@@ -14,9 +14,9 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/sha256.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
 namespace {

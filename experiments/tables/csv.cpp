@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/csv.hpp>
+#include <thinwall/experiments/tables/csv.hpp>
 
 #include <cmath>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/results/csv.hpp>
-#include <thinwall/experiments/results/sha256.hpp>
+#include <thinwall/experiments/tables/csv.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
 namespace {

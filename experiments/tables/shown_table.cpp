@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/shown_table.hpp>
+#include <thinwall/experiments/tables/shown_table.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/results/csv.hpp>
+#include <thinwall/experiments/tables/csv.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/results/sha256.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
 
 #include <array>
 #include <bit>

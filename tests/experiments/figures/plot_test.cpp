@@ -5,9 +5,9 @@
 #include <limits>
 #include <set>
 
-#include <thinwall/experiments/results/plot.hpp>
-#include <thinwall/experiments/results/plot_axis.hpp>
-#include <thinwall/experiments/results/plot_style.hpp>
+#include <thinwall/experiments/figures/plot.hpp>
+#include <thinwall/experiments/figures/plot_axis.hpp>
+#include <thinwall/experiments/figures/plot_style.hpp>
 
 #include "support/temporary_folder.hpp"
 

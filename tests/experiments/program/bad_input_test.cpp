@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <thinwall/experiments/results/subprocess.hpp>
+#include <thinwall/experiments/figures/subprocess.hpp>
 
 #include "support/temporary_folder.hpp"
 

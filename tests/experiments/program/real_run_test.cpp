@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-#include <thinwall/experiments/results/subprocess.hpp>
+#include <thinwall/experiments/figures/subprocess.hpp>
 
 #include "support/temporary_folder.hpp"
 

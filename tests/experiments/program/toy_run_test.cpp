@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/program/program.hpp>
-#include <thinwall/experiments/results/sha256.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/toy_experiment.hpp"
