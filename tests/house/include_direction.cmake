@@ -1,5 +1,6 @@
 # Reads the includes of the tree under ROOT and names, as file:line, each that breaks the rules of the house:
 # discrete <- capsule <- swept <- experiments; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers.
+# What tests or benchmarks share among themselves they include by its path under tests/ or bench/, in quotes.
 cmake_minimum_required(VERSION 3.25)
 
 set(below_discrete discrete)
@@ -32,7 +33,7 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
       set(fault "")
       if(path MATCHES "\\.\\.")
         set(fault "a path goes up with '..'; write <thinwall/FOLDER/...>")
-      elseif(quote STREQUAL "\"" AND NOT (folder STREQUAL "tests" AND path MATCHES "^support/"))
+      elseif(quote STREQUAL "\"" AND NOT (folder MATCHES "^(tests|bench)$" AND EXISTS "${ROOT}/${folder}/${path}"))
         set(fault "the one spelling is <thinwall/FOLDER/...>, in angle brackets")
       elseif(path MATCHES "^thinwall/([^/]*)/")
         if(NOT CMAKE_MATCH_1 IN_LIST below_${folder})
