@@ -51,6 +51,25 @@ template <Scalar S> Vec3<S> contact_point(const Obb<S>&, const Vec3<S>& core_poi
 template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { return box.axes.transpose() * world; }
 template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
 
+/// The path p + v t in the box's axes, from `base_time` on: start + motion * (t - base_time).
+/// The axes are orthonormal to rounding only; turning a point far beyond `reach` would move its whole path by that times
+/// its distance. A far path is turned from a point shortly before it passes the box, found by its moment p x v.
+template <Scalar S> struct TurnedPath {
+  Vec3<S> start, motion;
+  S base_time = 0;  ///< [1] >= 0: there is no contact before
+
+  TurnedPath(const Obb<S>& box, const Vec3<S>& p, const Vec3<S>& v, const S& reach)
+      : start(into(box, p)), motion(into(box, v)) {
+    const S near = 4 * (reach + box.half_extents.sum());
+    if (largest(p) < 2 * near || !products_in_range(largest(p)) || !products_in_range(largest(v))) return;
+    const S speed_square = v.squaredNorm(), lead = near / safe_norm(v);
+    const S earlier = -p.dot(v) / speed_square - lead;
+    if (!(earlier > S(0))) return;
+    base_time = earlier;
+    start = into<S>(box, cross(v, cross(p, v)) / speed_square - v * lead);
+  }
+};
+
 /// A gap given in the box's own axes, in the world's.
 template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
   return {gap.distance, out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),

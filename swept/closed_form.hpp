@@ -72,9 +72,10 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Obb<T>& frame = box.shape;
-  Entry<T> entry = rounded_box_entry<T>(into<T>(frame, sphere.shape.center - frame.center),
-                                        into<T>(frame, relative_displacement(sphere, box)), frame.half_extents,
-                                        sphere.shape.radius + gap);
+  const T reach = sphere.shape.radius + gap;
+  const TurnedPath<T> path(frame, sphere.shape.center - frame.center, relative_displacement(sphere, box), reach);
+  Entry<T> entry = rounded_box_entry<T>(path.start, path.motion, frame.half_extents, reach);
+  entry.time += path.base_time;
   entry.normal = out_of(frame, entry.normal);
   return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
@@ -152,10 +153,13 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
-  const Capsule<T> own = into(box.shape, capsule.shape);
-  Entry<T> entry = core_entry_at_any_scale<T>(
-      &closest_on_swept_box<T>, own.a, into<T>(box.shape, relative_displacement(capsule, box)),
-      own.radius + T(method.min_separation), Vec3<T>(own.b - own.a), box.shape.half_extents);
+  const T reach = capsule.shape.radius + T(method.min_separation);
+  const Vec3<T> core = into<T>(box.shape, capsule.shape.b - capsule.shape.a);
+  const TurnedPath<T> path(box.shape, capsule.shape.a - box.shape.center, relative_displacement(capsule, box),
+                           reach + largest(core));
+  Entry<T> entry = core_entry_at_any_scale<T>(&closest_on_swept_box<T>, path.start, path.motion, reach, core,
+                                              box.shape.half_extents);
+  entry.time += path.base_time;
   entry.normal = -out_of(box.shape, entry.normal);
   return toi_of(capsule, box, entry, [&](const T& time) { return middle_point(capsule, box, time); });
 }
