@@ -34,6 +34,12 @@ add_test(NAME house/include_direction
 add_test(NAME house/include_direction_sees_each_fault
   COMMAND "${CMAKE_COMMAND}" "-DWORK=${work}/include_direction" -P "${house}/include_direction_test.cmake")
 
+# A pair that is not served is a compile error that names it.
+add_test(NAME house/unserved_pair_is_named
+  COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/swept/unserved_pair.cpp"
+          "-DINCLUDES=${PROJECT_BINARY_DIR}/include;$<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>"
+          -P "${house}/unserved_pair.cmake")
+
 # Installed, then found and used by a project that knows nothing of this tree.
 add_test(NAME house/installed_package
   COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DCONSUMER=${CMAKE_CURRENT_SOURCE_DIR}/consumer"

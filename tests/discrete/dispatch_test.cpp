@@ -1,0 +1,112 @@
+// Bodies of any type through std::variant, one by one and grouped by type pair.
+
+#include <thinwall/discrete/box_manifold.hpp>
+#include <thinwall/discrete/grouped_pairs.hpp>
+
+#include "support/shaker.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> using Any = std::variant<std::monostate, Sphere<S>, Aabb<S>, Obb<S>>;
+
+template <class S> Any<S> drawn_any(Shaker<S>& draw) {
+  switch (draw.pick(0, 3)) {
+    case 1: return drawn(draw, TypeTag<Sphere<S>>{});
+    case 2: return drawn(draw, TypeTag<Aabb<S>>{});
+    case 3: return drawn(draw, TypeTag<Obb<S>>{});
+    default: return std::monostate{};
+  }
+}
+
+template <class S> class Dispatch : public ::testing::Test {};
+TYPED_TEST_SUITE(Dispatch, Scalars, ScalarNames);
+
+TYPED_TEST(Dispatch, asks_the_shapes_that_are_held_in_either_order) {
+  using S = TypeParam;
+  const Sphere<S> ball{{0, 0, 0}, 1};
+  const Aabb<S> box{{S(3) / S(2), 0, 0}, {1, 1, 1}};
+  const Any<S> a = ball, b = box;
+  EXPECT_TRUE(overlaps(a, b));
+  EXPECT_EQ(contact(a, b)->normal, contact(ball, box)->normal);
+  EXPECT_EQ(contact(b, a)->normal, contact(box, ball)->normal);
+  EXPECT_EQ(contact(a, b)->penetration, S(1) / S(2));
+  EXPECT_EQ(separation(a, b)->distance, -S(1) / S(2));
+  EXPECT_EQ(manifold(a, b)[0].local_b, manifold(ball, box)[0].local_b);
+  EXPECT_EQ(manifold(b, b).size(), 4U);
+  const Ray<S> ray{{-4, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(raycast(ray, a)->t, S(3));
+}
+
+TYPED_TEST(Dispatch, no_volume_collides_with_nothing) {
+  using S = TypeParam;
+  const Any<S> none, ball = Sphere<S>{{0, 0, 0}, 1};
+  for (const auto& [a, b] : {std::pair{none, ball}, std::pair{ball, none}, std::pair{none, none}}) {
+    EXPECT_FALSE(overlaps(a, b));
+    EXPECT_FALSE(contact(a, b));
+    EXPECT_FALSE(separation(a, b));
+    EXPECT_TRUE(manifold(a, b).empty());
+  }
+  EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, none));
+}
+
+TYPED_TEST(Dispatch, lists_may_differ_and_then_a_list_may_hold_what_does_not_meet_itself) {
+  using S = TypeParam;
+  const std::variant<Sphere<S>> mover = Sphere<S>{{0, 0, 1}, 1};
+  const std::variant<Triangle<S>, Aabb<S>> wall = Triangle<S>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  EXPECT_TRUE(overlaps(mover, wall));
+  EXPECT_TRUE(overlaps(wall, mover));
+}
+
+TYPED_TEST(Dispatch, grouped_answers_are_those_of_one_by_one_calls_in_the_order_asked) {
+  using S = TypeParam;
+  Shaker<S> draw(1);
+  std::vector<Any<S>> bodies;
+  for (int i = 0; i < 60; ++i) bodies.push_back(drawn_any(draw));
+  std::vector<IndexPair> pairs;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    for (std::uint32_t j = 0; j < i; ++j) pairs.push_back(draw.pick(0, 1) == 0 ? IndexPair{i, j} : IndexPair{j, i});
+  }
+  const PairGroups groups = group_pairs(bodies, bodies, pairs);
+  const auto touching =
+      answers(groups, bodies, bodies, pairs, false, [](const auto& a, const auto& b) { return overlaps(a, b); });
+  const auto contacts = answers(groups, bodies, bodies, pairs, std::optional<Contact<S>>{},
+                                [](const auto& a, const auto& b) { return contact(a, b); });
+  ASSERT_EQ(touching.size(), pairs.size());
+  int hits = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Any<S>&a = bodies[pairs[k].a], &b = bodies[pairs[k].b];
+    ASSERT_EQ(touching[k], overlaps(a, b)) << k;
+    ASSERT_EQ(contacts[k].has_value(), overlaps(a, b)) << k;
+    if (!contacts[k]) continue;
+    ++hits;
+    EXPECT_EQ(contacts[k]->normal, contact(a, b)->normal);
+    EXPECT_EQ(contacts[k]->local_a, contact(a, b)->local_a);
+    EXPECT_EQ(contacts[k]->penetration, contact(a, b)->penetration);
+  }
+  EXPECT_GT(hits, 50);
+}
+
+TEST(PairGroups, hold_every_pair_once_by_type_and_in_order) {
+  const std::vector<Any<double>> bodies{Sphere<double>{{0, 0, 0}, 1}, Aabb<double>{{0, 0, 0}, {1, 1, 1}},
+                                        Sphere<double>{{0, 0, 0}, 1}};
+  const std::vector<IndexPair> pairs{{0, 1}, {0, 2}, {1, 0}, {2, 1}, {2, 0}};
+  const PairGroups groups = group_pairs(bodies, bodies, pairs);
+  EXPECT_EQ(groups.order, (std::vector<std::uint32_t>{1, 4, 0, 3, 2}));  // ball-ball, ball-box, box-ball
+  ASSERT_EQ(groups.start.size(), 17U);
+  EXPECT_EQ(groups.start[1 * 4 + 1], 0U);
+  EXPECT_EQ(groups.start[1 * 4 + 2], 2U);
+  EXPECT_EQ(groups.start[2 * 4 + 1], 4U);
+  EXPECT_EQ(groups.start[16], 5U);
+}
+
+TEST(PairGroups, of_no_pair_are_empty) {
+  const std::vector<Any<double>> bodies;
+  const std::vector<IndexPair> pairs;
+  const PairGroups groups = group_pairs(bodies, bodies, pairs);
+  EXPECT_TRUE(groups.order.empty());
+  EXPECT_TRUE(answers(groups, bodies, bodies, pairs, 0, [](const auto&, const auto&) { return 1; }).empty());
+}
+
+}  // namespace
+}  // namespace thinwall::testing

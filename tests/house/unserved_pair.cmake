@@ -1,0 +1,26 @@
+# Compiles SOURCE, a scene whose list has a pair that is not served, and expects an error that says so and names both
+# shapes; then compiles the same scene with a list that is served. COMPILER, INCLUDES: how.
+cmake_minimum_required(VERSION 3.25)
+
+list(TRANSFORM INCLUDES PREPEND "-I")
+
+function(compile result said)
+  execute_process(COMMAND "${COMPILER}" -std=c++20 -fsyntax-only ${INCLUDES} ${ARGN} "${SOURCE}"
+    RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  set(${result} ${status} PARENT_SCOPE)
+  set(${said} "${text}" PARENT_SCOPE)
+endfunction()
+
+foreach(query RANGE 1 3)
+  compile(status said -DQUERY=${query})
+  if(status EQUAL 0)
+    message(SEND_ERROR "query ${query} compiles, though a box and a triangle are no pair")
+  elseif(NOT said MATCHES "this pair of shapes is not served"
+      OR NOT said MATCHES "AskedOf<thinwall::Obb<double>, *thinwall::Triangle<double> *>")
+    message(SEND_ERROR "the error of query ${query} does not name the pair:\n${said}")
+  endif()
+  compile(status said -DQUERY=${query} -DSERVED)
+  if(NOT status EQUAL 0)
+    message(SEND_ERROR "query ${query} does not compile, though its pairs are served:\n${said}")
+  endif()
+endforeach()
