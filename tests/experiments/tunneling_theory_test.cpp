@@ -27,7 +27,7 @@ double distance(const RoundedBox& box, const Vec3<double>& point) {
 double chord(const RoundedBox& box, const Vec3<double>& foot, const Vec3<double>& direction) {
   const auto gap = [&](double t) { return distance(box, foot + t * direction) - box.radius; };
   double left = -10, right = 10;
-  for (int i = 0; i < 200; ++i) {  // ternary search: the gap is convex along the line
+  for (int i = 0; i < 100; ++i) {  // ternary search: the gap is convex along the line
     const double third = (right - left) / 3;
     (gap(left + third) < gap(right - third) ? right : left) += gap(left + third) < gap(right - third) ? -third : third;
   }
@@ -54,7 +54,7 @@ struct Measured {
   double volume = 0, shadow = 0, longest = 0;
 };
 Measured measure(const RoundedBox& box, const Vec3<double>& direction) {
-  constexpr int lines = 160;
+  constexpr int lines = 120;
   const double reach = box.half_extents.norm() + box.radius, spacing = 2 * reach / lines;
   const auto [u, v] = across(direction);
   Measured sum;
@@ -114,7 +114,7 @@ TEST(TunnelingTheory, finite_wall_agrees_with_counting) {
   const auto [u, v] = across(oblique);
   const double reach = brick.half_extents.norm() + brick.radius;
   std::int64_t lines = 0, missed = 0;
-  for (std::uint64_t trial = 0; lines < 40000; ++trial) {
+  for (std::uint64_t trial = 0; lines < 20000; ++trial) {
     const RandomWords words = random_words({1, 2}, trial, 0);
     const Vec3<double> foot = reach * ((2 * uniform(words[0]) - 1) * u + (2 * uniform(words[1]) - 1) * v);
     if (chord(brick, foot, oblique) <= 0) continue;
