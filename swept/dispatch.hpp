@@ -30,14 +30,14 @@ template <class A, class B> struct AskedOf<Moving<A>, Moving<B>> : AskedOf<A, B>
 
 /// A moving body in a list of pairs: its shape decides the group.
 template <class... Types> struct BodyTypes<Moving<std::variant<Types...>>> {
-  using Shapes = BodyTypes<std::variant<Types...>>;
+  using Held = BodyTypes<std::variant<Types...>>;
   using Body = Moving<std::variant<Types...>>;
   static constexpr std::size_t count = sizeof...(Types);
-  template <std::size_t i> using Type = typename Shapes::template Type<i>;
+  template <std::size_t i> using Type = typename Held::template Type<i>;
 
   static std::size_t index(const Body& body) { return body.shape.index(); }
   template <std::size_t i> static Moving<Type<i>> get(const Body& body) {
-    return {Shapes::template get<i>(body.shape), body.displacement};
+    return {Held::template get<i>(body.shape), body.displacement};
   }
 };
 
