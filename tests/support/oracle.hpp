@@ -41,7 +41,8 @@ template <class Reached, class Guess> void bracket(Real& low, Real& high, const 
 /// Half the derivative of the squared core distance; zero where the cores meet. Piecewise linear in time.
 inline Real approach_slope(const Pair& pair, const Zonotope& core, const Real& time) {
   const Vector offset = pair.offset(time);
-  return dot(offset - nearest(core, offset), pair.relative_displacement());
+  const Vector across = offset - nearest(core, offset);
+  return length(across) <= noise(core, offset) ? Real(0) : dot(across, pair.relative_displacement());
 }
 
 /// The first time in [0, 1] at which the separation is least, from the sign of its derivative.
@@ -53,8 +54,9 @@ inline Real closest_approach(const Pair& pair) {
   bracket(
       low, high, [&](const Real& time) { return approach_slope(pair, core, time) >= 0; },
       [&](const Real& from, const Real& to) {
-        const Real start = approach_slope(pair, core, from), end = approach_slope(pair, core, to);
-        return Real(end == start ? to : from - start * (to - from) / (end - start));
+        const Real beside = ldexp(to - from, -60);  // the slope is linear there
+        const Real start = approach_slope(pair, core, from), next = approach_slope(pair, core, from + beside);
+        return Real(next == start ? to : from - start * beside / (next - start));
       });
   return high;
 }
@@ -85,8 +87,8 @@ inline Impact impact(const Pair& pair) {
     const Real size = scale(pair, time, there.normal);
     return size == 0 ? Real(0) : Real(there.separation / size);  // two points that rest at the origin
   };
-  const Real touch = ldexp(Real(1), -200);  // a margin below is decided by fractions
   const bool fractions = pair.core().generators.empty();
+  const Real touch = ldexp(Real(1), fractions ? -200 : -260);  // a margin below is decided by fractions, or is a touch
 
   const Gap start = gap(pair, 0);
   Real start_margin = margin_at(0, start);

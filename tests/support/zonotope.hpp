@@ -1,5 +1,5 @@
 #pragma once
-/// Distance and depth of a point in a zonotope, by trying every face.
+/// Distance and depth of a point in a zonotope.
 ///
 /// The cores of all shapes here (point, segment, box) are zonotopes, and so is the Minkowski sum of two cores: the
 /// separation of two shapes is the distance of one point to one zonotope, less the sum of the radii.
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "support/real.hpp"
+#include "support/faces.hpp"
 
 namespace thinwall::oracle {
 
@@ -17,16 +17,25 @@ struct Zonotope {
   std::vector<Vector> generators{};  ///< [length] half edges in any direction
 };
 
-/// Every generator, those of the box first; the ones of length zero are left out.
+/// Every generator, those of the box first; parallel ones are added up, and those of length zero left out.
 inline std::vector<Vector> all_generators(const Zonotope& z) {
   std::vector<Vector> all;
+  const auto add = [&](const Vector& g) {
+    if (dot(g, g) == 0) return;
+    for (Vector& other : all) {
+      const Vector across = cross(other, g);
+      if (dot(across, across) != 0) continue;
+      other = dot(other, g) > 0 ? other + g : other - g;
+      return;
+    }
+    all.push_back(g);
+  };
   for (std::size_t i = 0; i < 3; ++i) {
     Vector edge{};
     edge[i] = z.box[i];
-    all.push_back(edge);
+    add(edge);
   }
-  all.insert(all.end(), z.generators.begin(), z.generators.end());
-  std::erase_if(all, [](const Vector& g) { return dot(g, g) == 0; });
+  for (const Vector& g : z.generators) add(g);
   return all;
 }
 
@@ -37,87 +46,9 @@ inline Real support(const Zonotope& z, const Vector& direction) {
   return reach;
 }
 
-/// The factors of up to three edges whose sum comes nearest to `target` (normal equations, pivoted elimination).
-/// False if the edges are dependent: then a smaller set of edges spans the same face.
-inline bool least_squares(const std::vector<Vector>& edges, const Vector& target, std::vector<Real>& factors) {
-  const std::size_t n = edges.size();
-  std::vector<std::vector<Real>> rows(n, std::vector<Real>(n + 1));
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) rows[i][j] = dot(edges[i], edges[j]);
-    rows[i][n] = dot(edges[i], target);
-  }
-  for (std::size_t column = 0; column < n; ++column) {
-    std::size_t pivot = column;
-    for (std::size_t i = column + 1; i < n; ++i)
-      if (abs(rows[i][column]) > abs(rows[pivot][column])) pivot = i;
-    if (rows[pivot][column] == 0) return false;
-    std::swap(rows[pivot], rows[column]);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == column) continue;
-      const Real factor = rows[i][column] / rows[column][column];
-      for (std::size_t j = column; j <= n; ++j) rows[i][j] -= factor * rows[column][j];
-    }
-  }
-  factors.resize(n);
-  for (std::size_t i = 0; i < n; ++i) factors[i] = rows[i][n] / rows[i][i];
-  return true;
-}
-
-/// Tries every face: each generator is at -1, at +1, or free, at most three of them free.
-class FaceSearch {
- public:
-  FaceSearch(const std::vector<Vector>& generators, const Vector& point) : generators_(generators), point_(point) {
-    visit(0, Vector{});
-  }
-  const Vector& nearest() const { return best_; }
-
- private:
-  void visit(std::size_t index, const Vector& fixed) {
-    if (index == generators_.size()) return try_face(fixed);
-    const Vector& g = generators_[index];
-    visit(index + 1, fixed - g);
-    visit(index + 1, fixed + g);
-    if (free_.size() == 3) return;
-    free_.push_back(g);
-    visit(index + 1, fixed);
-    free_.pop_back();
-  }
-
-  // A factor beyond its range is clamped. The point found then lies in the zonotope all the same, if not nearest:
-  // a face that does not hold the answer can never spoil it.
-  void try_face(const Vector& fixed) {
-    if (!least_squares(free_, point_ - fixed, factors_)) return;
-    Vector candidate = fixed;
-    for (std::size_t i = 0; i < free_.size(); ++i) {
-      const Real factor = factors_[i] > 1 ? Real(1) : factors_[i] < -1 ? Real(-1) : factors_[i];
-      candidate = candidate + factor * free_[i];
-    }
-    const Vector gap = point_ - candidate;
-    const Real square = dot(gap, gap);
-    if (found_ && square >= best_square_) return;
-    found_ = true;
-    best_ = candidate;
-    best_square_ = square;
-  }
-
-  const std::vector<Vector>& generators_;
-  Vector point_;
-  std::vector<Vector> free_{};
-  std::vector<Real> factors_{};
-  bool found_ = false;
-  Vector best_{};
-  Real best_square_ = 0;
-};
-
-/// The point of the zonotope nearest to `p`, whatever its generators.
-inline Vector nearest_by_search(const Zonotope& z, const Vector& p) {
-  const std::vector<Vector> generators = all_generators(z);
-  return FaceSearch(generators, p).nearest();
-}
-
 /// The point of the zonotope nearest to `p`; for a box, each coordinate is clamped.
 inline Vector nearest(const Zonotope& z, const Vector& p) {
-  if (!z.generators.empty()) return nearest_by_search(z, p);
+  if (!z.generators.empty()) return nearest_of_any(all_generators(z), p);
   Vector q = p;
   for (std::size_t i = 0; i < 3; ++i) {
     if (q[i] > z.box[i]) q[i] = z.box[i];

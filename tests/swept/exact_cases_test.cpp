@@ -4,6 +4,7 @@
 
 #include "support/box_cases.hpp"
 #include "support/judge.hpp"
+#include "support/pair_cases.hpp"
 #include "support/sphere_cases.hpp"
 #include "support/transforms.hpp"
 
@@ -12,10 +13,13 @@ namespace {
 
 template <class S> class ExactCases : public ::testing::Test {
  protected:
-  /// Runs `check` on every case of both tables.
+  /// Runs `check` on every case of every table.
   template <class Check> static void each(const Check& check) {
     for (const auto& c : sphere_cases<S>()) run(c, check);
     for (const auto& c : box_cases<S>()) run(c, check);
+    for (const auto& c : box_pair_cases<S>()) run(c, check);
+    for (const auto& c : capsule_pair_cases<S>()) run(c, check);
+    for (const auto& c : capsule_box_cases<S>()) run(c, check);
   }
 
  private:

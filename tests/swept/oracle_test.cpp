@@ -65,8 +65,25 @@ TEST(Oracle, face_search_finds_what_clamping_finds) {
     Zonotope z;
     z.box = magnitude(lattice ? dice.lattice(2) : dice.vector(2));
     const Vector p = lattice ? dice.lattice(4) : dice.vector(4);
-    expect_near(length(p - nearest_by_search(z, p)), length(p - nearest(z, p)));
+    expect_near(length(p - FaceSearch(all_generators(z), p).nearest()), length(p - nearest(z, p)));
   }
+}
+
+TEST(Oracle, a_proven_guess_is_what_trying_every_face_finds) {
+  Dice dice;
+  int proven = 0;
+  for (int i = 0; i < 200; ++i) {
+    Zonotope z;
+    z.box = magnitude(dice.lattice(2));
+    z.generators = {i % 3 == 0 ? dice.lattice(1) : dice.vector(2), i % 5 == 0 ? dice.lattice(1) : dice.vector(1)};
+    const std::vector<Vector> generators = all_generators(z);
+    const Vector p = i % 2 == 0 ? dice.lattice(6) : dice.vector(6);
+    Vector found;
+    if (!nearest_on_guess(generators, p, found)) continue;
+    ++proven;
+    expect_near(length(p - found), length(p - FaceSearch(generators, p).nearest()), 200);
+  }
+  EXPECT_GT(proven, 100);
 }
 
 TEST(Oracle, nearest_point_has_a_supporting_plane) {  // the condition that makes it the nearest

@@ -1,0 +1,175 @@
+// What holds for every method in the list, the foils included.
+
+#include <gtest/gtest.h>
+#include <thinwall/swept/methods.hpp>
+
+#include "support/judge.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class EveryMethod : public ::testing::Test {
+ protected:
+  using Ball = Moving<Sphere<S>>;
+  using Box = Moving<Aabb<S>>;
+
+  /// Calls check(method) for each method of the list, default options.
+  template <class Check> static void each(const Check& check) {
+    for_each_type(Methods<S>{}, [&](auto tag) {
+      using Method = typename decltype(tag)::type;
+      static_assert(serves<Method, Sphere<S>, Sphere<S>> && serves<Method, Sphere<S>, Aabb<S>> &&
+                    serves<Method, Aabb<S>, Sphere<S>>);
+      SCOPED_TRACE(std::string(Method::name));
+      check(Method{});
+    });
+  }
+  /// True for the methods that look at the start; EndOfStep and Substeps see only the poses they sample.
+  template <class Method>
+  static constexpr bool sees_start = !std::is_same_v<Method, EndOfStep<S>> && !std::is_same_v<Method, Substeps<S>>;
+
+  static void expect_invalid(const Toi<S>& toi) {
+    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
+    EXPECT_NE(toi.time, toi.time);
+    EXPECT_EQ(toi.normal, Vec3<S>(0, 0, 0));
+    EXPECT_EQ(toi.point, Vec3<S>(0, 0, 0));
+  }
+  template <class Method, class A, class B>
+  static void expect_invalid_both_ways(const Method& m, const A& a, const B& b) {
+    expect_invalid(time_of_impact(m, a, b));
+    expect_invalid(time_of_impact(m, b, a));
+  }
+
+  const Ball ball{Sphere<S>{{-4, 0, 0}, 1}, {8, 0, 0}};
+  const Ball other = at_rest(Sphere<S>{{0, 0, 0}, 1});
+  const Box box = at_rest(Aabb<S>{{0, 0, 0}, {1, 1, 1}});
+};
+TYPED_TEST_SUITE(EveryMethod, Scalars, ScalarNames);
+
+TYPED_TEST(EveryMethod, nan_and_infinity_are_invalid) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    for (const S& bad : {nan<S>(), infinity<S>(), S(-infinity<S>())}) {
+      for (int i = 0; i < 3; ++i) {
+        auto center = this->ball, path = this->ball;
+        center.shape.center[i] = path.displacement[i] = bad;
+        auto box_center = this->box, size = this->box, box_path = this->box;
+        box_center.shape.center[i] = size.shape.half_extents[i] = box_path.displacement[i] = bad;
+        for (const auto& broken : {center, path}) {
+          this->expect_invalid_both_ways(method, broken, this->other);
+          this->expect_invalid_both_ways(method, broken, this->box);
+        }
+        for (const auto& broken : {box_center, size, box_path})
+          this->expect_invalid_both_ways(method, this->ball, broken);
+      }
+      auto radius = this->ball;
+      radius.shape.radius = bad;
+      this->expect_invalid_both_ways(method, radius, this->other);
+      this->expect_invalid_both_ways(method, radius, this->box);
+    }
+  });
+}
+
+TYPED_TEST(EveryMethod, negative_sizes_are_invalid) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    auto radius = this->ball;
+    radius.shape.radius = S(-1);
+    this->expect_invalid_both_ways(method, radius, this->other);
+    this->expect_invalid_both_ways(method, radius, this->box);
+    auto size = this->box;
+    size.shape.half_extents[1] = S(-1);
+    this->expect_invalid_both_ways(method, this->ball, size);
+  });
+}
+
+TYPED_TEST(EveryMethod, min_separation_must_be_a_length) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    for (const S& bad : {S(-1), nan<S>(), infinity<S>()}) {
+      auto options = method;
+      options.min_separation = bad;
+      this->expect_invalid_both_ways(options, this->ball, this->box);
+      this->expect_invalid_both_ways(options, this->ball, this->other);
+    }
+  });
+}
+
+TYPED_TEST(EveryMethod, a_miss_carries_no_data) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    auto wide = this->ball;
+    wide.shape.center[1] = S(5);
+    for (const Toi<S>& toi : {time_of_impact(method, wide, this->box), time_of_impact(method, wide, this->other)}) {
+      EXPECT_EQ(text(toi.status), text(ToiStatus::apart));
+      EXPECT_EQ(toi.time, S(1));
+      EXPECT_EQ(toi.normal, Vec3<S>(0, 0, 0));
+      EXPECT_EQ(toi.point, Vec3<S>(0, 0, 0));
+      EXPECT_GE(toi.evaluations, 0);
+    }
+  });
+}
+
+TYPED_TEST(EveryMethod, what_is_long_in_contact_is_found_by_all) {  // into the middle of a box, and no farther
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    auto stopping = this->ball;
+    stopping.displacement = {4, 0, 0};
+    const Toi<S> toi = time_of_impact(method, stopping, this->box);
+    EXPECT_EQ(text(toi.status), text(ToiStatus::hit));
+    EXPECT_TRUE(toi.time >= S(0.5) && toi.time <= S(1));  // true contact at one half: none is early
+    EXPECT_TRUE(is_unit(toi.normal));
+    EXPECT_GE(toi.evaluations, 0);
+  });
+}
+
+TYPED_TEST(EveryMethod, other_way_round_to_the_bit) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    for (const S& height : {S(0), S(0.5), S(1.5), S(3)}) {
+      auto shot = this->ball;
+      shot.shape.center[1] = height;
+      shot.displacement = {4, S(1) / S(8), 0};
+      const Toi<S> there = time_of_impact(method, shot, this->box), back = time_of_impact(method, this->box, shot);
+      EXPECT_EQ(text(there.status), text(back.status));
+      EXPECT_EQ(there.time, back.time);
+      EXPECT_EQ(there.normal, Vec3<S>(-back.normal));
+      EXPECT_EQ(there.point, back.point);
+    }
+  });
+}
+
+TYPED_TEST(EveryMethod, at_rest_apart_is_apart) {
+  this->each([this](const auto& method) {
+    const auto still = at_rest(this->ball.shape);
+    EXPECT_EQ(text(time_of_impact(method, still, this->box).status), text(ToiStatus::apart));
+    EXPECT_EQ(text(time_of_impact(method, still, this->other).status), text(ToiStatus::apart));
+  });
+}
+
+TYPED_TEST(EveryMethod, at_rest_in_contact_is_overlapping) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    for (const S& x : {S(-2), S(-1), S(0)}) {  // touching, overlapping, one center
+      const auto still = at_rest(Sphere<S>{{x, 0, 0}, 1});
+      for (const Toi<S>& toi : {time_of_impact(method, still, this->box), time_of_impact(method, still, this->other)}) {
+        const bool start = EveryMethod<S>::template sees_start<std::decay_t<decltype(method)>>;
+        EXPECT_EQ(text(toi.status), text(start ? ToiStatus::overlapping : ToiStatus::hit));
+        EXPECT_EQ(toi.time == S(0), start);
+        EXPECT_TRUE(is_unit(toi.normal));
+      }
+    }
+  });
+}
+
+TYPED_TEST(EveryMethod, same_motion_is_no_motion) {
+  using S = TypeParam;
+  this->each([this](const auto& method) {
+    const Vec3<S> drift(S(1024), S(-512), S(256));
+    const Moving<Sphere<S>> drifting_ball{this->ball.shape, drift};
+    const Moving<Aabb<S>> drifting_box{this->box.shape, drift};
+    EXPECT_EQ(text(time_of_impact(method, drifting_ball, drifting_box).status), text(ToiStatus::apart));
+  });
+}
+
+}  // namespace
+}  // namespace thinwall::testing
