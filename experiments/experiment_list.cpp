@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
 
 namespace thinwall {
@@ -10,6 +11,7 @@ std::span<const Experiment> experiments() {
   // A new experiment is a line here: one that registered itself could be dropped by the linker.
   static const std::array list = {
       thin_wall_experiment(),
+      accuracy_experiment(),
   };
   return list;
 }

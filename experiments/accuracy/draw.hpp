@@ -1,0 +1,119 @@
+#pragma once
+/// Adversarial queries: two moving shapes, over decades of distance, size ratio, aspect, speed, offset from the origin, and
+/// angle down to grazing.
+
+#include <algorithm>
+#include <cmath>
+
+#include <thinwall/experiments/random.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+namespace thinwall {
+
+/// The numbers of one query: a stream of its own, so that no query depends on another.
+class QueryNumbers {
+ public:
+  QueryNumbers(const RandomStream& stream, std::uint64_t query) : stream_(stream), query_(query) {}
+
+  double operator()() {
+    if (next_ == 4) {
+      words_ = random_words(stream_, query_, draw_++);
+      next_ = 0;
+    }
+    return uniform(words_[next_++]);
+  }
+  double between(double low, double high) { return low + (high - low) * (*this)(); }
+  double decades(double low, double high) { return std::pow(10.0, between(low, high)); }
+  bool one_in(double n) { return (*this)() * n < 1; }
+  Vec3<double> direction() {
+    Vec3<double> v;
+    do {
+      v = {between(-1, 1), between(-1, 1), between(-1, 1)};
+    } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
+    return safe_unit(v);
+  }
+
+ private:
+  RandomStream stream_;
+  std::uint64_t query_, draw_ = 0;
+  RandomWords words_{};
+  std::size_t next_ = 4;
+};
+
+template <class A> struct ShapeDraw;
+template <> struct ShapeDraw<Sphere<double>> {
+  static Sphere<double> draw(QueryNumbers& u, double size) { return {Vec3<double>::Zero(), size * u.decades(-1, 0)}; }
+};
+template <> struct ShapeDraw<Aabb<double>> {
+  static Aabb<double> draw(QueryNumbers& u, double size) {
+    const double thinnest = u.one_in(3) ? -6 : -1;
+    return {Vec3<double>::Zero(), Vec3<double>(u.decades(thinnest, 0), u.decades(-1, 0), u.decades(-1, 0)) * size};
+  }
+};
+template <> struct ShapeDraw<Obb<double>> {
+  static Obb<double> draw(QueryNumbers& u, double size) {
+    const Vec3<double> half = ShapeDraw<Aabb<double>>::draw(u, size).half_extents;
+    Mat3<double> axes;
+    axes.col(0) = u.direction();
+    axes.col(1) = safe_unit(cross<double>(axes.col(0), u.direction()));
+    if (u.one_in(4)) {  // next to upright: nearly parallel edges
+      const double tilt = u.decades(-16, -2);
+      axes.col(0) = safe_unit(Vec3<double>(1, tilt, 0));
+      axes.col(1) = safe_unit(Vec3<double>(-tilt, 1, 0));
+    }
+    axes.col(2) = cross<double>(axes.col(0), axes.col(1));
+    return {Vec3<double>::Zero(), half, axes};
+  }
+};
+template <> struct ShapeDraw<Capsule<double>> {
+  static Capsule<double> draw(QueryNumbers& u, double size) {
+    const Vec3<double> half = u.direction() * (size * u.decades(-2, 0));
+    return {-half, half, size * u.decades(-3, 0)};
+  }
+};
+template <> struct ShapeDraw<Triangle<double>> {
+  static Triangle<double> draw(QueryNumbers& u, double size) {
+    return {u.direction() * (size * u.decades(-1, 0)), u.direction() * (size * u.decades(-1, 0)),
+            u.direction() * (size * u.decades(-1, 0))};
+  }
+};
+
+template <class A, class B> struct MovingPair {
+  Moving<A> a;
+  Moving<B> b;
+};
+
+/// One query. `digits` [1] is how many decades of distance and offset the scalar can take: 8 for double, 3 for float.
+template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double digits) {
+  const double small = u.one_in(3) ? u.decades(-digits, 0) : u.decades(-1, 0);
+  const bool a_small = u.one_in(2);
+  const A a = ShapeDraw<A>::draw(u, a_small ? small : 1.0);
+  const B b = ShapeDraw<B>::draw(u, a_small ? 1.0 : small);
+  const double reach = safe_norm(half_widths(a)) + safe_norm(half_widths(b));
+  const Vec3<double> from = u.direction() * (reach * (1 + u.decades(-3, u.one_in(3) ? digits : 1)));
+  const Vec3<double> aside = u.direction() * (reach * u.decades(-1, 0));
+  const double stretch = u.one_in(10) ? u.decades(0, 3) : u.between(0.6, 3);
+  const Vec3<double> drift =
+      u.one_in(2) ? Vec3<double>(u.direction() * (safe_norm(from) * u.decades(-3, 1))) : Vec3<double>::Zero();
+  const auto aimed = [&](double share) {
+    return MovingPair<A, B>{{moved(a, from), (aside * share - from) * stretch + drift}, {b, drift}};
+  };
+  double share = 1;
+  if (u.one_in(2.5)) {  // grazing: between the last hit and the first miss, to a distance of 1e-1 to 1e-15 of the reach
+    double hit = 0, miss = 4;
+    for (int i = 0; i < 50; ++i) {
+      const MovingPair<A, B> tried = aimed((hit + miss) / 2);
+      (time_of_impact(tried.a, tried.b).status == ToiStatus::apart ? miss : hit) = (hit + miss) / 2;
+    }
+    share = hit * (1 + (u.one_in(2) ? 1 : -1) * u.decades(-15, -1));
+  }
+  MovingPair<A, B> query = aimed(share);
+  if (u.one_in(5)) {
+    const Vec3<double> origin = u.direction() * (reach * u.decades(0, digits));
+    query.a.shape = moved(query.a.shape, origin);
+    query.b.shape = moved(query.b.shape, origin);
+  }
+  return query;
+}
+
+}  // namespace thinwall
