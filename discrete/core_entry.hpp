@@ -94,29 +94,33 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     return answer;
   };
   const S noise = gap_noise(largest(p, S(R + size)));
-  S now = 0;
+  S free = 0, now = 0;  // no contact before `free`; `part` is the nearest at `now`
+  int touches = 0;
   while (++answer.rounds < round_limit) {
     const S closing = part.closing_speed(v);
     if (!(closing > S(0))) return answer;  // convex: what recedes does not come back
     const PartEntry<S> entry = part_entry(part, p, v, R);
-    const S target = std::max(now, entry.exists ? entry.time : entry.closest_time);
+    const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
     if (!is_finite(target)) return answer;
     const CorePart<S> there = closest(p + v * target);
     if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : answer;
     const S ahead = there.distance() - R;
     if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
-    if (target > now && (ahead > S(0) ? there.closing_speed(v) > S(0) : ahead >= -noise)) {
+    const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
+    const bool touching = ahead <= S(0) && ahead >= -noise && ++touches < 4;  // to rounding: let that part have its say
+    if (before || touching) {
+      if (before) free = target;
       now = target;
       part = there;
       continue;
     }
-    const S step = (part.distance() - R) / closing;  // Newton, from before the first contact
-    if (!(step > S(0)) || now + step == now) return hit(now, safe_unit(part.gap));
-    now += step;
+    const S next = now + (part.distance() - R) / closing;  // Newton: never past the first contact
+    if (!(next > free) || next == now) return hit(std::max(free, next), safe_unit(part.gap));
+    free = now = next;
     part = closest(p + v * now);
   }
   answer.gave_up = true;
-  answer.time = now;
+  answer.time = free;
   return answer;
 }
 
