@@ -20,8 +20,8 @@ class Settings;  // experiments/settings.hpp: typed, checked access to one TOML 
 /// A named piece of work small enough to be lost: a cell of a factorial design, usually.
 /// Its result is a line of text that the run's journal keeps, so that an interrupted run can resume.
 struct Unit {
-  std::string key;      ///< unique in the run and free of tabs and newlines
-  std::int64_t trials;  ///< for the progress bar and the estimate
+  std::string key;                       ///< unique in the run and free of tabs and newlines
+  std::int64_t trials;                   ///< for the progress bar and the estimate
   std::function<std::string()> compute;  ///< thread-safe; deterministic; free of newlines
 };
 

@@ -9,10 +9,10 @@ namespace thinwall {
 enum class Mark { points, line, dashes };
 
 struct Series {
-  std::string label;                ///< legend entry; the same label has the same colour in every panel
-  Mark mark = Mark::points;         ///< theory is drawn with `line`, measurement with `points`
-  std::vector<double> x, y;         ///< equally long; NaN leaves a gap
-  std::vector<double> lower, upper; ///< interval bars, as long as `y`, or both empty
+  std::string label;                 ///< legend entry; the same label has the same colour in every panel
+  Mark mark = Mark::points;          ///< theory is drawn with `line`, measurement with `points`
+  std::vector<double> x, y;          ///< equally long; NaN leaves a gap
+  std::vector<double> lower, upper;  ///< interval bars, as long as `y`, or both empty
 };
 
 struct Panel {
@@ -24,9 +24,9 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name;     ///< the files are plots/<name>.svg, .gp, .dat
-  std::string title;    ///< what is seen, a short phrase
-  std::string caption;  ///< what it means, a sentence or two
+  std::string name;           ///< the files are plots/<name>.svg, .gp, .dat
+  std::string title;          ///< what is seen, a short phrase
+  std::string caption;        ///< what it means, a sentence or two
   std::vector<Panel> panels;  ///< stacked from top to bottom
 };
 
