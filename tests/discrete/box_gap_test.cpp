@@ -1,0 +1,46 @@
+// The points that separation() and contact() name on two boxes lie on both, also where a whole face is nearest.
+
+#include <string>
+
+#include "support/manifold_properties.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class A, class B> void expect_points_on_surfaces(int runs) {
+  using S = typename A::Scalar;
+  Shaker<S> draw(20261121);
+  for (int run = 0; run < runs && !::testing::Test::HasFailure(); ++run) {
+    const auto [a, b] = nearly_touching<A, B>(draw);
+    SCOPED_TRACE("run " + std::to_string(run));
+    const Separation<S> gap = separation(a, b);
+    const Wide allowed = 64 * Wide(unit<S>()) * Wide(S(magnitude(a) + magnitude(b)));
+    EXPECT_LE(off_surface(a, Vec3<S>(gap.point_a - center(a))), allowed);
+    EXPECT_LE(off_surface(b, Vec3<S>(gap.point_b - center(b))), allowed);
+    const Vec3<S> off = (gap.point_b - gap.point_a) - gap.normal * gap.distance;
+    EXPECT_LE(Wide(largest(off)), allowed);
+  }
+}
+
+TEST(BoxGap, points_lie_on_both_boxes) {
+  expect_points_on_surfaces<Obb<double>, Obb<double>>(2000);
+  expect_points_on_surfaces<Obb<float>, Obb<float>>(2000);
+  expect_points_on_surfaces<Obb<double>, Aabb<double>>(2000);
+  expect_points_on_surfaces<Obb<Wide>, Obb<Wide>>(500);
+}
+
+TEST(BoxGap, overhanging_boxes_meet_in_the_middle_of_what_they_share) {
+  const Obb<double> floor{{0, 0, 0}, {4, 4, 1}, Mat3<double>::Identity()};
+  const Obb<double> plank{{5, 0, 2}, {8, 1, 1}, Mat3<double>::Identity()};
+  const auto found = contact(floor, plank);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->local_a, (Vec3<double>(0.5, 0, 1)));  // x from -3 to 4
+  EXPECT_EQ(found->local_b, (Vec3<double>(-4.5, 0, -1)));
+  Obb<double> tilted = plank;  // by less than rounding can tell: the deepest corner would be beyond the floor
+  tilted.axes(2, 0) = -1e-17;
+  tilted.axes(0, 2) = 1e-17;
+  EXPECT_EQ(contact(floor, tilted)->local_a, found->local_a);
+}
+
+}  // namespace
+}  // namespace thinwall::testing
