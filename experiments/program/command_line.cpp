@@ -25,6 +25,7 @@ Examples:
   thinwall run thin_wall --dry-run            how large it is and how long it takes; writes nothing
   thinwall run my.toml --out results/mine     your own configuration, laid over the defaults
   thinwall run thin_wall --trials 1e6 --json  one JSON object on stdout, for scripts
+  thinwall validate ccd-queries               published queries against exact arithmetic
 )";
 
 constexpr const char* run_examples = R"(Examples:
@@ -33,9 +34,20 @@ constexpr const char* run_examples = R"(Examples:
 
 )";
 
+constexpr const char* validate_examples = R"(Examples:
+  thinwall validate ccd-queries                 every CSV file below the folder
+  thinwall validate ccd-queries/unit-tests --json
+
+)";
+
+constexpr const char* validate_footer =
+    R"(A file has 8 rows a query and lies in a folder named vertex-face or edge-edge. Queries whose two primitives translate
+rigidly are checked, the others counted. Exit code 1: a verdict is wrong.
+)";
+
 constexpr const char* exit_codes = R"(Exit codes:
   0    done
-  1    a run failed, or its self-test did
+  1    a run failed, or its self-test did; or validate found a wrong verdict
   2    bad input: one line on stderr says where and what is allowed
   130  interrupted: what was finished is kept, and the line that continues is printed
 
@@ -122,14 +134,26 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   run->add_flag("--dry-run", out.dry_run, "Print the size and an estimate of the time, and write nothing")
       ->disable_flag_override();
   run->add_flag("--json", out.json, "Print one JSON object on stdout")->disable_flag_override();
-  for (CLI::App* command : {list, run}) command->allow_extras();
 
-  const auto chosen = [&]() -> CLI::App& { return run->parsed() ? *run : list->parsed() ? *list : app; };
+  CLI::App* const validate =
+      app.add_subcommand("validate", "Check the verdicts of published queries against exact arithmetic");
+  validate->footer(validate_footer);
+  validate->add_option("folder", out.target, "Where the CSV files of queries are")->option_text("DIR");
+  validate->add_flag("--json", out.json, "Print one JSON object on stdout")->disable_flag_override();
+  for (CLI::App* command : {list, run, validate}) command->allow_extras();
+
+  const auto chosen = [&]() -> CLI::App& {
+    const auto parsed = app.get_subcommands();
+    return parsed.empty() ? app : *parsed.front();
+  };
   try {
     std::vector<std::string> words(argv.rbegin(), argv.rend() - (argv.empty() ? 0 : 1));
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
-    out.text = run->parsed() ? run_examples + run->help("thinwall") : chosen().help();
+    const CLI::App& command = chosen();
+    out.text = &command == run        ? run_examples + run->help("thinwall")
+               : &command == validate ? validate_examples + validate->help("thinwall")
+                                      : command.help();
     return out;
   } catch (const CLI::CallForVersion&) {
     out.text = version_text();
@@ -144,8 +168,11 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   }
   refuse_extras(chosen(), chosen().remaining());
   refuse_extras(app, app.remaining());
-  if (!list->parsed() && !run->parsed()) throw UsageError("a command is missing; list or run, see thinwall --help");
-  out.command = run->parsed() ? Command::run : Command::list;
+  if (&chosen() == &app) throw UsageError("a command is missing; list, run or validate, see thinwall --help");
+  out.command = run->parsed() ? Command::run : validate->parsed() ? Command::validate : Command::list;
+  if (validate->parsed() && out.target.empty()) {
+    throw UsageError("validate: a folder of published queries is missing; see thinwall validate --help");
+  }
   if (!run->parsed()) return out;
 
   if (out.target.empty()) throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");

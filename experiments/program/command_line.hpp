@@ -8,13 +8,13 @@
 
 namespace thinwall {
 
-enum class Command { help, list, run };
+enum class Command { help, list, run, validate };
 
 struct CommandLine {
   Command command = Command::help;
   std::string text;  ///< help: what to print
 
-  std::string target;  ///< run: an experiment's name, or a TOML file
+  std::string target;  ///< run: an experiment's name, or a TOML file; validate: a folder
   std::string out;     ///< run: the result folder; empty for the default
   std::uint64_t seed = 0;
   std::optional<std::int64_t> trials;

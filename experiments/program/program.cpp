@@ -8,6 +8,7 @@
 #include <thinwall/experiments/program/command_line.hpp>
 #include <thinwall/experiments/program/json_reply.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
+#include <thinwall/experiments/program/validate_command.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 
@@ -36,6 +37,7 @@ int run_program(const std::vector<std::string>& argv, std::span<const Experiment
       case Command::help: out << line.text; return exit_done;
       case Command::list: out << (line.json ? list_reply(experiments) : list_text(experiments)); return exit_done;
       case Command::run: return run_command(line, experiments, out, err);
+      case Command::validate: return validate_command(line, out, err);
     }
     return exit_failed;
   } catch (const UsageError& error) {

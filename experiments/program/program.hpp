@@ -10,7 +10,7 @@
 
 namespace thinwall {
 
-/// Returns the exit code: 0 done, 1 a run or its self-test failed, 2 bad input, 130 interrupted.
+/// Returns the exit code: 0 done, 1 a run or its self-test failed or a verdict is wrong, 2 bad input, 130 interrupted.
 int run_program(const std::vector<std::string>& argv, std::span<const Experiment> experiments, std::ostream& out,
                 std::ostream& err);
 

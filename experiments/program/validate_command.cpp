@@ -1,0 +1,96 @@
+#include <thinwall/experiments/program/validate_command.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/validate/validate.hpp>
+
+namespace thinwall {
+namespace {
+
+constexpr int exit_done = 0, exit_wrong = 1;
+
+std::string row_text(std::size_t width, std::string_view family, std::string_view primitives,
+                     const QueryCounts& counts) {
+  return fmt::format("{:<{}}  {:<11}  {:>8}  {:>8}  {:>8}  {:>8}  {:>7}  {:>7}\n", family, width, primitives,
+                     grouped_text(counts.read), grouped_text(counts.all_skipped()), grouped_text(counts.checked),
+                     grouped_text(counts.hits), grouped_text(counts.false_negatives),
+                     grouped_text(counts.false_positives));
+}
+
+std::string skipped_text(const QueryCounts& counts) {
+  constexpr std::array<std::string_view, 3> reasons = {"a primitive does not translate rigidly",
+                                                       "a coordinate is not a double",
+                                                       "rounding a displacement to double would change the answer"};
+  std::string out;
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    if (counts.skipped[i] > 0) out += fmt::format("skipped {:>8}: {}\n", grouped_text(counts.skipped[i]), reasons[i]);
+  }
+  if (counts.rounded > 0) {
+    out += fmt::format("rounded {:>8}: a displacement is not a double; the nearest one has the same exact answer\n",
+                       grouped_text(counts.rounded));
+  }
+  return out;
+}
+
+std::string text_reply(const Validation& validation) {
+  std::size_t width = 6;
+  for (const QueryFamily& family : validation.families) width = std::max(width, family.name.size());
+  std::string out = fmt::format("{:<{}}  {:<11}  {:>8}  {:>8}  {:>8}  {:>8}  {:>7}  {:>7}\n", "family", width,
+                                "primitives", "read", "skipped", "checked", "hits", "false -", "false +");
+  for (const QueryFamily& family : validation.families) {
+    out += row_text(width, family.name, name(family.primitives), family.counts);
+  }
+  const QueryCounts& total = validation.total;
+  out += row_text(width, "total", "", total) + "\n" + skipped_text(total);
+  out += fmt::format("\n{} verdicts of ClosedForm checked against the file and exact arithmetic: ",
+                     grouped_text(total.checked));
+  out += fmt::format("{} false negatives, {} false positives", total.false_negatives, total.false_positives);
+  if (total.undecided > 0) out += fmt::format(", {} undecided", total.undecided);
+  if (total.file_differs > 0) out += fmt::format("; the file is wrong {} times", total.file_differs);
+  return out + fmt::format("\nmedian {} ns a query, called again and again\n", rounded_text(validation.median_ns, 3));
+}
+
+std::string json_reply(const Validation& validation) {
+  using nlohmann::ordered_json;
+  const auto object = [](const QueryCounts& counts) {
+    return ordered_json{
+        {"read", counts.read},
+        {"checked", counts.checked},
+        {"hits", counts.hits},
+        {"skipped", counts.all_skipped()},
+        {"skipped_not_rigid", counts.skipped[static_cast<std::size_t>(Skipped::not_rigid)]},
+        {"skipped_not_double", counts.skipped[static_cast<std::size_t>(Skipped::not_double)]},
+        {"skipped_rounding_decides", counts.skipped[static_cast<std::size_t>(Skipped::rounding_decides)]},
+        {"rounded", counts.rounded},
+        {"false_negatives", counts.false_negatives},
+        {"false_positives", counts.false_positives},
+        {"undecided", counts.undecided},
+        {"file_differs", counts.file_differs}};
+  };
+  ordered_json reply = object(validation.total);
+  reply["median_ns"] = validation.median_ns;
+  reply["families"] = ordered_json::array();
+  for (const QueryFamily& family : validation.families) {
+    ordered_json entry{{"family", family.name}, {"primitives", name(family.primitives)}};
+    entry.update(object(family.counts));
+    reply["families"].push_back(entry);
+  }
+  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int validate_command(const CommandLine& line, std::ostream& out, std::ostream& err) {
+  const Validation validation = validate(line.target);
+  out << (line.json ? json_reply(validation) : text_reply(validation));
+  out.flush();
+  for (const std::string& wrong : validation.wrongs) err << wrong << "\n";
+  return validation.total.wrong() == 0 ? exit_done : exit_wrong;
+}
+
+}  // namespace thinwall
