@@ -74,7 +74,6 @@ template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& 
     entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
     return entry;
   }
-  entry.rounds = 0;
   const SlabTimes<S> slabs(p, v, h, R);
   if (!(slabs.first <= slabs.last)) return entry;
   S now = slabs.first;
