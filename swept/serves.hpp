@@ -8,6 +8,7 @@
 
 #include <concepts>
 
+#include <thinwall/discrete/queries.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
 
