@@ -1,5 +1,6 @@
-// Compiled by tests/house/unserved_pair.cmake: a scene's list with a box and a triangle, a pair that is not served,
-// asked for what QUERY names. It must not compile, and the error must name the pair. With SERVED the list is served.
+// Compiled by tests/house/unserved_pair.cmake: a scene's list with a box and a triangle, a pair that is not served. Asked
+// one by one (ONE_BY_ONE) or in groups (GROUPED) it must not compile, and the error must name the pair. With SERVED the
+// list is served.
 
 #include <thinwall/swept/dispatch.hpp>
 
@@ -12,13 +13,12 @@ using Wall = std::variant<Aabb<double>, Triangle<double>>;
 #endif
 using Body = std::variant<std::monostate, Sphere<double>, Obb<double>>;
 
-#if QUERY == 1
-bool ask(const Body& a, const Wall& b);
-bool ask(const Body& a, const Wall& b) { return overlaps(a, b); }
-#elif QUERY == 2
+#ifdef ONE_BY_ONE
 bool ask(const Moving<Body>& a, const Moving<Wall>& b);
 bool ask(const Moving<Body>& a, const Moving<Wall>& b) { return time_of_impact(a, b).time < 1; }
-#else
+#endif
+
+#ifdef GROUPED
 std::vector<bool> ask(const std::vector<Body>& a, const std::vector<Wall>& b, const std::vector<IndexPair>& pairs);
 std::vector<bool> ask(const std::vector<Body>& a, const std::vector<Wall>& b, const std::vector<IndexPair>& pairs) {
   return answers(group_pairs(a, b, pairs), a, b, pairs, false,
