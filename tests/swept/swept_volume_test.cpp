@@ -77,13 +77,13 @@ template <class A> Moving<A> drawn_moving(Shaker<typename A::Scalar>& draw) {
   return {moved(shape, Vec3<S>(draw.vector() * far)), draw.vector() * speed};
 }
 
-template <class A> class SweptBounds : public ::testing::Test {};
+template <class A> class SweptBoundsProperty : public ::testing::Test {};
 using Bounded =
     ::testing::Types<Sphere<float>, Sphere<double>, Sphere<Wide>, Aabb<float>, Aabb<double>, Aabb<Wide>, Obb<float>,
                      Obb<double>, Triangle<float>, Triangle<double>, Capsule<float>, Capsule<double>>;
-TYPED_TEST_SUITE(SweptBounds, Bounded);
+TYPED_TEST_SUITE(SweptBoundsProperty, Bounded);
 
-TYPED_TEST(SweptBounds, hold_the_shape_at_every_time) {
+TYPED_TEST(SweptBoundsProperty, hold_the_shape_at_every_time) {
   using S = typename TypeParam::Scalar;
   Shaker<S> draw(1);
   for (int run = 0; run < 2000; ++run) {
