@@ -28,7 +28,8 @@ struct Row {
 
 class AccuracyRun final : public Run {
  public:
-  AccuracyRun(std::vector<const AccuracyPair*> pairs, std::int64_t queries, std::int64_t verdicts, std::uint64_t seed)
+  AccuracyRun(const std::vector<const AccuracyPair*>& pairs, std::int64_t queries, std::int64_t verdicts,
+              std::uint64_t seed)
       : seed_(seed) {
     for (const AccuracyPair* pair : pairs) {
       for (const Inquiry inquiry : all_inquiries) {
@@ -183,7 +184,7 @@ class AccuracyRun final : public Run {
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   std::vector<std::string_view> allowed;
   for (const AccuracyPair& pair : accuracy_pairs()) allowed.push_back(pair.name);
-  allowed.push_back("all");
+  allowed.emplace_back("all");
   const std::vector<std::string> chosen = settings.choices("pair", allowed);
   const bool all = std::find(chosen.begin(), chosen.end(), "all") != chosen.end();
   std::vector<const AccuracyPair*> pairs;

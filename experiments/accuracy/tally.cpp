@@ -10,7 +10,7 @@
 namespace thinwall {
 
 void ErrorHistogram::add(double error) {
-  const double octave = error > 0 ? std::log2(error) + octaves / 2 : 0;
+  const double octave = error > 0 ? std::log2(error) + half_range : 0;
   const double bin = std::clamp(std::ceil(octave * bins_an_octave), 0.0, double{bins_an_octave} * octaves);
   ++bins_[static_cast<std::size_t>(bin)];
   largest_ = std::max(largest_, error);
@@ -27,7 +27,7 @@ double ErrorHistogram::quantile(double share) const {
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     seen += bins_[i];
     if (static_cast<double>(seen) < share * static_cast<double>(total)) continue;
-    return std::min(largest_, i == 0 ? 0 : std::exp2(static_cast<double>(i) / bins_an_octave - octaves / 2));
+    return std::min(largest_, i == 0 ? 0 : std::exp2(static_cast<double>(i) / bins_an_octave - half_range));
   }
   return 0;
 }

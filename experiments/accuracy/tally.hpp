@@ -22,6 +22,7 @@ class ErrorHistogram {
 
  private:
   static constexpr int bins_an_octave = 64, octaves = 32;
+  static constexpr double half_range = 16;
   std::array<std::int64_t, bins_an_octave * octaves + 1> bins_{};
   double largest_ = 0;
 };
