@@ -151,14 +151,17 @@ template <Scalar S> PrismPart<S> closest_on_core_and_triangle(const Capsule<S>& 
   PrismPart<S> closest = closest_on_swept_triangle(times_power_of_two(x, -e), times_power_of_two(core, -e),
                                                    times_power_of_two(e1, -e), times_power_of_two(e2, -e));
   closest.on_triangle = times_power_of_two(closest.on_triangle, e);
-  closest.part.depth = times_power_of_two(closest.part.depth, e);
-  if (closest.part.depth == S(0)) closest.part.gap = times_power_of_two(closest.part.gap, e);
+  if (closest.part.contains_point()) {
+    closest.part.depth = times_power_of_two(closest.part.depth, e);
+  } else {
+    closest.part.gap = times_power_of_two(closest.part.gap, e);
+  }
   return closest;
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Triangle<S>& triangle, const S& reach) {
   const CorePart<S> part = closest_on_core_and_triangle(capsule, triangle).part;
-  return part.depth > S(0) || within(part.gap, reach);
+  return part.contains_point() || within(part.gap, reach);
 }
 
 /// Degenerate: a core that pierces the triangle leaves past its nearer end or the nearest edge; one that only touches it

@@ -25,9 +25,10 @@ template <Scalar S> struct CorePart {
   Vec3<S> origin = Vec3<S>::Zero();     ///< [length] a point of it
   Vec3<S> direction = Vec3<S>::Zero();  ///< along the edge, or normal to the face; of any length but zero
   Vec3<S> gap = Vec3<S>::Zero();        ///< [length] from the core's closest point to the point that asked
-  S depth = 0;  ///< [length] > 0: the point is inside a core with a volume, `gap` leads out of it
+  S depth = -1;  ///< [length] >= 0: the point is in the core, this deep, and `gap` is a unit vector out of it
 
-  S distance() const { return depth > S(0) ? S(-depth) : safe_norm(gap); }
+  bool contains_point() const { return depth >= S(0); }
+  S distance() const { return contains_point() ? S(-depth) : safe_norm(gap); }
   S closing_speed(const Vec3<S>& v) const { return -safe_unit(gap).dot(v); }
 };
 
@@ -86,7 +87,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   constexpr int round_limit = 256;
   Entry<S> answer;
   CorePart<S> part = closest(p);
-  answer.inside = part.depth > S(0) || within(part.gap, R);
+  answer.inside = part.contains_point() || within(part.gap, R);
   if (answer.inside) return answer;
   const auto hit = [&](const S& time, const Vec3<S>& normal) {
     answer.time = time;

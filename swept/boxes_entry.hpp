@@ -60,8 +60,11 @@ template <Scalar S> Entry<S> rounded_boxes_entry(const MovingBoxPair<S>& moving,
     there.between = x;
     const CoreGap<S> gap = box_gap(there);
     CorePart<S> plane{++count, CorePart<S>::face, x - gap.normal * gap.distance, gap.normal, gap.normal};
-    if (gap.distance > S(0)) plane.gap = gap.normal * gap.distance;
-    plane.depth = std::max(S(0), S(-gap.distance));
+    if (gap.distance > S(0)) {
+      plane.gap = gap.normal * gap.distance;
+    } else {
+      plane.depth = -gap.distance;
+    }
     return plane;
   };
   return core_entry<S>(moving.pair.between, moving.motion, R, largest(moving.pair.half_a, moving.pair.half_b), support);
