@@ -19,7 +19,7 @@ template <class Testable> void check_property(int runs, const Testable& testable
   rc::detail::TestParams params;
   params.seed = 20261121;
   if (std::getenv("RC_PARAMS") != nullptr) params = rc::detail::configuration().testParams;
-  params.disableShrinking = true;  // a smaller number is no simpler case here
+  params.disableShrinking = true;                      // a smaller number is no simpler case here
   params.maxSuccess = runs * params.maxSuccess / 100;  // RapidCheck's own default is 100
   const auto result = rc::detail::checkTestable(testable, rc::detail::TestMetadata{}, params);
   if (result.template is<rc::detail::SuccessResult>()) return;
