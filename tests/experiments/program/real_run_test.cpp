@@ -17,7 +17,7 @@ namespace thinwall {
 namespace {
 
 constexpr const char* small_config = R"(experiment = "thin_wall"
-shots = 20000
+shots = 6000
 speed = [10, 200]
 step = [0.016666666666666666]
 radius = [0.001, 0.02]

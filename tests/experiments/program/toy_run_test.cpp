@@ -2,49 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
+#include <cstdlib>
 
-#include <nlohmann/json.hpp>
-
-#include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
-#include "support/temporary_folder.hpp"
-#include "support/toy_experiment.hpp"
+#include "support/toy_program.hpp"
 
 namespace thinwall {
 namespace {
 
-struct Reply {
-  int status;
-  std::string out, err;
-};
-
-struct ToyRunTest : testing::Test {
-  TemporaryFolder folder;
-  std::string out = folder / "out";
-
-  ToyRunTest() {
-    ToyControl::computed = ToyControl::interrupt_after = ToyControl::fail_at = 0;
-    ToyControl::pass = true;
-  }
-
-  static Reply call(std::vector<std::string> words) {
-    const std::vector<Experiment> experiments = {toy_experiment()};
-    words.insert(words.begin(), "thinwall");
-    std::ostringstream reply, notes;
-    const int status = run_program(words, experiments, reply, notes);
-    return {status, reply.str(), notes.str()};
-  }
-
-  Reply run(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"run", "toy", "--out", out};
-    words.insert(words.end(), more.begin(), more.end());
-    return call(words);
-  }
-
-  nlohmann::json manifest() const { return nlohmann::json::parse(read_text(out + "/manifest.json")); }
-};
+using ToyRunTest = ToyProgram;
 
 TEST_F(ToyRunTest, leaves_a_whole_result_folder) {
   const Reply reply = run({"--threads", "2", "--seed", "3"});
@@ -112,100 +79,6 @@ TEST_F(ToyRunTest, gives_the_same_bytes_for_any_thread_count) {
     if (first.empty()) first = files;
     EXPECT_EQ(files, first);
   }
-}
-
-TEST_F(ToyRunTest, goes_on_after_an_interruption_and_ends_with_the_same_bytes) {
-  ASSERT_EQ(run({"--threads", "1"}).status, 0);
-  const auto whole = files_in(out);
-  out = folder / "interrupted";
-  ToyControl::computed = 0;
-  ToyControl::interrupt_after = 8;
-  const Reply reply = run({"--threads", "1"});
-  EXPECT_EQ(reply.status, 130);
-  EXPECT_EQ(reply.out, "");
-  EXPECT_NE(reply.err.find("to continue:\nthinwall run toy --out " + out + " --threads 1\n"), std::string::npos)
-      << reply.err;
-  EXPECT_EQ(files_in(out).size(), 1u) << "the journal alone";
-  const Reply again = run({"--threads", "1"});
-  EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_NE(again.err.find("8 of 20 units were read from the journal\n"), std::string::npos) << again.err;
-  EXPECT_EQ(ToyControl::computed, 20);
-  EXPECT_EQ(read_text(out + "/data/cells.csv"), whole.at("data/cells.csv"));
-  EXPECT_EQ(read_text(out + "/datapackage.json"), whole.at("datapackage.json"));
-  EXPECT_EQ(manifest().at("resumed_units"), 8);
-}
-
-TEST_F(ToyRunTest, keeps_what_was_finished_when_a_unit_fails) {
-  ToyControl::fail_at = 5;
-  const Reply reply = run({"--threads", "1"});
-  EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.err.find("failed: unit 'cell 4' failed: no luck\n"), std::string::npos) << reply.err;
-  ToyControl::fail_at = 0;
-  ToyControl::computed = 0;
-  EXPECT_EQ(run({"--threads", "1"}).status, 0);
-  EXPECT_LE(ToyControl::computed, 19);
-}
-
-TEST_F(ToyRunTest, computes_a_damaged_row_again_and_says_so) {
-  ToyControl::interrupt_after = 8;
-  ASSERT_EQ(run({"--threads", "1"}).status, 130);
-  std::string journal = read_text(out + "/journal.tsv");
-  journal[journal.find("cell 3\t") + 8] ^= 1;
-  write_text(out + "/journal.tsv", journal);
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 0);
-  EXPECT_NE(reply.err.find("journal.tsv:5: the row of 'cell 3' is damaged"), std::string::npos) << reply.err;
-  EXPECT_NE(reply.err.find("7 of 20 units were read"), std::string::npos) << reply.err;
-}
-
-TEST_F(ToyRunTest, answers_at_once_where_the_result_lies_already) {
-  const Reply first = run();
-  const auto files = files_in(out);
-  ToyControl::computed = 0;
-  const Reply second = run({"--threads", "1"});
-  EXPECT_EQ(second.status, 0);
-  EXPECT_EQ(second.out, first.out);
-  EXPECT_EQ(ToyControl::computed, 0);
-  EXPECT_EQ(files_in(out), files);
-}
-
-TEST_F(ToyRunTest, mends_a_result_that_lost_a_file_but_overwrites_no_change) {
-  ASSERT_EQ(run().status, 0);
-  const std::string cells = read_text(out + "/data/cells.csv");
-  std::filesystem::remove(out + "/data/cells.csv");
-  EXPECT_EQ(run().status, 0);
-  EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
-  write_text(out + "/plots/squares.gp", "# my own\n");
-  std::filesystem::remove(out + "/data/cells.csv");
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(
-      reply.err,
-      "--out " + out + ": plots/squares.gp was changed since the run wrote it; name another folder, or move it away\n");
-  EXPECT_EQ(read_text(out + "/plots/squares.gp"), "# my own\n");
-}
-
-TEST_F(ToyRunTest, refuses_the_folder_of_another_run) {
-  ASSERT_EQ(run({"--seed", "1"}).status, 0);
-  const auto files = files_in(out);
-  const Reply reply = run({"--seed", "2"});
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(reply.err,
-            "--out " + out + ": holds another run (seed = 1, not 2); name another folder, or delete this one\n");
-  EXPECT_EQ(files_in(out), files);
-  out = folder / "unfinished";
-  ToyControl::interrupt_after = 3;
-  ASSERT_EQ(run().status, 130);
-  EXPECT_EQ(run({"--trials", "5"}).status, 2);
-}
-
-TEST_F(ToyRunTest, refuses_a_folder_that_holds_things_of_others) {
-  std::filesystem::create_directories(out + "/data");
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(reply.err, "--out " + out + ": holds 'data', which is not ours; name another folder\n");
-  write_text(out + "/manifest.json", "{}");
-  EXPECT_EQ(run().err, "--out " + out + ": holds a manifest.json that is not ours; name another folder\n");
 }
 
 TEST_F(ToyRunTest, reports_a_failed_self_test) {
