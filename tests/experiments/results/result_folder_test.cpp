@@ -118,11 +118,11 @@ TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_w
   const RunIdentity theirs{"toy", R"({"cells":20,"experiment":"toy","speed":[1,10],"trials":10})", 0, std::nullopt,
                            "another"};
   std::filesystem::create_directories(out);
-  Journal(out + "/journal.tsv", identity_text(theirs)).add("cell 1", {0.1, "666"});
+  Journal(out + "/journal.tsv", identity_text(theirs)).add("cell 1", {0.1, "777000"});
   const Reply reply = run();
   EXPECT_EQ(reply.status, 0);
   EXPECT_NE(reply.err.find("begun by another build of the program; it is kept as journal.old.tsv"), std::string::npos);
-  EXPECT_EQ(read_text(out + "/data/cells.csv").find("666"), std::string::npos);
+  EXPECT_EQ(read_text(out + "/data/cells.csv").find("777000"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
 }
 
