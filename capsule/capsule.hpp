@@ -165,7 +165,7 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Triangle<
 }
 
 /// Degenerate: a core that pierces the triangle leaves past its nearer end or the nearest edge; one that only touches it
-/// leaves along the plane's normal.
+/// along the plane's normal, or across the edge it touches.
 template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangle<S>& triangle) {
   const PrismPart<S> closest = closest_on_core_and_triangle(capsule, triangle);
   const Vec3<S> core = capsule.b - capsule.a;
@@ -174,9 +174,10 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangl
   gap.local_a = core * (closest.s - S(1) / S(2));
   gap.local_b = closest.on_triangle - (center(triangle) - triangle.a);
   gap.along = core;
-  const bool clear =
-      closest.part.depth > S(0) || gap.distance > gap_noise(largest(Vec3<S>(capsule.a - triangle.a), core));
-  gap.normal = clear ? Vec3<S>(-safe_unit(closest.part.gap)) : plane_normal(triangle);
+  const Vec3<S> x = capsule.a - triangle.a, e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+  const S noise = gap_noise(largest(x, core, e1, e2));
+  const bool clear = closest.part.depth > S(0) || gap.distance > noise;
+  gap.normal = clear ? Vec3<S>(-safe_unit(closest.part.gap)) : parting_normal(x, core, e1, e2, noise);
   return gap;
 }
 

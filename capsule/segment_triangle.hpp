@@ -5,6 +5,8 @@
 /// start of the segment moves, it meets the prism that the triangle sweeps along the segment backwards: its caps are the
 /// triangle, its sides are spanned by an edge and the segment. Source: derived here.
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include <thinwall/capsule/segment.hpp>
@@ -73,6 +75,29 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
   }
   best.part = {-1, CorePart<S>::face, x + out * depth, out, out};
   best.part.depth = depth;
+  return best;
+}
+
+/// The unit normal, from the segment x + s * d to the triangle (0, e1, e2) it touches, along which they part soonest: the
+/// plane's normal, or that of an edge and the segment where it leads out sooner by more than `noise` [length]. Zero where
+/// both lie on one line.
+template <Scalar S>
+Vec3<S> parting_normal(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2, const S& noise) {
+  const Vec3<S> core = safe_unit(d);
+  Vec3<S> best = Vec3<S>::Zero();
+  S least = std::numeric_limits<S>::infinity();
+  const auto consider = [&](const Vec3<S>& n) {
+    if (n == Vec3<S>::Zero()) return;
+    const auto [low, high] = std::minmax({S(0), S(n.dot(e1)), S(n.dot(e2))});
+    const auto [start, end] = std::minmax({S(n.dot(x)), S(n.dot(x) + n.dot(d))});
+    const S ahead = end - low, behind = high - start;
+    if (!(std::min(ahead, behind) < least - noise)) return;
+    least = std::min(ahead, behind);
+    best = behind < ahead ? Vec3<S>(-n) : n;
+  };
+  consider(towards_positive<S>(safe_unit(cross(safe_unit(e1), safe_unit(e2)))));
+  for (const Vec3<S>& edge : {e1, Vec3<S>(e2 - e1), e2})
+    consider(towards_positive<S>(safe_unit(cross(safe_unit(edge), core))));
   return best;
 }
 

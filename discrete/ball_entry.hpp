@@ -35,12 +35,19 @@ template <Scalar S> struct Chord {
 
   /// The time the line enters the ball, where the chord exists and the point is outside and approaching.
   S entry_time() const { return excess / (approach + half); }
-  /// p + v t at that time, with |.| = R.
-  Vec3<S> entry_offset(const Vec3<S>& v) const { return (cross(v, moment) - v * half) / speed_square; }
+  /// (p + v t) / R at that time: unit, and against the motion where R is zero.
+  Vec3<S> entry_normal(const Vec3<S>& v, const S& R) const {
+    const S scale = speed_square * R;
+    const Vec3<S> offset = cross(v, moment) - v * half;
+    return square_in_range(scale) ? Vec3<S>(offset * (S(1) / scale)) : entry_normal_of_tiny(v, offset);
+  }
+  THINWALL_COLD static Vec3<S> entry_normal_of_tiny(const Vec3<S>& v, const Vec3<S>& offset) {
+    return offset == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : safe_unit(offset);
+  }
 };
 
 /// (v.v) R^2 - |p x v|^2 in twice the digits: right in sign, unless the true value is within a few u^2 of zero.
-template <Scalar S> S accurate_discriminant(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+template <Scalar S> THINWALL_COLD S accurate_discriminant(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   const auto moment = [&](int i, int j) { return exact_product(p[i], v[j]) - exact_product(p[j], v[i]); };
   const auto square = [](const DoubleWord<S>& x) { return x * x; };
   const DoubleWord<S> speed = exact_product(v[0], v[0]) + exact_product(v[1], v[1]) + exact_product(v[2], v[2]);
@@ -49,8 +56,19 @@ template <Scalar S> S accurate_discriminant(const Vec3<S>& p, const Vec3<S>& v, 
   return difference.high;
 }
 
+/// Finishes a chord whose squares vanish: a ball and an offset that small still compare. Rescales just these two.
+template <Scalar S> THINWALL_COLD void compare_tiny(Chord<S>& chord, const S& R) {
+  using std::sqrt;
+  const S speed = sqrt(chord.speed_square);
+  const int e = binary_exponent(largest(chord.moment, S(R * speed)));
+  const S radius = times_power_of_two(R, -e) * speed;
+  const S D = radius * radius - times_power_of_two(chord.moment, -e).squaredNorm();
+  chord.exists = D >= S(0);
+  if (chord.exists) chord.half = times_power_of_two(S(sqrt(D)), e);
+}
+
 /// Requires p, v, R whose products of four are in range (products_in_range), v not zero.
-template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   using std::sqrt;
   Chord<S> chord;
   chord.speed_square = v.squaredNorm();
@@ -64,16 +82,10 @@ template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>&
     S D = reach - offset;
     if (largest(D) <= grazing_fraction<S>() * size) D = accurate_discriminant(p, v, R);
     chord.exists = D >= S(0);
-    if (chord.exists) chord.half = sqrt(D);
-    return chord;
+    chord.half = sqrt(std::max(S(0), D));
+  } else {
+    compare_tiny(chord, R);
   }
-  // A ball and an offset so small that their squares vanish still compare: rescale just these two.
-  const S speed = sqrt(chord.speed_square);
-  const int e = binary_exponent(largest(chord.moment, S(R * speed)));
-  const S radius = times_power_of_two(R, -e) * speed;
-  const S D = radius * radius - times_power_of_two(chord.moment, -e).squaredNorm();
-  chord.exists = D >= S(0);
-  if (chord.exists) chord.half = times_power_of_two(S(sqrt(D)), e);
   return chord;
 }
 
@@ -86,31 +98,31 @@ template <Scalar S> struct Entry {
   int rounds = 1;                               ///< how many closed forms were solved
 };
 
+template <Scalar S> Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R);
+
 /// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
 /// v = 0 never enters.
-template <Scalar S> Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   Entry<S> entry;
   if (within(p, R)) {
     entry.inside = true;
     return entry;
   }
-  const S length = largest(p, R);
-  const S speed = largest(v);
-  if (!products_in_range(length) || !products_in_range(speed)) {
-    if (speed == S(0)) return entry;
-    const int length_exponent = binary_exponent(length), speed_exponent = binary_exponent(speed);
-    if (length_exponent != 0 || speed_exponent != 0) {
-      entry = ball_entry(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                         times_power_of_two(R, -length_exponent));
-      entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
-      return entry;
-    }
-  }
+  if (!products_in_range(largest(p, R)) || !products_in_range(largest(v))) return ball_entry_rescaled(p, v, R);
   const Chord<S> chord = chord_through_ball(p, v, R);
   if (!chord.exists || chord.approach <= S(0)) return entry;
   entry.time = std::max(S(0), chord.entry_time());
-  entry.normal = safe_unit(chord.entry_offset(v));
-  if (entry.normal == Vec3<S>::Zero()) entry.normal = -safe_unit(v);
+  entry.normal = chord.entry_normal(v, R);
+  return entry;
+}
+
+/// The same where a product of lengths or displacements would overflow or underflow.
+template <Scalar S> THINWALL_COLD Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  const int length_exponent = binary_exponent(largest(p, R)), speed_exponent = binary_exponent(largest(v));
+  if (largest(v) == S(0) || (length_exponent == 0 && speed_exponent == 0)) return {};
+  Entry<S> entry = ball_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+                                 times_power_of_two(R, -length_exponent));
+  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
   return entry;
 }
 

@@ -18,7 +18,7 @@ namespace thinwall {
 /// The manifold of face `axis` of A, towards B on the positive or negative side, in A's axes.
 template <Scalar S> Manifold<S> face_manifold(const BoxPair<S>& pair, int axis, bool negative) {
   const FacePolygon<S> below = corners_below(facing_polygon(pair, axis, negative), box_noise(pair));
-  const CornerChoice<S> choice = chosen_corners(below);
+  const CornerChoice<S> choice = chosen_corners(below, box_noise(pair));
   Manifold<S> manifold;
   for (; manifold.count < choice.count; ++manifold.count) {
     const auto slot = static_cast<std::size_t>(manifold.count);

@@ -29,7 +29,15 @@ template <Scalar S> struct CorePart {
 
   bool contains_point() const { return depth >= S(0); }
   S distance() const { return contains_point() ? S(-depth) : safe_norm(gap); }
-  S closing_speed(const Vec3<S>& v) const { return -safe_unit(gap).dot(v); }
+  /// Unit, from the part to the point that asked. A gap that is short beside the core is turned by rounding, so that even
+  /// the sign of a closing speed would be lost; a face or an edge knows better which way it faces.
+  Vec3<S> outward() const {
+    if (contains_point() || kind == corner) return safe_unit(gap);
+    if (kind == face) return safe_unit(gap.dot(direction) < S(0) ? Vec3<S>(-direction) : direction);
+    const Vec3<S> across = cross(direction, safe_unit(cross(gap, direction)));
+    return across == Vec3<S>::Zero() ? safe_unit(gap) : safe_unit(across);
+  }
+  S closing_speed(const Vec3<S>& v) const { return -outward().dot(v); }
 };
 
 /// When the line p + v t enters and is closest to a part extended without end and rounded by R.
@@ -45,7 +53,7 @@ template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v
   PartEntry<S> entry{chord.exists && chord.approach > S(0), S(0), chord.approach / chord.speed_square, Vec3<S>::Zero()};
   if (!entry.exists) return entry;
   entry.time = chord.entry_time();
-  entry.normal = safe_unit(chord.entry_offset(v));
+  entry.normal = chord.entry_normal(v, R);
   return entry;
 }
 
@@ -116,7 +124,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       continue;
     }
     const S next = now + (part.distance() - R) / closing;  // Newton: never past the first contact
-    if (!(next > free) || next == now) return hit(std::max(free, next), safe_unit(part.gap));
+    if (!(next > free) || next == now) return hit(std::max(free, next), part.outward());
     free = now = next;
     part = closest(p + v * now);
   }

@@ -82,22 +82,19 @@ template <Scalar S> Vec3<S> middle_of_deepest(const FacePolygon<S>& polygon, con
 
 /// Up to four of the corners, by index: the deepest; the one farthest from it, seen along the depth; the one farthest
 /// from the line of these two; the one farthest outside the triangle. Ties go to the first, and what adds less than
-/// rounding is left out.
+/// `noise` [length] is left out.
 template <Scalar S> struct CornerChoice {
   std::array<int, 4> index{};
   int count = 0;
 };
 
-template <Scalar S> CornerChoice<S> chosen_corners(const FacePolygon<S>& polygon) {
+template <Scalar S> CornerChoice<S> chosen_corners(const FacePolygon<S>& polygon, const S& noise) {
   CornerChoice<S> choice;
   if (polygon.count == 0) return choice;
-  S size = 0;
   int deepest = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    size = std::max(size, largest(polygon[i][0], polygon[i][1]));
+  for (int i = 1; i < polygon.count; ++i) {
     if (polygon[i][2] > polygon[deepest][2]) deepest = i;
   }
-  const S noise = gap_noise(size);
   const auto keep = [&](int i) { choice.index[static_cast<std::size_t>(choice.count++)] = i; };
   const auto squared_length = [&](int i, int j) -> S {
     const S x = polygon[j][0] - polygon[i][0], y = polygon[j][1] - polygon[i][1];

@@ -48,22 +48,25 @@ template <Scalar S> Vec3<S> times_power_of_two(const Vec3<S>& v, int e) {
 }
 
 /// The largest magnitude among scalars and components; NaN is passed over.
-template <Scalar S> S largest(const S& x) { return x < S(0) ? S(-x) : x; }
-template <Scalar S> S largest(const Vec3<S>& v) {
+template <Scalar S> THINWALL_HOT S largest(const S& x) {
+  using std::abs;
+  return abs(x);
+}
+template <Scalar S> THINWALL_HOT S largest(const Vec3<S>& v) {
   return std::max(largest(v[0]), std::max(largest(v[1]), largest(v[2])));
 }
-template <class First, class... Rest> auto largest(const First& first, const Rest&... rest) {
+template <class First, class... Rest> THINWALL_HOT auto largest(const First& first, const Rest&... rest) {
   return std::max(largest(first), largest(rest...));
 }
 
 /// Products of up to four lengths of magnitude x neither overflow nor lose their leading digits.
-template <Scalar S> bool products_in_range(const S& x) {
+template <Scalar S> THINWALL_HOT bool products_in_range(const S& x) {
   return x >= constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 5>() &&
          x <= constant_power_of_two<S, std::numeric_limits<S>::max_exponent / 5>();
 }
 
 /// A square that stands for its root: neither overflowed nor gnawed at by underflow.
-template <Scalar S> bool square_in_range(const S& square) {
+template <Scalar S> THINWALL_HOT bool square_in_range(const S& square) {
   constexpr int lower = std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits;
   return square >= constant_power_of_two<S, lower>() && square <= std::numeric_limits<S>::max();
 }
@@ -71,39 +74,52 @@ template <Scalar S> bool square_in_range(const S& square) {
 /// A gap this small between cores of this size is round-off: it has a length but no direction.
 template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits<S>::epsilon() * size; }
 
-/// |v|, at any scale.
-template <Scalar S> S safe_norm(const Vec3<S>& v) {
+template <Scalar S> THINWALL_COLD S norm_out_of_range(const Vec3<S>& v) {
   using std::sqrt;
-  const S square = v.squaredNorm();
-  if (square_in_range(square)) return sqrt(square);
   const S size = largest(v);
   if (size == S(0) || !is_finite(v)) return v.cwiseAbs().sum();  // 0, infinity or NaN
   const int e = binary_exponent(size);
   return times_power_of_two(S(sqrt(times_power_of_two(v, -e).squaredNorm())), e);
 }
 
-/// v / |v| at any scale; zero where v is zero.
-template <Scalar S> Vec3<S> safe_unit(const Vec3<S>& v) {
+/// |v|, at any scale.
+template <Scalar S> THINWALL_HOT S safe_norm(const Vec3<S>& v) {
   using std::sqrt;
   const S square = v.squaredNorm();
-  if (square_in_range(square)) return v / sqrt(square);
+  return square_in_range(square) ? S(sqrt(square)) : norm_out_of_range(v);
+}
+
+template <Scalar S> THINWALL_COLD Vec3<S> unit_out_of_range(const Vec3<S>& v) {
+  using std::sqrt;
   const S size = largest(v);
   if (size == S(0)) return Vec3<S>::Zero();
   const Vec3<S> scaled = times_power_of_two(v, -binary_exponent(size));
   return scaled / sqrt(scaled.squaredNorm());
 }
 
-/// |gap| <= reach, for reach >= 0, at any scale. False for NaN.
-template <Scalar S> bool within(const Vec3<S>& gap, const S& reach) {
-  const S gap_square = gap.squaredNorm();
-  const S reach_square = reach * reach;
-  if (square_in_range(gap_square) && square_in_range(reach_square)) return gap_square <= reach_square;
+/// v / |v| at any scale; zero where v is zero.
+template <Scalar S> THINWALL_HOT Vec3<S> safe_unit(const Vec3<S>& v) {
+  using std::sqrt;
+  const S square = v.squaredNorm();
+  if (!square_in_range(square)) return unit_out_of_range(v);
+  return v / sqrt(square);
+}
+
+template <Scalar S> THINWALL_COLD bool within_out_of_range(const Vec3<S>& gap, const S& reach) {
   const S size = largest(gap, reach);
   if (size == S(0)) return true;
   if (!is_finite(gap) || !is_finite(reach)) return false;
   const int e = binary_exponent(size);
   const S scaled_reach = times_power_of_two(reach, -e);
   return times_power_of_two(gap, -e).squaredNorm() <= scaled_reach * scaled_reach;
+}
+
+/// |gap| <= reach, for reach >= 0, at any scale. False for NaN.
+template <Scalar S> THINWALL_HOT bool within(const Vec3<S>& gap, const S& reach) {
+  const S gap_square = gap.squaredNorm();
+  const S reach_square = reach * reach;
+  if (square_in_range(gap_square) && square_in_range(reach_square)) return gap_square <= reach_square;
+  return within_out_of_range(gap, reach);
 }
 
 }  // namespace thinwall

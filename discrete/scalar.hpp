@@ -11,6 +11,11 @@
 
 #include <Eigen/Core>
 
+/// What every query runs through is inlined, whatever its size: a vector passed through memory costs more than its
+/// arithmetic. What only the extremes need is kept out of its way.
+#define THINWALL_HOT [[gnu::always_inline]] inline
+#define THINWALL_COLD [[gnu::cold, gnu::noinline]]
+
 namespace thinwall {
 
 /// A binary floating-point type: float, double, long double, or a Boost.Multiprecision float.

@@ -107,8 +107,7 @@ template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& 
       const S root = chord.entry_time();
       if (root <= next && chord.approach + chord.half >= now * chord.speed_square) {
         entry.time = std::max(root, now);
-        entry.normal = safe_unit(chord.entry_offset(u));
-        if (entry.normal == Vec3<S>::Zero()) entry.normal = -safe_unit(u);
+        entry.normal = chord.entry_normal(u, R);
         return entry;
       }
     }

@@ -59,7 +59,9 @@ template <class S> Triangle<S> drawn(Shaker<S>& draw, TypeTag<Triangle<S>>) {
   return t;
 }
 template <class S> Capsule<S> drawn(Shaker<S>& draw, TypeTag<Capsule<S>>) {
-  const Vec3<S> start = draw.vector(), along = draw.axes() * Vec3<S>(0, draw.coordinate(), 0);
+  const Vec3<S> start = draw.vector();
+  const Mat3<S> axes = draw.axes();
+  const Vec3<S> along = axes.col(1) * draw.coordinate();  // one draw a statement: compilers order arguments as they like
   return {start, start + along, draw.sizes()[0]};
 }
 
