@@ -169,9 +169,9 @@ const bool added = [] {
   add_impact<A, O>(
       "aabb_obb", 40, &any_shots<A, O>,
       [](const auto& q) {
-        return boxes_entry<D>(box_pair(q.a.shape, q.b.shape), -motion(q), into<D>(q.b.shape, -between(q)),
-                              into<D>(q.b.shape, -motion(q)), 0)
-            .time;
+        MovingBoxPair<D> moving{box_pair(q.a.shape, q.b.shape), -motion(q), into<D>(q.b.shape, -between(q)),
+                                into<D>(q.b.shape, -motion(q))};
+        return boxes_entry<D>(moving, 0).time;
       },
       [](const auto& q) { return plain::boxes(to_obb(q.a.shape), q.b.shape, -motion(q)); });
   add_impact<S, T>(

@@ -1,10 +1,10 @@
 #pragma once
 /// When a moving point first enters a segment rounded by a radius: the side of the cylinder, or the nearer cap.
 ///
-/// Seen along the unit axis u, the infinite cylinder is a disc and the motion stays a line: with k = p x u and
-/// w = v x u, both perpendicular to u, the point is on the cylinder when |k + w t| = R, which is ball_entry.hpp's own
-/// question. If it enters beside the segment, that is the answer; if it enters beyond an end, only that end's ball can
-/// be hit, because the end's flat disc lies inside that ball.
+/// Seen along the axis d, the infinite cylinder is a disc and the motion stays a line: with k = p x d and w = v x d, both
+/// perpendicular to d, the point is on the cylinder when |k + w t| = R |d|, which is ball_entry.hpp's own question. No axis
+/// is normalized, so none is turned by rounding. If the point enters beside the segment, that is the answer; if it enters
+/// beyond an end, only that end's ball can be hit, because the end's flat disc lies inside that ball.
 ///
 /// Degenerate: a segment of no length is a ball; motion parallel to the axis meets a cap.
 /// Source: derived here.
@@ -14,33 +14,67 @@
 
 namespace thinwall {
 
+template <Scalar S>
+Entry<S> rounded_segment_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R);
+
 /// First time at which p + v t is within R of the segment s * d, s in [0, 1].
-template <Scalar S> Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+template <Scalar S>
+THINWALL_HOT Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+  using std::sqrt;
+  if (!products_in_range(largest(p, d, R)) || !products_in_range(largest(v))) {
+    const Entry<S> rescaled = rounded_segment_entry_rescaled(p, v, d, R);
+    return rescaled;
+  }
   Entry<S> entry;
   if (within<S>(p - d * closest_parameter(p, d), R)) {
     entry.inside = true;
     return entry;
   }
-  const auto cap = [&](bool far_end) {
-    const Entry<S> ball = ball_entry<S>(far_end ? Vec3<S>(p - d) : p, v, R);
-    return ball.inside ? entry : ball;
-  };
-  const S length = safe_norm(d);
-  if (length == S(0)) return cap(false);
-  const Vec3<S> u = safe_unit(d);
-  const Vec3<S> k = cross(p, u);
-  const Entry<S> side = ball_entry<S>(k, cross(v, u), R);
-  const S along = p.dot(u);
-  if (side.inside && along >= S(0) && along <= length) {  // touching, but for the rounding of the test above
-    entry.inside = true;
+  Vec3<S> axis = d;
+  S axis_square = d.squaredNorm(), end = axis_square;  // x.axis at the end of the segment
+  if (!square_in_range(axis_square)) {                 // very short beside the rest, but its direction counts
+    const int e = binary_exponent(largest(d));
+    axis = times_power_of_two(d, -e);
+    axis_square = axis.squaredNorm();
+    end = times_power_of_two(axis_square, e);
+  }
+  const S along = p.dot(axis), length = sqrt(axis_square);
+  bool far_end = along > end / 2;  // the cap to try: the nearer, or the one beyond which the side is met
+  if (length > S(0)) {
+    const Entry<S> side = ball_entry<S>(cross(p, axis), cross(v, axis), R * length);
+    if (side.inside && along >= S(0) && along <= end) {  // touching, but for the rounding of the test above
+      entry.inside = true;
+      return entry;
+    }
+    if (!side.inside) {
+      if (!is_finite(side.time)) return entry;
+      const S at = along + v.dot(axis) * side.time;
+      if (at >= S(0) && at <= end) {
+        entry.time = side.time;
+        entry.normal = cross(axis, side.normal) * (S(1) / length);
+        return entry;
+      }
+      far_end = at > S(0);
+    }
+  }
+  const Entry<S> cap = ball_entry<S>(far_end ? Vec3<S>(p - d) : p, v, R);
+  return cap.inside ? entry : cap;
+}
+
+/// The same where a product of lengths or displacements would overflow or underflow.
+template <Scalar S>
+THINWALL_COLD Entry<S> rounded_segment_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d,
+                                                      const S& R) {
+  const int length_exponent = binary_exponent(largest(p, d, R)), speed_exponent = binary_exponent(largest(v));
+  if (length_exponent == 0 && speed_exponent == 0) {  // nothing at rest, or no number
+    Entry<S> entry;
+    entry.inside = within<S>(p - d * closest_parameter(p, d), R);
     return entry;
   }
-  if (side.inside) return cap(along > length / 2);
-  if (!is_finite(side.time)) return entry;
-  const S at = along + v.dot(u) * side.time;
-  if (at < S(0) || at > length) return cap(at > length);
-  entry.time = side.time;
-  entry.normal = safe_unit(cross(u, side.normal));
+  Entry<S> entry =
+      rounded_segment_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+                               times_power_of_two(d, -length_exponent), times_power_of_two(R, -length_exponent));
+  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
   return entry;
 }
 

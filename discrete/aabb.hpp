@@ -40,11 +40,12 @@ template <Scalar S> Vec3<S> half_widths(const Aabb<S>& box) { return box.half_ex
 template <Scalar S> Vec3<S> contact_point(const Aabb<S>&, const Vec3<S>&, const Vec3<S>&) { return Vec3<S>::Zero(); }
 
 /// How far x lies outside [-h, h] on each axis; zero on the axes where it is inside.
-template <Scalar S> Vec3<S> excess_of(const Vec3<S>& x, const Vec3<S>& h) { return x - x.cwiseMin(h).cwiseMax(-h); }
+template <Scalar S> THINWALL_HOT Vec3<S> excess_of(const Vec3<S>& x, const Vec3<S>& h) {
+  return x - x.cwiseMin(h).cwiseMax(-h);
+}
 
 template <Scalar S> bool cores_within(const Aabb<S>& a, const Aabb<S>& b, const S& reach) {
-  const Vec3<S> excess = excess_of<S>(b.center - a.center, a.half_extents + b.half_extents);
-  return excess == Vec3<S>::Zero() || (reach > S(0) && within(excess, reach));
+  return within(excess_of<S>(b.center - a.center, a.half_extents + b.half_extents), reach);
 }
 
 template <Scalar S> bool cores_within(const Aabb<S>& box, const Sphere<S>& sphere, const S& reach) {

@@ -30,7 +30,7 @@ template <Scalar S> struct Chord {
   S speed_square = 0;                ///< v.v
   S approach = 0;                    ///< -p.v: positive while the closest approach is ahead
   S excess = 0;                      ///< p.p - R^2: positive outside
-  S half = 0;                        ///< sqrt(D), half the chord times |v|
+  S half = 0;                        ///< sqrt(D), half the chord times |v|, where it exists
   Vec3<S> moment = Vec3<S>::Zero();  ///< p x v
 
   /// The time the line enters the ball, where the chord exists and the point is outside and approaching.
@@ -56,37 +56,31 @@ template <Scalar S> THINWALL_COLD S accurate_discriminant(const Vec3<S>& p, cons
   return difference.high;
 }
 
-/// Finishes a chord whose squares vanish: a ball and an offset that small still compare. Rescales just these two.
-template <Scalar S> THINWALL_COLD void compare_tiny(Chord<S>& chord, const S& R) {
+/// Half the chord of a ball and an offset so small that their squares vanish; negative if there is none. They still
+/// compare: rescales just these two.
+template <Scalar S> THINWALL_COLD S half_of_tiny(const S& speed_square, const Vec3<S>& moment, const S& R) {
   using std::sqrt;
-  const S speed = sqrt(chord.speed_square);
-  const int e = binary_exponent(largest(chord.moment, S(R * speed)));
+  const S speed = sqrt(speed_square);
+  const int e = binary_exponent(largest(moment, S(R * speed)));
   const S radius = times_power_of_two(R, -e) * speed;
-  const S D = radius * radius - times_power_of_two(chord.moment, -e).squaredNorm();
-  chord.exists = D >= S(0);
-  if (chord.exists) chord.half = times_power_of_two(S(sqrt(D)), e);
+  const S D = radius * radius - times_power_of_two(moment, -e).squaredNorm();
+  return D < S(0) ? D : times_power_of_two(S(sqrt(D)), e);
 }
 
 /// Requires p, v, R whose products of four are in range (products_in_range), v not zero.
 template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   using std::sqrt;
-  Chord<S> chord;
-  chord.speed_square = v.squaredNorm();
-  chord.approach = -p.dot(v);
-  chord.excess = p.squaredNorm() - R * R;
-  chord.moment = cross(p, v);
-  const S reach = chord.speed_square * (R * R);
-  const S offset = chord.moment.squaredNorm();
-  const S size = std::max(reach, offset);
+  const S speed_square = v.squaredNorm();
+  const Vec3<S> moment = cross(p, v);
+  const S reach = speed_square * (R * R), offset = moment.squaredNorm(), size = std::max(reach, offset);
+  S D = reach - offset, half;
   if (square_in_range(size)) {
-    S D = reach - offset;
     if (largest(D) <= grazing_fraction<S>() * size) D = accurate_discriminant(p, v, R);
-    chord.exists = D >= S(0);
-    chord.half = sqrt(std::max(S(0), D));
+    half = sqrt(largest(D));
   } else {
-    compare_tiny(chord, R);
+    D = half = half_of_tiny(speed_square, moment, R);
   }
-  return chord;
+  return {D >= S(0), speed_square, -p.dot(v), p.squaredNorm() - R * R, half, moment};
 }
 
 /// The first time at which a moving point is in a closed convex body.
@@ -108,10 +102,13 @@ template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec
     entry.inside = true;
     return entry;
   }
-  if (!products_in_range(largest(p, R)) || !products_in_range(largest(v))) return ball_entry_rescaled(p, v, R);
+  if (!products_in_range(largest(p, R)) || !products_in_range(largest(v))) {
+    const Entry<S> rescaled = ball_entry_rescaled(p, v, R);
+    return rescaled;  // by way of a copy, or the compiler would keep the other answers in memory
+  }
   const Chord<S> chord = chord_through_ball(p, v, R);
   if (!chord.exists || chord.approach <= S(0)) return entry;
-  entry.time = std::max(S(0), chord.entry_time());
+  entry.time = chord.entry_time();  // positive, as the excess is
   entry.normal = chord.entry_normal(v, R);
   return entry;
 }

@@ -31,6 +31,24 @@ template <Scalar S> struct BoxPair {
   S overlap(const Vec3<S>& n) const { return (reach_a(n) + reach_b(n)) - largest(S(between.dot(n))); }
 };
 
+/// The product n of A's axis i and B's axis j, unnormalized, of which two components are left.
+template <Scalar S> struct EdgeAxis {
+  int i, u, v;  ///< u and v follow i in turn
+  int j;
+  S on_u, on_v;
+
+  THINWALL_HOT EdgeAxis(const BoxPair<S>& pair, int axis_a, int axis_b)
+      : i(axis_a), u((i + 1) % 3), v((i + 2) % 3), j(axis_b), on_u(-pair.axes(v, j)), on_v(pair.axes(u, j)) {}
+  THINWALL_HOT S along(const Vec3<S>& x) const { return x[u] * on_u + x[v] * on_v; }
+  /// How far both boxes reach along n. B's true products, not A's turned ones: those are off by more than a thin overlap.
+  THINWALL_HOT S reach(const BoxPair<S>& pair) const {
+    const int k = (j + 1) % 3, l = (j + 2) % 3;
+    return (pair.half_a[u] * largest(on_u) + pair.half_a[v] * largest(on_v)) +
+           (pair.half_b[k] * largest(S(pair.axes(u, k) * on_u + pair.axes(v, k) * on_v)) +
+            pair.half_b[l] * largest(S(pair.axes(u, l) * on_u + pair.axes(v, l) * on_v)));
+  }
+};
+
 /// Calls visit(i, j) for the 15 axes, the faces' first, until it returns false.
 template <class Visit> bool each_separating_axis(const Visit& visit) {
   for (int i = 0; i < 3; ++i) {
@@ -48,7 +66,19 @@ template <class Visit> bool each_separating_axis(const Visit& visit) {
 }
 
 template <Scalar S> bool boxes_overlap(const BoxPair<S>& pair) {
-  return each_separating_axis([&](int i, int j) { return pair.overlap(pair.direction(i, j)) >= S(0); });
+  const Mat3<S> size = pair.axes.cwiseAbs();
+  const Vec3<S> reach_a = pair.half_a + size * pair.half_b;
+  if ((pair.between.cwiseAbs().array() > reach_a.array()).any()) return false;
+  const Vec3<S> reach_b = pair.half_b + size.transpose() * pair.half_a;
+  const Vec3<S> on_b = pair.axes.transpose() * pair.between;
+  if ((on_b.cwiseAbs().array() > reach_b.array()).any()) return false;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const EdgeAxis<S> axis(pair, i, j);
+      if (largest(axis.along(pair.between)) > axis.reach(pair)) return false;
+    }
+  }
+  return true;
 }
 
 /// A point of each box, in A's axes, relative to A's center.

@@ -21,33 +21,58 @@ template <Scalar S> struct MovingBoxPair {
   Vec3<S> between_on_b, motion_on_b;  ///< [length] along B's axes, from world vectors
   int axis_a = -1, axis_b = -1;       ///< the axes of contact, once found
 
-  /// When the shadows on axis (i, j) overlap: narrows [first, last]; returns false if they never do.
-  bool narrow(int i, int j, S& first, S& last) {
-    const Vec3<S> n = pair.direction(i, j);
-    const S distance = i < 0 ? between_on_b[j] : pair.between.dot(n);
-    const S speed = i < 0 ? motion_on_b[j] : motion.dot(n);
-    const S reach = pair.reach_a(n) + pair.reach_b(n);
-    if (speed == S(0)) return largest(distance) <= reach;
-    const S side = speed > S(0) ? S(1) : S(-1);
-    const S enter = (-side * reach - distance) / speed;
-    if (enter > first) {
-      first = enter;
-      axis_a = i;
-      axis_b = j;
-    }
-    last = std::min(last, S((side * reach - distance) / speed));
-    return first <= last;
+  /// The middle of the points where they touch at `time`, in A's axes and relative to its center.
+  Vec3<S> touching_point(const S& time, const Vec3<S>& normal) const {
+    BoxPair<S> there = pair;
+    there.between += motion * time;
+    const BoxPoints<S> points = deepest_points(there, axis_a, axis_b, normal);
+    return (points.on_a + points.on_b) / S(2);
   }
+};
+
+/// When the shadows of two boxes on one axis after another overlap, all at once.
+template <Scalar S> struct SharedTime {
+  S first = -std::numeric_limits<S>::infinity();  ///< [1] from when; before 0: they do so now
+  S last = std::numeric_limits<S>::infinity();    ///< [1] until when; before `first`: never
+  int decided_by = -1;                            ///< number of the axis that decided `first`
+
+  /// Shadows `distance` apart between their middles, closing or parting at `speed`, that reach `reach` from there.
+  /// An axis of length zero is 0 / 0, which changes nothing; without speed the quotients are infinite, or 0 / 0 where
+  /// the shadows touch.
+  THINWALL_HOT void narrow(int axis, const S& distance, const S& speed, const S& reach) {
+    using std::copysign;
+    const S ahead = copysign(reach, speed);
+    const S enter = (-ahead - distance) / speed, leave = (ahead - distance) / speed;
+    if (enter > first) decided_by = axis;
+    first = enter > first ? enter : first;
+    last = leave < last ? leave : last;
+  }
+  bool ever() const { return first <= last; }
 };
 
 /// First time at which boxes of `moving`, apart at the start, touch; the normal in A's axes, from A to B.
 template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
+  const BoxPair<S>& pair = moving.pair;
   Entry<S> entry;
-  S first = -std::numeric_limits<S>::infinity(), last = std::numeric_limits<S>::infinity();
-  const bool meet = each_separating_axis([&](int i, int j) { return moving.narrow(i, j, first, last); });
-  if (!meet || moving.axis_a + moving.axis_b == -2 || last < S(0)) return entry;
-  entry.time = std::max(S(0), first);
-  const Vec3<S> n = moving.pair.direction(moving.axis_a, moving.axis_b);
+  SharedTime<S> shared;
+  const Mat3<S> size = pair.axes.cwiseAbs();
+  const Vec3<S> reach_of_b = size * pair.half_b, reach_of_a = size.transpose() * pair.half_a;
+  for (int i = 0; i < 3; ++i) shared.narrow(i, pair.between[i], moving.motion[i], pair.half_a[i] + reach_of_b[i]);
+  for (int j = 0; j < 3; ++j) {
+    shared.narrow(3 + j, moving.between_on_b[j], moving.motion_on_b[j], pair.half_b[j] + reach_of_a[j]);
+  }
+  if (!shared.ever() || shared.last < S(0)) return entry;  // most misses
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const EdgeAxis<S> axis(pair, i, j);
+      shared.narrow(6 + 3 * i + j, axis.along(pair.between), axis.along(moving.motion), axis.reach(pair));
+    }
+  }
+  if (!shared.ever() || shared.last < S(0) || shared.decided_by < 0) return entry;
+  moving.axis_a = shared.decided_by < 3 ? shared.decided_by : shared.decided_by < 6 ? -1 : (shared.decided_by - 6) / 3;
+  moving.axis_b = shared.decided_by < 3 ? -1 : shared.decided_by % 3;
+  entry.time = std::max(S(0), shared.first);
+  const Vec3<S> n = pair.direction(moving.axis_a, moving.axis_b);
   entry.normal = safe_unit(moving.motion.dot(n) > S(0) ? Vec3<S>(-n) : n);
   return entry;
 }

@@ -20,7 +20,7 @@ template <Scalar S> struct ClosedForm {
 
 /// Turns an entry (its normal from A to B) into the answer; point(time) says where they touch.
 template <class A, class B, Scalar T, class Point>
-Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const Entry<T>& entry, const Point& point) {
+THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const Entry<T>& entry, const Point& point) {
   if (entry.inside) return overlapping_at_start(a, b, entry.rounds);
   if (entry.gave_up) return {ToiStatus::gave_up, entry.rounds, std::min(T(1), entry.time)};
   if (!(entry.time <= T(1))) return {ToiStatus::apart, entry.rounds};
@@ -45,7 +45,7 @@ template <Scalar T> Entry<T> flipped(Entry<T> entry) {
 }
 
 template <Scalar S, Scalar T>
-Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
   const T gap(method.min_separation);
   const Entry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                        a.shape.radius + b.shape.radius + gap);
@@ -53,7 +53,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Mov
 }
 
 template <Scalar S, Scalar T>
-Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Entry<T> entry =
       rounded_box_entry<T>(sphere.shape.center - box.shape.center, relative_displacement(sphere, box),
@@ -62,14 +62,19 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Mov
 }
 
 template <Scalar S, Scalar T>
-Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
   const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                               a.shape.half_extents + b.shape.half_extents, T(method.min_separation));
-  return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+  return toi_of(a, b, entry, [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
+    const Vec3<T> middle_a = a.shape.center + a.displacement * time, middle_b = b.shape.center + b.displacement * time;
+    return ((middle_a - a.shape.half_extents).cwiseMax(middle_b - b.shape.half_extents) +
+            (middle_a + a.shape.half_extents).cwiseMin(middle_b + b.shape.half_extents)) /
+           T(2);
+  });
 }
 
 template <Scalar S, Scalar T>
-Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Obb<T>& frame = box.shape;
   const T reach = sphere.shape.radius + gap;
@@ -80,32 +85,39 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
   return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
-/// The motion of B seen from A, in the axes that `pair` is in.
-template <Scalar T>
-Entry<T> boxes_entry(const BoxPair<T>& pair, const Vec3<T>& motion, const Vec3<T>& between_on_b,
-                     const Vec3<T>& motion_on_b, const T& gap) {
-  MovingBoxPair<T> moving{pair, motion, between_on_b, motion_on_b};
-  if (boxes_within(pair, gap)) return {true};
+/// When two moving boxes come within `gap` of each other; the normal in A's axes.
+template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap) {
+  Entry<T> entry;
+  entry.inside = boxes_within(moving.pair, gap);
+  if (entry.inside) return entry;
   return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
-  const Vec3<T> motion = relative_displacement(b, a);
-  Entry<T> entry = boxes_entry<T>(box_pair(a.shape, b.shape), into(a.shape, motion),
-                                  into<T>(b.shape, b.shape.center - a.shape.center), into(b.shape, motion),
-                                  T(method.min_separation));
-  entry.normal = out_of(a.shape, entry.normal);
-  return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+  const T gap(method.min_separation);
+  const Vec3<T> between = b.shape.center - a.shape.center, motion = relative_displacement(b, a);
+  MovingBoxPair<T> moving{box_pair(a.shape, b.shape), into(a.shape, motion), into(b.shape, between),
+                          into(b.shape, motion)};
+  Entry<T> entry = boxes_entry(moving, gap);
+  const Vec3<T> normal = entry.normal;
+  entry.normal = out_of(a.shape, normal);
+  return toi_of(a, b, entry, [&](const T& time) -> Vec3<T> {
+    if (gap > T(0)) return middle_point(a, b, time);
+    return (a.shape.center + a.displacement * time) + out_of<T>(a.shape, moving.touching_point(time, normal));
+  });
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Aabb<T>>& b) {
-  const Vec3<T> motion = relative_displacement(a, b);
-  const Entry<T> entry =
-      boxes_entry<T>(box_pair(b.shape, a.shape), motion, into<T>(a.shape, a.shape.center - b.shape.center),
-                     into(a.shape, motion), T(method.min_separation));
-  return toi_of(a, b, flipped(entry), [&](const T& time) { return middle_point(a, b, time); });
+  const T gap(method.min_separation);
+  const Vec3<T> between = a.shape.center - b.shape.center, motion = relative_displacement(a, b);
+  MovingBoxPair<T> moving{box_pair(b.shape, a.shape), motion, into(a.shape, between), into(a.shape, motion)};
+  const Entry<T> entry = boxes_entry(moving, gap);
+  return toi_of(a, b, flipped(entry), [&](const T& time) -> Vec3<T> {
+    if (gap > T(0)) return middle_point(a, b, time);
+    return (b.shape.center + b.displacement * time) + moving.touching_point(time, entry.normal);
+  });
 }
 
 template <Scalar S, Scalar T>

@@ -30,7 +30,7 @@ template <class A, class B> Vec3<typename A::Scalar> relative_displacement(const
 
 /// The answer for shapes that touch or overlap at the start.
 template <class A, class B>
-Toi<typename A::Scalar> overlapping_at_start(const Moving<A>& a, const Moving<B>& b, int evaluations) {
+THINWALL_COLD Toi<typename A::Scalar> overlapping_at_start(const Moving<A>& a, const Moving<B>& b, int evaluations) {
   using S = typename A::Scalar;
   const Separation<S> deepest = separation(a.shape, b.shape);
   return {ToiStatus::overlapping, evaluations, S(0), deepest.normal, (deepest.point_a + deepest.point_b) / S(2)};

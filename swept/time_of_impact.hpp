@@ -10,16 +10,25 @@
 namespace thinwall {
 
 template <class Method, Shape A, Shape B>
-Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b);
+THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b);
 
 /// The same question with every length divided by 2^8, for coordinates near the largest number.
 template <class Method, Shape A, Shape B>
-Toi<typename A::Scalar> impact_scaled_down(Method method, const Moving<A>& a, const Moving<B>& b) {
+THINWALL_COLD Toi<typename A::Scalar> impact_scaled_down(Method method, const Moving<A>& a, const Moving<B>& b) {
   using std::ldexp;
   method.min_separation = ldexp(method.min_separation, -8);
   Toi<typename A::Scalar> toi = time_of_impact(method, scaled(a, -8), scaled(b, -8));
   toi.point = times_power_of_two(toi.point, 8);
   return toi;
+}
+
+/// The answer where the sum of all magnitudes is not finite, or a size or option is out of range.
+template <class Method, Shape A, Shape B>
+THINWALL_COLD Toi<typename A::Scalar> impact_of_extremes(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  using S = typename A::Scalar;
+  const auto gap = method.min_separation;
+  const bool only_huge = valid(a) && valid(b) && gap >= 0 && is_finite(gap);  // finite all the same, but their sum is not
+  return only_huge ? impact_scaled_down(method, a, b) : Toi<S>{ToiStatus::invalid, 0, nan_vector<S>()[0]};
 }
 
 /// When A and B first touch during the step, by `method`.
@@ -28,19 +37,16 @@ Toi<typename A::Scalar> impact_scaled_down(Method method, const Moving<A>& a, co
 /// only at the poses they sample); no relative motion is `apart`, or `overlapping` if they touch.
 /// Passing A and B the other way round flips the normal and changes nothing else.
 template <class Method, Shape A, Shape B>
-Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(serves<Method, A, B>, "this method does not serve this pair of shapes");
   if constexpr (A::rank < B::rank) {
     return flipped(time_of_impact(method, b, a));
   } else {
-    const auto gap = method.min_separation;
-    const S size = magnitude(a) + magnitude(b) + S(gap);
-    if (!has_valid_sizes(a.shape) || !has_valid_sizes(b.shape) || !(gap >= 0) || !is_finite(size)) {
-      const bool huge =
-          valid(a) && valid(b) && gap >= 0 && is_finite(gap);  // finite all the same, but their sum is not
-      return huge ? impact_scaled_down(method, a, b) : Toi<S>{ToiStatus::invalid, 0, nan_vector<S>()[0]};
+    const S size = magnitude(a) + magnitude(b) + S(method.min_separation);
+    if (!has_valid_sizes(a.shape) || !has_valid_sizes(b.shape) || !(method.min_separation >= 0) || !is_finite(size)) {
+      return impact_of_extremes(method, a, b);
     }
     assert(valid(a.shape) && valid(b.shape) && "axes must be orthonormal");
     if constexpr (std::is_same_v<S, float>) {
@@ -54,7 +60,8 @@ Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a,
 }
 
 /// When A and B first touch during the step, exact to rounding.
-template <Shape A, Shape B> Toi<typename A::Scalar> time_of_impact(const Moving<A>& a, const Moving<B>& b) {
+template <Shape A, Shape B>
+THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Moving<A>& a, const Moving<B>& b) {
   return time_of_impact(ClosedForm<typename A::Scalar>{}, a, b);
 }
 
