@@ -51,22 +51,21 @@ template <Scalar S> Vec3<S> contact_point(const Obb<S>&, const Vec3<S>& core_poi
 template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { return box.axes.transpose() * world; }
 template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
 
-/// The path p + v t in the box's axes, from `base_time` on: start + motion * (t - base_time).
-/// The axes are orthonormal to rounding only; turning a point far beyond `reach` would move its whole path by that times
-/// its distance. A far path is turned from a point shortly before it passes the box, found by its moment p x v.
-template <Scalar S> struct TurnedPath {
-  Vec3<S> start, motion;
+/// The path p + v t from `base_time` on: start + v * (t - base_time), where it comes within about `reach` of the origin.
+/// A box's axes are orthonormal to rounding only; turning a point far beyond `reach` would move its whole path by that
+/// times its distance. So a far path is turned from a point shortly before it passes, found by its moment p x v.
+template <Scalar S> struct NearPath {
+  Vec3<S> start;
   S base_time = 0;  ///< [1] >= 0: there is no contact before
 
-  TurnedPath(const Obb<S>& box, const Vec3<S>& p, const Vec3<S>& v, const S& reach)
-      : start(into(box, p)), motion(into(box, v)) {
-    const S near = 4 * (reach + box.half_extents.sum());
+  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach) : start(p) {
+    const S near = 4 * reach;
     if (largest(p) < 2 * near || !products_in_range(largest(p)) || !products_in_range(largest(v))) return;
     const S speed_square = v.squaredNorm(), lead = near / safe_norm(v);
     const S earlier = -p.dot(v) / speed_square - lead;
     if (!(earlier > S(0))) return;
     base_time = earlier;
-    start = into<S>(box, cross(v, cross(p, v)) / speed_square - v * lead);
+    start = cross(v, cross(p, v)) / speed_square - v * lead;
   }
 };
 
@@ -84,12 +83,15 @@ template <Scalar S> CoreGap<S> core_gap(const Obb<S>& box, const Sphere<S>& sphe
   return out_of(box, gap_to_point<S>(into<S>(box, sphere.center - box.center), box.half_extents));
 }
 
-/// B seen from A's axes.
-template <Scalar S> BoxPair<S> box_pair(const Obb<S>& a, const Obb<S>& b) {
-  return {a.half_extents, b.half_extents, into<S>(a, b.center - a.center), a.axes.transpose() * b.axes};
+/// B seen from A's axes, with B's center `between` away from A's.
+template <Scalar S> BoxPair<S> box_pair(const Obb<S>& a, const Obb<S>& b, const Vec3<S>& between) {
+  return {a.half_extents, b.half_extents, into(a, between), a.axes.transpose() * b.axes};
 }
-template <Scalar S> BoxPair<S> box_pair(const Aabb<S>& a, const Obb<S>& b) {
-  return {a.half_extents, b.half_extents, b.center - a.center, b.axes};
+template <Scalar S> BoxPair<S> box_pair(const Aabb<S>& a, const Obb<S>& b, const Vec3<S>& between) {
+  return {a.half_extents, b.half_extents, between, b.axes};
+}
+template <class A, Scalar S> BoxPair<S> box_pair(const A& a, const Obb<S>& b) {
+  return box_pair<S>(a, b, b.center - a.center);
 }
 
 template <Scalar S> bool boxes_within(const BoxPair<S>& pair, const S& reach) {

@@ -21,11 +21,14 @@ template <Scalar S> struct MovingBoxPair {
   Vec3<S> between_on_b, motion_on_b;  ///< [length] along B's axes, from world vectors
   int axis_a = -1, axis_b = -1;       ///< the axes of contact, once found
 
-  /// The middle of the points where they touch at `time`, in A's axes and relative to its center.
-  Vec3<S> touching_point(const S& time, const Vec3<S>& normal) const {
+  /// The middle of the points where they touch at entry, or come within `gap` of each other, in A's axes and relative to
+  /// its center. Zero if they never do.
+  Vec3<S> touching_point(const Entry<S>& entry, const S& gap) const {
+    if (entry.inside || entry.gave_up || !(entry.time <= S(1))) return Vec3<S>::Zero();
     BoxPair<S> there = pair;
-    there.between += motion * time;
-    const BoxPoints<S> points = deepest_points(there, axis_a, axis_b, normal);
+    there.between += motion * entry.time;
+    const BoxPoints<S> points =
+        gap > S(0) ? closest_points(there) : deepest_points(there, axis_a, axis_b, entry.normal);
     return (points.on_a + points.on_b) / S(2);
   }
 };

@@ -78,8 +78,9 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& bo
   const T gap(method.min_separation);
   const Obb<T>& frame = box.shape;
   const T reach = sphere.shape.radius + gap;
-  const TurnedPath<T> path(frame, sphere.shape.center - frame.center, relative_displacement(sphere, box), reach);
-  Entry<T> entry = rounded_box_entry<T>(path.start, path.motion, frame.half_extents, reach);
+  const Vec3<T> motion = relative_displacement(sphere, box);
+  const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
+  Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
   entry.time += path.base_time;
   entry.normal = out_of(frame, entry.normal);
   return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
@@ -96,27 +97,33 @@ template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap)
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
   const T gap(method.min_separation);
-  const Vec3<T> between = b.shape.center - a.shape.center, motion = relative_displacement(b, a);
-  MovingBoxPair<T> moving{box_pair(a.shape, b.shape), into(a.shape, motion), into(b.shape, between),
+  const Vec3<T> motion = relative_displacement(b, a);
+  const NearPath<T> path(b.shape.center - a.shape.center, motion,
+                         gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
+  MovingBoxPair<T> moving{box_pair(a.shape, b.shape, path.start), into(a.shape, motion), into(b.shape, path.start),
                           into(b.shape, motion)};
   Entry<T> entry = boxes_entry(moving, gap);
-  const Vec3<T> normal = entry.normal;
-  entry.normal = out_of(a.shape, normal);
+  const Vec3<T> touching = moving.touching_point(entry, gap);
+  entry.time += path.base_time;
+  entry.normal = out_of(a.shape, entry.normal);
   return toi_of(a, b, entry, [&](const T& time) -> Vec3<T> {
-    if (gap > T(0)) return middle_point(a, b, time);
-    return (a.shape.center + a.displacement * time) + out_of<T>(a.shape, moving.touching_point(time, normal));
+    return (a.shape.center + a.displacement * time) + out_of(a.shape, touching);
   });
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Aabb<T>>& b) {
   const T gap(method.min_separation);
-  const Vec3<T> between = a.shape.center - b.shape.center, motion = relative_displacement(a, b);
-  MovingBoxPair<T> moving{box_pair(b.shape, a.shape), motion, into(a.shape, between), into(a.shape, motion)};
-  const Entry<T> entry = boxes_entry(moving, gap);
+  const Vec3<T> motion = relative_displacement(a, b);
+  const NearPath<T> path(a.shape.center - b.shape.center, motion,
+                         gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
+  MovingBoxPair<T> moving{box_pair(b.shape, a.shape, path.start), motion, into(a.shape, path.start),
+                          into(a.shape, motion)};
+  Entry<T> entry = boxes_entry(moving, gap);
+  const Vec3<T> touching = moving.touching_point(entry, gap);
+  entry.time += path.base_time;
   return toi_of(a, b, flipped(entry), [&](const T& time) -> Vec3<T> {
-    if (gap > T(0)) return middle_point(a, b, time);
-    return (b.shape.center + b.displacement * time) + moving.touching_point(time, entry.normal);
+    return (b.shape.center + b.displacement * time) + touching;
   });
 }
 
@@ -167,10 +174,11 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
   const T reach = capsule.shape.radius + T(method.min_separation);
   const Vec3<T> core = into<T>(box.shape, capsule.shape.b - capsule.shape.a);
-  const TurnedPath<T> path(box.shape, capsule.shape.a - box.shape.center, relative_displacement(capsule, box),
-                           reach + largest(core));
-  Entry<T> entry = core_entry_at_any_scale<T>(&closest_on_swept_box<T>, path.start, path.motion, reach, core,
-                                              box.shape.half_extents);
+  const Vec3<T> motion = relative_displacement(capsule, box);
+  const NearPath<T> path(capsule.shape.a - box.shape.center, motion,
+                         reach + largest(core) + box.shape.half_extents.sum());
+  Entry<T> entry = core_entry_at_any_scale<T>(&closest_on_swept_box<T>, into(box.shape, path.start),
+                                              into(box.shape, motion), reach, core, box.shape.half_extents);
   entry.time += path.base_time;
   entry.normal = -out_of(box.shape, entry.normal);
   return toi_of(capsule, box, entry, [&](const T& time) { return middle_point(capsule, box, time); });
