@@ -161,8 +161,8 @@ const bool added = [] {
   add_impact<C, A>(
       "capsule_aabb", 40, &any_shots<C, A>,
       [](const auto& q) {
-        return core_entry_at_any_scale<D>(&closest_on_swept_box<D>, q.a.shape.a - q.b.shape.center, motion(q),
-                                          q.a.shape.radius, Vec3<D>(q.a.shape.b - q.a.shape.a), q.b.shape.half_extents)
+        return capsule_box_entry<D>(q.a.shape.a - q.b.shape.center, motion(q), q.a.shape.radius,
+                                    q.a.shape.b - q.a.shape.a, q.b.shape.half_extents)
             .time;
       },
       [](const auto& q) { return plain::bisection(q.a, q.b); });
@@ -178,8 +178,7 @@ const bool added = [] {
       "sphere_triangle", 50, &any_shots<S, T>,
       [](const auto& q) {
         const T& t = q.b.shape;
-        return rounded_triangle_entry<D>(q.a.shape.center - t.a, motion(q), q.a.shape.radius, t.b - t.a, t.c - t.a)
-            .time;
+        return sphere_triangle_entry<D>(q.a.shape.center - t.a, motion(q), q.a.shape.radius, t.b - t.a, t.c - t.a).time;
       },
       [](const auto& q) { return plain::rounded_triangle(q.a.shape.center, motion(q), q.b.shape, q.a.shape.radius); });
 

@@ -1,66 +1,14 @@
 #pragma once
-/// A segment and a box: the closest points while they are apart, the least way out once they cross.
+/// A segment and a box: the least way out where they cross, and the part of their Minkowski sum that a point is nearest to.
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <limits>
 
-#include <thinwall/capsule/segment.hpp>
+#include <thinwall/capsule/segment_near_box.hpp>
 #include <thinwall/discrete/aabb.hpp>
 
 namespace thinwall {
-
-/// The s in [0, 1] for which p + s * d is closest to the box [-h, h]; the middle of a whole stretch of such s.
-/// Half the derivative of the squared distance, g(s) = sum of excess_i(s) * d_i, is continuous, does not decrease, and
-/// is linear between the s at which an axis enters or leaves its slab, so its zero is bracketed by two of those.
-/// Error: the point is off by a few u (|p| + |d| + |h|). Source: derived here.
-template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
-  const S size = largest(p, d, h);
-  if (!products_in_range(size) && binary_exponent(size) != 0) {
-    const int e = binary_exponent(size);
-    return closest_parameter_to_box(times_power_of_two(p, -e), times_power_of_two(d, -e), times_power_of_two(h, -e));
-  }
-  std::array<S, 8> knots{S(0), S(1)};
-  std::size_t count = 2;
-  Vec3<S> enter = Vec3<S>::Zero(), leave = Vec3<S>::Zero();
-  for (int i = 0; i < 3; ++i) {
-    if (d[i] == S(0)) continue;
-    const S side = d[i] > S(0) ? S(1) : S(-1);
-    enter[i] = (-side * h[i] - p[i]) / d[i];
-    leave[i] = (side * h[i] - p[i]) / d[i];
-    for (const S& knot : {enter[i], leave[i]}) {
-      if (!(knot > S(0) && knot < S(1))) continue;
-      std::size_t k = count++;
-      for (; knots[k - 1] > knot; --k) knots[k] = knots[k - 1];  // kept in order
-      knots[k] = knot;
-    }
-  }
-  const auto slope = [&](const S& s) {
-    S sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      if (d[i] == S(0) || (s >= enter[i] && s <= leave[i])) continue;
-      const S face = (s < enter[i]) == (d[i] > S(0)) ? S(-h[i]) : h[i];
-      sum += (p[i] + s * d[i] - face) * d[i];
-    }
-    return sum;
-  };
-  S falling = 0, falling_slope = 0, rising = 1, rising_slope = 0, first_zero = -1, last_zero = -1;
-  for (std::size_t k = 0; k < count && rising_slope == S(0); ++k) {
-    const S g = slope(knots[k]);
-    if (g == S(0)) {
-      if (first_zero < S(0)) first_zero = knots[k];
-      last_zero = knots[k];
-    } else {
-      (g < S(0) ? falling : rising) = knots[k];
-      (g < S(0) ? falling_slope : rising_slope) = g;
-    }
-  }
-  if (first_zero >= S(0)) return (first_zero + last_zero) / 2;
-  if (falling_slope == S(0)) return S(0);
-  if (rising_slope == S(0)) return S(1);
-  return falling + (rising - falling) * (falling_slope / (falling_slope - rising_slope));
-}
 
 /// The stretch [first, last] of [0, 1] on which p + s * d is between the two faces of the box [-h, h] across each axis but
 /// `skipped`. Empty if first > last. No point is computed, whose rounding could put it beside a box without thickness.

@@ -89,13 +89,16 @@ template <Scalar S> PartEntry<S> part_entry(const CorePart<S>& part, const Vec3<
 }
 
 /// First time t >= 0 at which p + v t is within R of the core. `size` [length] is the core's own, for the noise level.
+/// No contact lies before `not_before` [1] >= 0; > 0 says that there is none at the start either.
 /// Requires lengths and displacements whose products of four are in range.
 template <Scalar S, class Closest>
-Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& size, const Closest& closest) {
+Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& size, const Closest& closest,
+                    const S& not_before = S(0)) {
   constexpr int round_limit = 256;
   Entry<S> answer;
-  CorePart<S> part = closest(p);
-  answer.inside = part.contains_point() || within(part.gap, R);
+  S free = not_before, now = not_before;  // no contact before `free`; `part` is the nearest at `now`
+  CorePart<S> part = closest(p + v * now);
+  answer.inside = not_before == S(0) && (part.contains_point() || within(part.gap, R));
   if (answer.inside) return answer;
   const auto hit = [&](const S& time, const Vec3<S>& normal) {
     answer.time = time;
@@ -103,7 +106,6 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     return answer;
   };
   const S noise = gap_noise(largest(p, S(R + size)));
-  S free = 0, now = 0;  // no contact before `free`; `part` is the nearest at `now`
   int touches = 0;
   while (++answer.rounds < round_limit) {
     const S closing = part.closing_speed(v);

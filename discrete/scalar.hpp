@@ -13,7 +13,9 @@
 
 /// What every query runs through is inlined, whatever its size: a vector passed through memory costs more than its
 /// arithmetic. What only the extremes need is kept out of its way.
+#ifndef THINWALL_HOT
 #define THINWALL_HOT [[gnu::always_inline]] inline
+#endif
 #define THINWALL_COLD [[gnu::cold, gnu::noinline]]
 
 namespace thinwall {

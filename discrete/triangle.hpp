@@ -52,35 +52,32 @@ template <Scalar S> Vec3<S> contact_point(const Triangle<S>&, const Vec3<S>& cor
 template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3<S>& e1, const Vec3<S>& e2) {
   const Vec3<S> normal = cross(e1, e2);
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
-  CorePart<S> part;
-  if (normal != Vec3<S>::Zero()) {
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], x - from[k]).dot(normal) >= S(0);
-    if (inside) {
-      const Vec3<S> unit = safe_unit(normal);
-      return {0, CorePart<S>::face, Vec3<S>::Zero(), normal, unit * x.dot(unit)};
+  const bool flat = normal != Vec3<S>::Zero();
+  std::array<bool, 3> beyond{true, true,
+                             true};  // outside this edge's line: only such an edge, or its end, can be nearest
+  if (flat) {
+    for (std::size_t k = 0; k < 3; ++k) beyond[k] = cross(normal, along[k]).dot(x - from[k]) < S(0);
+    if (!beyond[0] && !beyond[1] && !beyond[2]) {
+      return {0, CorePart<S>::face, Vec3<S>::Zero(), normal, normal * (x.dot(normal) / normal.squaredNorm())};
     }
   }
+  CorePart<S> part;
   S least = std::numeric_limits<S>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
+    if (!beyond[k]) continue;
     const S length_square = along[k].squaredNorm();
     const Vec3<S> to_x = x - from[k];
-    const S s = length_square > S(0) ? S(along[k].dot(to_x) / length_square) : S(0);
-    if (s >= S(1)) continue;  // the corner is the next edge's
-    const bool corner = s <= S(0);
-    const Vec3<S> gap = corner ? to_x : Vec3<S>(to_x - along[k] * s);
-    if (gap.squaredNorm() >= least) continue;
-    least = gap.squaredNorm();
-    part = {static_cast<int>(k) + (corner ? 4 : 1), corner ? CorePart<S>::corner : CorePart<S>::edge, from[k], along[k],
-            gap};
+    const S projected = along[k].dot(to_x);
+    const bool at_end = projected >= length_square && length_square > S(0), corner = at_end || projected <= S(0);
+    const std::size_t start = at_end ? (k + 1) % 3 : k;
+    const Vec3<S> gap = corner ? Vec3<S>(x - from[start]) : Vec3<S>(to_x - along[k] * (projected / length_square));
+    const S square = gap.squaredNorm();
+    if (square >= least) continue;
+    least = square;
+    part = {static_cast<int>(start) + (corner ? 4 : 1), corner ? CorePart<S>::corner : CorePart<S>::edge, from[start],
+            along[start], gap};
   }
   return part;
-}
-
-/// First time at which p + v t is within R of the triangle (0, e1, e2).
-template <Scalar S>
-Entry<S> rounded_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& e1, const Vec3<S>& e2) {
-  return core_entry_at_any_scale<S>(&closest_on_triangle<S>, p, v, R, e1, e2);
 }
 
 /// The unit normal of the plane, on the side of +x, then +y, then +z; zero for a triangle of no area.

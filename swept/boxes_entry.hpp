@@ -11,6 +11,7 @@
 
 #include <thinwall/discrete/core_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
+#include <thinwall/swept/shared_time.hpp>
 
 namespace thinwall {
 
@@ -33,26 +34,6 @@ template <Scalar S> struct MovingBoxPair {
   }
 };
 
-/// When the shadows of two boxes on one axis after another overlap, all at once.
-template <Scalar S> struct SharedTime {
-  S first = -std::numeric_limits<S>::infinity();  ///< [1] from when; before 0: they do so now
-  S last = std::numeric_limits<S>::infinity();    ///< [1] until when; before `first`: never
-  int decided_by = -1;                            ///< number of the axis that decided `first`
-
-  /// Shadows `distance` apart between their middles, closing or parting at `speed`, that reach `reach` from there.
-  /// An axis of length zero is 0 / 0, which changes nothing; without speed the quotients are infinite, or 0 / 0 where
-  /// the shadows touch.
-  THINWALL_HOT void narrow(int axis, const S& distance, const S& speed, const S& reach) {
-    using std::copysign;
-    const S ahead = copysign(reach, speed);
-    const S enter = (-ahead - distance) / speed, leave = (ahead - distance) / speed;
-    if (enter > first) decided_by = axis;
-    first = enter > first ? enter : first;
-    last = leave < last ? leave : last;
-  }
-  bool ever() const { return first <= last; }
-};
-
 /// First time at which boxes of `moving`, apart at the start, touch; the normal in A's axes, from A to B.
 template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   const BoxPair<S>& pair = moving.pair;
@@ -64,14 +45,14 @@ template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   for (int j = 0; j < 3; ++j) {
     shared.narrow(3 + j, moving.between_on_b[j], moving.motion_on_b[j], pair.half_b[j] + reach_of_a[j]);
   }
-  if (!shared.ever() || shared.last < S(0)) return entry;  // most misses
+  if (!shared.ever()) return entry;  // most misses
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const EdgeAxis<S> axis(pair, i, j);
       shared.narrow(6 + 3 * i + j, axis.along(pair.between), axis.along(moving.motion), axis.reach(pair));
     }
   }
-  if (!shared.ever() || shared.last < S(0) || shared.decided_by < 0) return entry;
+  if (!shared.ever() || shared.decided_by < 0) return entry;
   moving.axis_a = shared.decided_by < 3 ? shared.decided_by : shared.decided_by < 6 ? -1 : (shared.decided_by - 6) / 3;
   moving.axis_b = shared.decided_by < 3 ? -1 : shared.decided_by % 3;
   entry.time = std::max(S(0), shared.first);
