@@ -1,6 +1,6 @@
 #pragma once
-/// Query sets for the benchmarks: 100 000 shots, half of them hits, all apart at the start, streamed from memory. A set small
-/// enough for the branch predictor to learn would flatter every method.
+/// Query sets for the benchmarks: 100 000 shots, half of them hits, in random order, all apart at the start, streamed from
+/// memory. A set small or regular enough for the branch predictor to learn would flatter every method.
 
 #include <cmath>
 #include <cstddef>
@@ -74,10 +74,11 @@ template <class A, class B> struct Shots {
   std::vector<double> truth;
 };
 
-/// Shots of shapes made by `make_a` at shapes made by `make_b`, hits and misses in turn, both moving.
+/// Shots of shapes made by `make_a` at shapes made by `make_b`, hits as likely as misses, both moving.
 template <class A, class B, class MakeA, class MakeB> Shots<A, B> shots(const MakeA& make_a, const MakeB& make_b) {
   Uniform uniform;
   Shots<A, B> set;
+  bool wanted = true;
   while (set.queries.size() < query_count) {
     const Vec3<double> from = uniform.direction() * uniform.between(1.5, 3);
     const Vec3<double> aim = uniform.direction() * uniform.between(0, 2);
@@ -86,7 +87,8 @@ template <class A, class B, class MakeA, class MakeB> Shots<A, B> shots(const Ma
     const Moving<B> b{make_b(uniform), drift};
     const auto truth = time_of_impact(cast<long double>(a), cast<long double>(b));
     const bool hit = truth.status == ToiStatus::hit;
-    if (hit != (set.queries.size() % 2 == 0) || overlaps_within(a.shape, b.shape, 0.02)) continue;
+    if (hit != wanted || overlaps_within(a.shape, b.shape, 0.02)) continue;
+    wanted = uniform() < 0.5;
     set.queries.push_back({a, b});
     set.truth.push_back(hit ? static_cast<double>(truth.time) : never);
   }

@@ -18,6 +18,7 @@ namespace thinwall {
 template <Shape A, Shape B> bool overlaps_within(const A& a, const B& b, const typename A::Scalar& margin) {
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
   if constexpr (A::rank < B::rank) {
     return overlaps_within(b, a, margin);
   } else {
@@ -49,6 +50,7 @@ template <Shape A, Shape B> CoreGap<typename A::Scalar> core_gap_either_way(cons
 template <Shape A, Shape B> Separation<typename A::Scalar> separation(const A& a, const B& b) {
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
   if (!is_ordinary(S(magnitude(a) + magnitude(b)))) {
     if (!valid(a) || !valid(b)) return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
     const Separation<S> small = separation(scaled(a, -8), scaled(b, -8));
