@@ -51,7 +51,7 @@ THINWALL_HOT Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, 
       const S at = along + v.dot(axis) * side.time;
       if (at >= S(0) && at <= end) {
         entry.time = side.time;
-        entry.normal = cross(axis, side.normal) * (S(1) / length);
+        entry.normal = safe_unit(cross(axis, side.normal));
         return entry;
       }
       far_end = at > S(0);

@@ -35,13 +35,10 @@ template <Scalar S> struct Chord {
 
   /// The time the line enters the ball, where the chord exists and the point is outside and approaching.
   S entry_time() const { return excess / (approach + half); }
-  /// (p + v t) / R at that time: unit, and against the motion where R is zero.
-  Vec3<S> entry_normal(const Vec3<S>& v, const S& R) const {
-    const S scale = speed_square * R;
+  /// The direction of p + v t at that time; against the motion where R is zero. Its length is R only as far as the moment,
+  /// which loses the digits of a small ball far away, allows.
+  Vec3<S> entry_normal(const Vec3<S>& v) const {
     const Vec3<S> offset = cross(v, moment) - v * half;
-    return square_in_range(scale) ? Vec3<S>(offset * (S(1) / scale)) : entry_normal_of_tiny(v, offset);
-  }
-  THINWALL_COLD static Vec3<S> entry_normal_of_tiny(const Vec3<S>& v, const Vec3<S>& offset) {
     return offset == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : safe_unit(offset);
   }
 };
@@ -109,7 +106,7 @@ template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec
   const Chord<S> chord = chord_through_ball(p, v, R);
   if (!chord.exists || chord.approach <= S(0)) return entry;
   entry.time = chord.entry_time();  // positive, as the excess is
-  entry.normal = chord.entry_normal(v, R);
+  entry.normal = chord.entry_normal(v);
   return entry;
 }
 

@@ -53,7 +53,7 @@ template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v
   PartEntry<S> entry{chord.exists && chord.approach > S(0), S(0), chord.approach / chord.speed_square, Vec3<S>::Zero()};
   if (!entry.exists) return entry;
   entry.time = chord.entry_time();
-  entry.normal = chord.entry_normal(v, R);
+  entry.normal = chord.entry_normal(v);
   return entry;
 }
 

@@ -33,7 +33,8 @@ template <Scalar S> struct SlabTimes {
 
   /// `over_speed(length, axis)` divides by v[axis].
   template <class OverSpeed>
-  THINWALL_HOT SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R, const OverSpeed& over_speed) {
+  THINWALL_HOT SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R,
+                         const OverSpeed& over_speed) {
     using std::copysign;
     const S infinity = std::numeric_limits<S>::infinity();
     Vec3<S> widened_enter;
@@ -119,7 +120,7 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
       const S root = chord.entry_time();
       if (root <= next && chord.approach + chord.half >= now * chord.speed_square) {
         entry.time = std::max(root, now);
-        entry.normal = chord.entry_normal(u, R);
+        entry.normal = chord.entry_normal(u);
         return entry;
       }
     }
