@@ -18,6 +18,11 @@ template <Scalar S> struct SweptVolumeRay {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
+/// The same of a triangle; where the core pierces it, the ray from the center hits, and nobody asks.
+template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Triangle<S>& triangle) {
+  return closest_on_core_and_triangle(capsule, triangle).s;
+}
+
 /// The normal points from the sphere to the target.
 template <Scalar T, Shape B>
 Toi<T> sweep_and_cast(const Moving<Sphere<T>>& sphere, const Moving<B>& target, const T& margin) {
