@@ -41,7 +41,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const M
     const T next = plane.free_until();
     if (next > T(1) || plane.free_from(free)) return {ToiStatus::apart, k + 1};
     if (closest.distance - margin <= near || next <= free) {
-      const T time = rounded_down_to<S>(std::max(free, next));
+      const T time = rounded_down_to<S>(free);
       return {ToiStatus::hit, k + 1, time, closest.normal, middle_after<T>(a, b, closest, time - free)};
     }
     free = next;

@@ -18,9 +18,12 @@ template <Scalar S> struct SweptVolumeRay {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
-/// The same of a triangle; where the core pierces it, the ray from the center hits, and nobody asks.
+/// The same of a triangle; where the core pierces it, the parameter of its plane.
 template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Triangle<S>& triangle) {
-  return closest_on_core_and_triangle(capsule, triangle).s;
+  const PrismPart<S> closest = closest_on_core_and_triangle(capsule, triangle);
+  const Vec3<S> normal = plane_normal(triangle);
+  const S start = normal.dot(capsule.a - triangle.a), end = normal.dot(capsule.b - triangle.a);
+  return closest.part.contains_point() && start != end ? clamp01(S(start / (start - end))) : closest.s;
 }
 
 /// The normal points from the sphere to the target.
