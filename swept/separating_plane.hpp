@@ -31,9 +31,9 @@ template <Scalar S> S reach_along(const Capsule<S>& capsule, const Vec3<S>& n) {
   return std::max(n.dot(capsule.a - middle), n.dot(capsule.b - middle)) + capsule.radius;
 }
 
-/// The size of the numbers that a gap between shapes is computed from.
-template <Shape A> typename A::Scalar coordinate_size(const A& shape) {
-  return center(shape).cwiseAbs().sum() + half_widths(shape).sum();
+/// The size of the numbers that a shape is given in, along each axis.
+template <Shape A> Vec3<typename A::Scalar> coordinate_sizes(const A& shape) {
+  return center(shape).cwiseAbs() + half_widths(shape);
 }
 
 /// The gap across the plane at time t, less the minimal separation, is at least gap - closing * t.
@@ -73,10 +73,11 @@ SeparatingPlane<typename A::Scalar> separating_plane(const Moving<A>& a, const M
   const Vec3<S> n = safe_unit(normal), path = relative_displacement(a, b);
   const S between = n.dot(center(b.shape) - center(a.shape));
   const S reach = reach_along(a.shape, n) + reach_along<S>(b.shape, -n) + min_separation;
-  const S size = coordinate_size(a.shape) + coordinate_size(b.shape) + min_separation;
+  const Vec3<S> weight = n.cwiseAbs();
+  const S size = weight.dot(coordinate_sizes(a.shape) + coordinate_sizes(b.shape)) + min_separation;
   SeparatingPlane<S> plane;
   plane.gap = (between - reach) - (16 * u * size + least);
-  plane.closing = n.dot(path) + (8 * u * path.cwiseAbs().sum() + least);
+  plane.closing = n.dot(path) + (8 * u * weight.dot(path.cwiseAbs()) + least);
   return plane;
 }
 

