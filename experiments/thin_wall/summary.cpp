@@ -147,7 +147,7 @@ std::string summary_text(const std::vector<Line>& lines, const std::vector<Total
   text += scalar_line(lines);
   for (const Total& t : spoken) {
     if (t.tunneled + t.undecided > 0) continue;
-    text += fmt::format("{}: none of {}; its chance per shot is below {} (95 %, Clopper-Pearson).\n", t.method,
+    text += fmt::format("{}: none of {}; chance per shot below {} (95 %, Clopper-Pearson).\n", t.method,
                         grouped_text(t.shots), upper_bound(t.shots));
   }
   text += fmt::format("Self-test: counts {}, evenly spread phases {}, lateness {}.\n", verdict(verdicts.counts),

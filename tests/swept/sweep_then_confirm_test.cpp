@@ -5,6 +5,7 @@
 #include <thinwall/swept/time_of_impact.hpp>
 
 #include "support/judge.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -90,6 +91,23 @@ TYPED_TEST(Confirm, serves_what_sweeps_a_shape) {
   static_assert(serves<Method, Sphere<S>, Sphere<S>> && serves<Method, Sphere<S>, Aabb<S>>);
   static_assert(serves<Method, Aabb<S>, Aabb<S>> && !serves<Method, Obb<S>, Sphere<S>>);
   static_assert(!serves<Method, Capsule<S>, Sphere<S>> && !serves<Method, Triangle<S>, Sphere<S>>);
+}
+
+/// Balls at equal speeds whose paths cross at a right angle, uniform over all that touch: the numbers of docs/methods.md.
+TEST(ConfirmedShare, is_two_in_five_at_a_right_angle) {
+  Shaker<double> draw(1);
+  const Vec3<double> east(50, 0, 0), north(0, 50, 0), across = safe_unit<double>(east + north), up(0, 0, 1);
+  int touching = 0, seen = 0;
+  while (touching < 5000) {
+    const double x = draw.plain(), z = draw.plain(), time = (draw.plain() + 1) / 2;
+    const Vec3<double> nearest = across * x + up * z;  // from the one to the other; they are half as wide
+    const Moving<Sphere<double>> a{{nearest - east * time, 0.5}, east}, b{{-north * time, 0.5}, north};
+    if (time_of_impact(a, b).status != ToiStatus::hit) continue;
+    ++touching;
+    seen += time_of_impact(SweepThenConfirm<double>{}, a, b).status == ToiStatus::hit ? 1 : 0;
+  }
+  EXPECT_GT(seen, 0.37 * touching);
+  EXPECT_LT(seen, 0.41 * touching);
 }
 
 TYPED_TEST(Confirm, min_separation_confirms_a_gap) {
