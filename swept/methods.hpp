@@ -3,19 +3,29 @@
 /// experiments loop over this list and ask serves<Method, A, B>.
 
 #include <thinwall/discrete/type_list.hpp>
+#include <thinwall/swept/bisection.hpp>
 #include <thinwall/swept/centre_ray.hpp>
 #include <thinwall/swept/closed_form.hpp>
+#include <thinwall/swept/conservative_advancement.hpp>
+#include <thinwall/swept/inclusion.hpp>
+#include <thinwall/swept/speculative.hpp>
 #include <thinwall/swept/substeps.hpp>
+#include <thinwall/swept/sweep_then_confirm.hpp>
 #include <thinwall/swept/swept_volume_ray.hpp>
 
 namespace thinwall {
 
 template <Scalar S>
-using Methods = TypeList<  //
-    EndOfStep<S>,          //
-    Substeps<S>,           //
-    CentreRay<S>,          //
-    SweptVolumeRay<S>,     //
+using Methods = TypeList<        //
+    EndOfStep<S>,                //
+    Substeps<S>,                 //
+    CentreRay<S>,                //
+    SweptVolumeRay<S>,           //
+    SweepThenConfirm<S>,         //
+    Speculative<S>,              //
+    ConservativeAdvancement<S>,  //
+    Bisection<S>,                //
+    Inclusion<S>,                //
     ClosedForm<S>>;
 
 }  // namespace thinwall

@@ -1,6 +1,7 @@
 #pragma once
 /// The swept sphere's capsule decides whether, a ray from its center decides when.
 
+#include <limits>
 #include <string_view>
 
 #include <thinwall/swept/centre_ray.hpp>
@@ -17,6 +18,25 @@ template <Scalar S> struct SweptVolumeRay {
   static constexpr std::string_view name = "swept_volume_ray";
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
+
+/// The same of a triangle. Where the core pierces it, to rounding, it is closest where it crosses the plane, or next to an
+/// edge if it runs in the plane: whichever point of the core turns out to be nearest.
+template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Triangle<S>& triangle) {
+  const PrismPart<S> closest = closest_on_core_and_triangle(capsule, triangle);
+  if (!closest.part.contains_point()) return closest.s;
+  const Vec3<S> normal = plane_normal(triangle), x = capsule.a - triangle.a, core = capsule.b - capsule.a;
+  const Vec3<S> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a, along = e2 - e1;
+  const S height = normal.dot(x), rise = normal.dot(core);
+  S nearest = closest.s, least = std::numeric_limits<S>::infinity();
+  for (const S& s : {rise == S(0) ? closest.s : clamp01(S(-height / rise)), closest_on_segments<S>(x, e1, core).t,
+                     closest_on_segments<S>(x, e2, core).t, closest_on_segments<S>(x - e1, along, core).t}) {
+    const S distance = safe_norm<S>(gap_from_triangle<S>(x + core * s, triangle));
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = s;
+  }
+  return nearest;
+}
 
 /// The normal points from the sphere to the target.
 template <Scalar T, Shape B>

@@ -17,13 +17,14 @@ void add(LatenessTest& test, const Line& line) {
   const double detected = static_cast<double>(line.tally.detected());
   if (detected == 0) return;
   ++test.cells;
-  if (line.tally.widest > line.resolution) ++test.false_cells;
+  if (line.tally.widest > line.theory.widest + line.resolution) ++test.false_cells;
+  if (const std::optional<double> largest = line.theory.largest_lateness()) {
+    // Against the settings, a shot's step may be shorter and its wall thicker by a grid unit.
+    const double rounding = line.resolution / cosine(*line.cell) + *largest * 0x1p-20;
+    if (line.tally.latest > *largest + rounding) ++test.late_cells;
+  }
   const std::optional<Lateness>& theory = line.theory.lateness;
-  if (!theory) return;
-  // Against the settings, a shot's step may be shorter and its wall thicker by a grid unit.
-  const double rounding = line.resolution / cosine(*line.cell) + theory->largest * 0x1p-20;
-  if (line.tally.latest > theory->largest + rounding) ++test.late_cells;
-  if (!mean_is_normal(detected, *theory)) return;
+  if (!theory || !mean_is_normal(detected, *theory)) return;
   ++test.judged_cells;
   const double residual = (*lateness_mean(line) - theory->mean) / (theory->deviation / std::sqrt(detected));
   test.chi_square += residual * residual;
@@ -65,7 +66,8 @@ Table lateness_table(const std::vector<LatenessTest>& tests) {
       {"method", ColumnType::text, "", "Way of detecting the hit."},
       {"scalar", ColumnType::text, "", "Floating-point type the method ran in."},
       {"cells", ColumnType::integer, "1", "Cells in which anything was detected."},
-      {"false_cells", ColumnType::integer, "1", "Of those, cells with a hit where ball and wall are apart; must be 0."},
+      {"false_cells", ColumnType::integer, "1",
+       "Of those, cells with a hit where ball and wall are farther apart than the method claims; must be 0."},
       {"late_cells", ColumnType::integer, "1", "Of those, cells with one later than theory allows; must be 0."},
       {"judged_cells", ColumnType::integer, "1", "Cells with a theory and enough detections to judge their mean."},
       {"chi_square", ColumnType::number, "1", "Sum of squared standard residuals of the judged means."},

@@ -34,8 +34,9 @@ std::vector<Line> make_lines(const Plan& plan, const std::vector<Tally>& tallies
     const double ratio = step_length(cell) / slab_chord(cell);
     for (const Detector& detector : plan.detectors) {
       const std::size_t i = lines.size();
-      // A time in [0, 1] is rounded once, and so are a few coordinates as large as a step, a chord or the wall.
-      const double resolution = 8 * detector.round_off * (fired.step_length + slab_chord(cell) + cell.wall_size);
+      // A time in [0, 1] is rounded once, and so are a few coordinates as large as a step, a chord or the wall; or the time
+      // backs off by as much, so as not to be late.
+      const double resolution = 32 * detector.round_off * (fired.step_length + slab_chord(cell) + cell.wall_size);
       lines.push_back(
           {&cell, &detector, detector.theory(cell), tallies[i], ratio, fired.lateness_unit, resolution, seconds[i]});
     }

@@ -15,6 +15,19 @@ template <Scalar S> Theory theory_of(const CentreRay<S>&, const Cell& cell) { re
 template <Scalar S> Theory theory_of(const SweptVolumeRay<S>&, const Cell& cell) {
   return swept_volume_ray_theory(cell);
 }
+template <Scalar S> Theory theory_of(const SweepThenConfirm<S>&, const Cell& cell) {
+  return confirmed_ray_theory(cell);
+}
+template <Scalar S> Theory theory_of(const Speculative<S>&, const Cell& cell) { return speculative_theory(cell); }
+template <Scalar S> Theory theory_of(const ConservativeAdvancement<S>& method, const Cell& cell) {
+  return early_theory(cell, static_cast<double>(method.tolerance));
+}
+template <Scalar S> Theory theory_of(const Bisection<S>& method, const Cell& cell) {
+  return late_theory(cell, static_cast<double>(method.tolerance));
+}
+template <Scalar S> Theory theory_of(const Inclusion<S>& method, const Cell& cell) {
+  return early_theory(cell, static_cast<double>(method.tolerance));
+}
 template <Scalar S> Theory theory_of(const ClosedForm<S>&, const Cell&) { return exact_theory(); }
 
 }  // namespace thinwall

@@ -31,23 +31,25 @@ std::string upper_bound(std::int64_t shots) { return rounded_text(clopper_pearso
 
 std::string bullet_row(const Line& line) {
   const auto millimeters = [](std::optional<double> meters) {
-    return meters ? fmt::format("{:.2f}", *meters * 1e3) : std::string("-");
+    if (!meters) return std::string("-");
+    const double hundredths = std::round(*meters * 1e5) + 0.0;  // no -0.00
+    return fmt::format("{:.2f}", hundredths / 100);
   };
   const std::optional<Lateness>& late = line.theory.lateness;
   const std::optional<double>& p = line.theory.probability;
   const Interval bars = interval(line);
   const bool seen = line.tally.detected() > 0;
-  return fmt::format("{:<18}{:>9}  {:>9}  {:>18}  {:>8}  {:>6} {:>6}  {:>6} {:>6}\n", line.detector->method,
+  return fmt::format("{:<25}{:>9} {:>9} {:>18} {:>8} {:>6} {:>6} {:>6} {:>6}\n", line.detector->method,
                      grouped_text(line.tally.shots), percent(probability(line)),
                      fmt::format("[{:.2f}, {:.2f}] %", 100 * bars.lower, 100 * bars.upper), p ? percent(*p) : "-",
                      millimeters(lateness_mean(line)), millimeters(late ? std::optional(late->mean) : std::nullopt),
                      millimeters(seen ? std::optional(line.tally.latest) : std::nullopt),
-                     millimeters(late ? std::optional(late->largest) : std::nullopt));
+                     millimeters(line.theory.largest_lateness()));
 }
 
 std::string total_row(const Total& total) {
   const bool known = total.theory_shots > 0;
-  return fmt::format("{:<18}{:>11}  {:>10}  {:>8}  {:>8}  {:>8}  {:>8}  {:>9.0f}\n", total.method,
+  return fmt::format("{:<25}{:>11}  {:>10}  {:>8}  {:>8}  {:>8}  {:>8}  {:>9.0f}\n", total.method,
                      grouped_text(total.shots), grouped_text(total.tunneled),
                      grouped_text(total.cells - total.clean_cells),
                      known ? percent(share(static_cast<double>(total.theory_tunneled), total.theory_shots)) : "-",
@@ -128,7 +130,7 @@ std::string summary_text(const std::vector<Line>& lines, const std::vector<Total
   std::string text = fmt::format(
       "The bullet at {} m/s, {:.0f} steps a second; radius {} mm, wall {} mm: before the wall at one frame,\n"
       "behind it at the next.                                           lateness [mm]: mean and most\n"
-      "{:<18}{:>9}  {:>9}  {:>18}  {:>8}  {:>6} {:>6}  {:>6} {:>6}\n",
+      "{:<25}{:>9} {:>9} {:>18} {:>8} {:>6} {:>6} {:>6} {:>6}\n",
       bullet.speed, 1 / bullet.step, bullet.radius * 1e3, bullet.thickness * 1e3, "method", "shots", "tunneled",
       "95 % interval", "theory", "mean", "theory", "most", "theory");
   for (const Line& line : lines) {
@@ -137,7 +139,7 @@ std::string summary_text(const std::vector<Line>& lines, const std::vector<Total
   text += fmt::format(
       "\nAll {} cells ({}). Share and theory: of the shots for which there is a formula. Residual: the\n"
       "worst of any cell that can be judged, in standard errors. Time a shot includes drawing it.\n"
-      "{:<18}{:>11}  {:>10}  {:>8}  {:>8}  {:>8}  {:>8}  {:>9}\n",
+      "{:<25}{:>11}  {:>10}  {:>8}  {:>8}  {:>8}  {:>8}  {:>9}\n",
       grouped_text(spoken[0].cells), spoken[0].scalar, "method", "shots", "tunneled", "in cells", "share", "theory",
       "residual", "time [ns]");
   for (const Total& total : spoken) text += total_row(total);
@@ -145,7 +147,7 @@ std::string summary_text(const std::vector<Line>& lines, const std::vector<Total
   text += scalar_line(lines);
   for (const Total& t : spoken) {
     if (t.tunneled + t.undecided > 0) continue;
-    text += fmt::format("{}: none of {}; its chance per shot is below {} (95 %, Clopper-Pearson).\n", t.method,
+    text += fmt::format("{}: none of {}; chance per shot below {} (95 %, Clopper-Pearson).\n", t.method,
                         grouped_text(t.shots), upper_bound(t.shots));
   }
   text += fmt::format("Self-test: counts {}, evenly spread phases {}, lateness {}.\n", verdict(verdicts.counts),

@@ -15,11 +15,6 @@ struct Field {
 
 Value maybe(const std::optional<double>& x) { return x ? Value(*x) : Value(); }
 
-/// Missing where theory has nothing to say about lateness.
-Read lateness_theory(double Lateness::*part) {
-  return [part](const Line& l) { return l.theory.lateness ? Value((*l.theory.lateness).*part) : Value(); };
-}
-
 /// Missing where nothing was detected.
 Read of_detected(double Tally::*extreme) {
   return [extreme](const Line& l) { return l.tally.detected() > 0 ? Value(l.tally.*extreme) : Value(); };
@@ -74,11 +69,11 @@ std::vector<Field> lateness_and_cost() {
       {{"lateness_mean", number, "m", "Mean path length from first contact to detection, of the detected."},
        [](const Line& l) { return maybe(lateness_mean(l)); }},
       {{"lateness_mean_theory", number, "m", "The same by theory; missing where no formula holds."},
-       lateness_theory(&Lateness::mean)},
+       [](const Line& l) { return l.theory.lateness ? Value(l.theory.lateness->mean) : Value(); }},
       {{"lateness_max", number, "m", "Largest path length from first contact to detection."},
        of_detected(&Tally::latest)},
       {{"lateness_max_theory", number, "m", "The largest there can be; missing where no formula holds."},
-       lateness_theory(&Lateness::largest)},
+       [](const Line& l) { return maybe(l.theory.largest_lateness()); }},
       {{"lateness_min", number, "m", "Least one; where the ball grazes, rounding makes it uncertain."},
        of_detected(&Tally::earliest)},
       {{"gap_max", number, "m", "Widest gap between ball and wall at detection; above 0 by rounding, or a false hit."},

@@ -4,22 +4,37 @@ namespace thinwall {
 
 Theory pose_theory(const Cell& cell, double poses_per_step) {
   const double spacing = step_length(cell) / poses_per_step;
-  if (cell.wall == Wall::finite) return {miss_probability(rounded_box(cell), direction(cell), spacing), std::nullopt};
+  if (cell.wall == Wall::finite)
+    return {miss_probability(rounded_box(cell), direction(cell), spacing), std::nullopt, std::nullopt, 0};
   const double chord = slab_chord(cell);
-  return {miss_probability(chord, spacing), pose_lateness(chord, spacing)};
+  return {miss_probability(chord, spacing), pose_lateness(chord, spacing), std::nullopt, 0};
 }
 
 Theory center_ray_theory(const Cell& cell) {
   if (cell.wall == Wall::infinite) return swept_volume_ray_theory(cell);  // no line misses the wall itself
   if (cell.angle_deg != 0) return {};
-  return {center_ray_miss_probability(rounded_box(cell), step_length(cell)), std::nullopt};
+  return {center_ray_miss_probability(rounded_box(cell), step_length(cell)), std::nullopt, std::nullopt, 0};
 }
 
 Theory swept_volume_ray_theory(const Cell& cell) {
-  if (cell.wall == Wall::finite) return {0, std::nullopt};
-  return {0, center_ray_lateness(cell.radius / cosine(cell), step_length(cell))};
+  if (cell.wall == Wall::finite) return {0, std::nullopt, std::nullopt, 0};
+  return {0, center_ray_lateness(cell.radius / cosine(cell), step_length(cell)), std::nullopt, 0};
 }
 
-Theory exact_theory() { return {0, Lateness{0, 0, 0}}; }
+/// The track of a wall at rest is the wall: a ray from the center, and at its hit the ball is in contact. A point is there
+/// on the wall's face itself, and rounding decides.
+Theory confirmed_ray_theory(const Cell& cell) {
+  if (cell.radius == 0) return {};
+  return center_ray_theory(cell);
+}
+
+/// The plane before an infinite wall is the wall. Beside one that ends, the plane reaches on, and so do its hits.
+Theory speculative_theory(const Cell& cell) { return early_theory(cell, cell.wall == Wall::finite ? 1 : 0); }
+
+Theory early_theory(const Cell& cell, double tolerance) { return {0, std::nullopt, 0, tolerance * step_length(cell)}; }
+
+Theory late_theory(const Cell& cell, double tolerance) { return {0, std::nullopt, tolerance * step_length(cell), 0}; }
+
+Theory exact_theory() { return {0, Lateness{0, 0, 0}, std::nullopt, 0}; }
 
 }  // namespace thinwall

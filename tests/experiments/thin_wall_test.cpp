@@ -25,7 +25,8 @@ TEST(ThinWall, end_of_step_tunnels) {
 
 TEST(ThinWall, exact_methods_never_do) {
   const Outcome outcome = outcome_of(*configured(small));
-  for (const char* method : {"closed_form", "swept_volume_ray"}) {
+  for (const char* method :
+       {"closed_form", "swept_volume_ray", "speculative", "conservative_advancement", "bisection", "inclusion"}) {
     const auto counts = tunneled(table(outcome, "cells"), method);
     EXPECT_EQ(counts.size(), 2 * 33U);
     EXPECT_EQ(std::count(counts.begin(), counts.end(), 0), static_cast<std::ptrdiff_t>(counts.size())) << method;
@@ -49,8 +50,8 @@ TEST(ThinWall, center_ray_misses_the_rim_of_a_finite_wall) {
 TEST(ThinWall, agrees_with_theory) {
   const Outcome outcome = outcome_of(*configured(small));
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
-  EXPECT_EQ(table(outcome, "self_test").rows.size(), 12U);
-  EXPECT_EQ(table(outcome, "stratified").rows.size(), 6U);
+  EXPECT_EQ(table(outcome, "self_test").rows.size(), 22U);
+  EXPECT_EQ(table(outcome, "stratified").rows.size(), 11U);
 }
 
 /// Counts of end_of_step at infinite walls against a theory that may be wrong.

@@ -61,7 +61,8 @@ template <class S> Triangle<S> drawn(Shaker<S>& draw, TypeTag<Triangle<S>>) {
 template <class S> Capsule<S> drawn(Shaker<S>& draw, TypeTag<Capsule<S>>) {
   const Vec3<S> start = draw.vector();
   const Mat3<S> axes = draw.axes();
-  const Vec3<S> along = axes.col(1) * draw.coordinate();  // one draw a statement: compilers order arguments as they like
+  const Vec3<S> along =
+      axes.col(1) * draw.coordinate();  // one draw a statement: compilers order arguments as they like
   return {start, start + along, draw.sizes()[0]};
 }
 

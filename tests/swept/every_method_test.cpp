@@ -99,6 +99,7 @@ TYPED_TEST(EveryMethod, a_miss_carries_no_data) {
   this->each([this](const auto& method) {
     auto wide = this->ball;
     wide.shape.center[1] = S(5);
+    wide.displacement = {8, 4, 0};  // beyond the plane before the other, too
     for (const Toi<S>& toi : {time_of_impact(method, wide, this->box), time_of_impact(method, wide, this->other)}) {
       EXPECT_EQ(text(toi.status), text(ToiStatus::apart));
       EXPECT_EQ(toi.time, S(1));
@@ -116,7 +117,8 @@ TYPED_TEST(EveryMethod, what_is_long_in_contact_is_found_by_all) {  // into the 
     stopping.displacement = {4, 0, 0};
     const Toi<S> toi = time_of_impact(method, stopping, this->box);
     EXPECT_EQ(text(toi.status), text(ToiStatus::hit));
-    EXPECT_TRUE(toi.time >= S(0.5) && toi.time <= S(1));  // true contact at one half: none is early
+    const S early = half_digits<S>();  // the default tolerance of those that promise never to be late
+    EXPECT_TRUE(toi.time >= S(0.5) - early && toi.time <= S(1));  // true contact at one half
     EXPECT_TRUE(is_unit(toi.normal));
     EXPECT_GE(toi.evaluations, 0);
   });
