@@ -113,9 +113,9 @@ template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec
     part.origin = corner - d * s;
   } else if (outside == 2) {
     const Vec3<S> edge = axis_vector<S>(free_axis), swept = cross(edge, d);
-    part.kind = end == 0 && swept != Vec3<S>::Zero() ? CorePart<S>::face : CorePart<S>::edge;
+    part.kind = end == 0 && largest(swept) > gap_noise(largest(d)) ? CorePart<S>::face : CorePart<S>::edge;
     part.direction = part.kind == CorePart<S>::face ? swept : edge;
-  } else if (end == 0) {
+  } else if (end == 0 && d != Vec3<S>::Zero()) {
     part.kind = CorePart<S>::edge;
     part.direction = d;
   }

@@ -11,11 +11,20 @@
 
 namespace thinwall {
 
-/// The closest points of the two edges along axes i and j that face each other when n points from A to B.
-template <Scalar S> BoxPoints<S> closest_on_edges(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n) {
+/// farthest_corner(), but to rounding, and with `side` in place of 0.
+template <Scalar S> Vec3<S> facing_corner(const Vec3<S>& n, int side) {
+  const S noise = gap_noise(largest(n));
+  return n.unaryExpr([&](const S& x) { return x > noise ? S(1) : x < -noise ? S(-1) : S(side); });
+}
+
+/// The closest points of the two edges along axes i and j that face each other when n points from A to B. Where n is normal
+/// to a face, to rounding, two of its edges face the other box alike: `side_a` and `side_b`, -1 or 1, name one of them, 0
+/// the middle of the face.
+template <Scalar S>
+BoxPoints<S> closest_on_edges(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n, int side_a = 0, int side_b = 0) {
   const Vec3<S> across = pair.direction(i, j), edge_b = pair.axes.col(j);
-  Vec3<S> corner_a = pair.half_a.cwiseProduct(farthest_corner(n));
-  Vec3<S> corner_b = pair.half_b.cwiseProduct(farthest_corner<S>(-(pair.axes.transpose() * n)));
+  Vec3<S> corner_a = pair.half_a.cwiseProduct(facing_corner(n, side_a));
+  Vec3<S> corner_b = pair.half_b.cwiseProduct(facing_corner<S>(-(pair.axes.transpose() * n), side_b));
   corner_a[i] = 0;
   corner_b[j] = 0;
   const Vec3<S> start_b = pair.between + pair.axes * corner_b, r = start_b - corner_a;
@@ -27,6 +36,12 @@ template <Scalar S> BoxPoints<S> closest_on_edges(const BoxPair<S>& pair, int i,
   points.on_a = corner_a + axis_vector<S>(i) * s;
   points.on_b = start_b + edge_b * t;
   return points;
+}
+
+/// How many of a box's edges along `axis` face a box that lies along n: two where n is normal to a face.
+template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
+  const S noise = gap_noise(largest(n));
+  return largest(n[(axis + 1) % 3]) > noise && largest(n[(axis + 2) % 3]) > noise ? 1 : 2;
 }
 
 /// Closest points of boxes that are apart.
@@ -52,8 +67,13 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
     for (int j = 0; j < 3; ++j) {
       const Vec3<S> n = pair.direction(i, j);
       if (n == Vec3<S>::Zero()) continue;
-      const BoxPoints<S> points = closest_on_edges<S>(pair, i, j, pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n);
-      consider(points.on_a, points.on_b);
+      const Vec3<S> towards_b = pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n;
+      const int sides_a = edges_facing(towards_b, i), sides_b = edges_facing<S>(pair.axes.transpose() * towards_b, j);
+      for (int k = 0; k < sides_a * sides_b; ++k) {
+        const BoxPoints<S> points =
+            closest_on_edges<S>(pair, i, j, towards_b, k % sides_a == 0 ? -1 : 1, k < sides_a ? -1 : 1);
+        consider(points.on_a, points.on_b);
+      }
     }
   }
   return best;

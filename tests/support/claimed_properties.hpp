@@ -12,16 +12,6 @@
 
 namespace thinwall::testing {
 
-/// What to hold a method to on this pair. The separation of boxes at an angle is too long where a face of each lies side
-/// by side with one of the other and no corner is over the other face: a proof by a plane must hold all the same, and
-/// nothing else is asked.
-template <class A, class B, class Method> Claims claims_on(const Method& method) {
-  Claims claims = claims_of(method);
-  constexpr bool boxes = (A::rank == 1 || A::rank == 2) && (B::rank == 1 || B::rank == 2);
-  if (boxes && A::rank + B::rank > 2) claims = {.never_late = claims.never_late};
-  return claims;
-}
-
 /// One motion of a pair, a third of them with a gap that counts as contact.
 template <class A, class B> void every_method_keeps_its_claims() {
   using S = typename A::Scalar;
@@ -35,7 +25,7 @@ template <class A, class B> void every_method_keeps_its_claims() {
       Method method;
       method.min_separation = gap;
       const Toi<S> toi = time_of_impact(method, motion.a, motion.b);
-      const auto judgment = judge_claims(claims_on<A, B>(method), referee, toi);
+      const auto judgment = judge_claims(claims_of(method), referee, toi);
       if (judgment) return;
       std::ostringstream out;
       out << Method::name << " on seed " << seed << ", min_separation " << gap << ": " << judgment.message();
