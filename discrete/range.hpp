@@ -117,7 +117,8 @@ template <Scalar S> THINWALL_COLD bool within_out_of_range(const Vec3<S>& gap, c
 /// |gap| <= reach, for reach >= 0, at any scale. False for NaN.
 template <Scalar S> THINWALL_HOT bool within(const Vec3<S>& gap, const S& reach) {
   const S reach_square = reach * reach;
-  if (square_in_range(reach_square)) return gap.squaredNorm() <= reach_square;  // a gap whose square is lost is far from it
+  if (square_in_range(reach_square))
+    return gap.squaredNorm() <= reach_square;  // a gap whose square is lost is far from it
   return reach == S(0) ? gap == Vec3<S>::Zero() : within_out_of_range(gap, reach);
 }
 

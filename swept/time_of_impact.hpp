@@ -27,7 +27,8 @@ template <class Method, Shape A, Shape B>
 THINWALL_COLD Toi<typename A::Scalar> impact_of_extremes(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   using S = typename A::Scalar;
   const auto gap = method.min_separation;
-  const bool only_huge = valid(a) && valid(b) && gap >= 0 && is_finite(gap);  // finite all the same, but their sum is not
+  const bool only_huge =
+      valid(a) && valid(b) && gap >= 0 && is_finite(gap);  // finite all the same, but their sum is not
   return only_huge ? impact_scaled_down(method, a, b) : Toi<S>{ToiStatus::invalid, 0, nan_vector<S>()[0]};
 }
 
