@@ -65,23 +65,23 @@ template <Scalar S> BoxPoints<S> points_at(const BoxPair<S>& pair, int axis, boo
 }
 
 /// The deepest points of boxes that part along the face of A across `axis`: the corner of B that is farthest inside, or
-/// where B lies along the face, to rounding, the middle of what the two share.
+/// where B lies along the face, to rounding, the middle of what the two share. A corner beside the face (the axes of a box
+/// given in float are not quite at right angles in double) counts as lying along it.
 template <Scalar S> BoxPoints<S> deepest_points_on_face(const BoxPair<S>& pair, int axis, bool negative) {
   const S side = negative ? S(-1) : S(1), noise = box_noise(pair);
   const Vec3<S> inward = pair.axes.row(axis).transpose() * -side;
-  bool alongside = false;
-  for (int k = 0; k < 3; ++k) {
-    alongside = alongside || (pair.half_b[k] > S(0) && largest(inward[k]) * pair.half_b[k] <= noise);
-  }
-  if (alongside) {
-    const FacePolygon<S> polygon = facing_polygon(pair, axis, negative);
-    if (polygon.count > 0) return points_at(pair, axis, negative, middle_of_deepest(polygon, noise));
-  }
   BoxPoints<S> points;
   points.on_b = pair.between + pair.axes * pair.half_b.cwiseProduct(farthest_corner(inward));
   points.on_a = points.on_b;
   points.on_a[axis] = side * pair.half_a[axis];
-  return points;
+  bool alongside = false;
+  for (int k = 0; k < 3; ++k) {
+    alongside = alongside || (pair.half_b[k] > S(0) && largest(inward[k]) * pair.half_b[k] <= noise) ||
+                largest(points.on_a[k]) > pair.half_a[k] + noise;
+  }
+  if (!alongside) return points;
+  const FacePolygon<S> polygon = facing_polygon(pair, axis, negative);
+  return polygon.count > 0 ? points_at(pair, axis, negative, middle_of_deepest(polygon, noise)) : points;
 }
 
 }  // namespace thinwall

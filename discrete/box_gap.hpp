@@ -82,7 +82,14 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
 /// The deepest points of boxes that part along the unit vector n, found on the axes (i, j). Edges whose product is
 /// normal to a face, to rounding, meet on that face.
 template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n) {
-  const BoxFace face = face_along(pair, n, gap_noise(S(1)));
+  BoxFace face;
+  if (j < 0) {
+    face = {i, false, n[i] < S(0)};
+  } else if (i < 0) {
+    face = {j, true, pair.axes.col(j).dot(n) > S(0)};
+  } else {
+    face = face_along(pair, n, gap_noise(S(1)));
+  }
   if (face.axis < 0) return closest_on_edges(pair, i, j, n);
   if (!face.of_b) return deepest_points_on_face(pair, face.axis, face.negative);
   const BoxPoints<S> seen = deepest_points_on_face(seen_from_b(pair), face.axis, face.negative);

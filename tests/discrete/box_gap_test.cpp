@@ -29,6 +29,18 @@ TEST(BoxGap, points_lie_on_both_boxes) {
   expect_points_on_surfaces<Obb<Wide>, Obb<Wide>>(500);
 }
 
+TEST(BoxGap, axes_orthonormal_to_float_serve_in_double) {  // as the time of impact asks of shapes in float
+  Shaker<float> draw(20261121);
+  for (int run = 0; run < 2000; ++run) {
+    const auto [a, b] = nearly_touching<Obb<float>, Obb<float>>(draw);
+    const Obb<double> wide_a = cast<double>(a), wide_b = cast<double>(b);
+    const Separation<double> gap = separation(wide_a, wide_b);
+    const Wide allowed = 64 * Wide(unit<float>()) * Wide(magnitude(a) + magnitude(b));
+    ASSERT_LE(off_surface(wide_a, Vec3<double>(gap.point_a - center(wide_a))), allowed) << run;
+    ASSERT_LE(off_surface(wide_b, Vec3<double>(gap.point_b - center(wide_b))), allowed) << run;
+  }
+}
+
 TEST(BoxGap, overhanging_boxes_meet_in_the_middle_of_what_they_share) {
   const Obb<double> floor{{0, 0, 0}, {4, 4, 1}, Mat3<double>::Identity()};
   const Obb<double> plank{{5, 0, 2}, {8, 1, 1}, Mat3<double>::Identity()};
