@@ -173,7 +173,7 @@ struct Settings::Impl {
   }
 };
 
-Settings::Settings(std::string_view text, std::string file, std::string_view defaults)
+Settings::Settings(std::string_view text, const std::string& file, std::string_view defaults)
     : impl_(std::make_unique<Impl>()) {
   impl_->file = one_line(file);
   impl_->user = impl_->parse(text, impl_->file);

@@ -30,7 +30,7 @@ struct Range {
 class Settings {
  public:
   /// `text` is what the user wrote, `file` the name to quote in complaints; keys it leaves out come from `defaults`.
-  Settings(std::string_view text, std::string file, std::string_view defaults);
+  Settings(std::string_view text, const std::string& file, std::string_view defaults);
   ~Settings();
   Settings(Settings&&) noexcept;
   Settings& operator=(Settings&&) noexcept;

@@ -10,11 +10,11 @@ namespace thinwall {
 /// A value as a reader sees it: four significant digits, thousands apart in counts, a dash where it is missing.
 std::string shown_text(const Value& value);
 
-std::string markdown_table(const Table& table);
+std::string markdown_table(const Table& whole);
 
 /// A `tabular` in the style of booktabs, to `\input` into a `table` environment.
-std::string latex_table(const Table& table);
+std::string latex_table(const Table& whole);
 
-std::string html_table(const Table& table);
+std::string html_table(const Table& whole);
 
 }  // namespace thinwall
