@@ -8,6 +8,7 @@
 
 #include <thinwall/experiments/crossing_bullets/figures.hpp>
 #include <thinwall/experiments/crossing_bullets/summary.hpp>
+#include <thinwall/experiments/crossing_bullets/tables.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <thinwall/experiments/crossing_bullets/tables.hpp>
+#include <thinwall/experiments/crossing_bullets/totals.hpp>
 #include <thinwall/experiments/experiment.hpp>
 
 namespace thinwall {
