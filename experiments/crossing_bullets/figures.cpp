@@ -146,7 +146,7 @@ Figure lateness_figure(const std::vector<CrossingLine>& lines, const Confirmed& 
     return Interval{share(l) - half, share(l) + half};
   };
   return {.name = "lateness",
-          .title = "How late its hits are",
+          .title = "How late the hits of the tutorial's rule are",
           .caption =
               "Mean time from first contact to the answer of sweep_then_confirm, of the true hits it sees, over the "
               "longest time in contact, with 95 % intervals, and the theory. R is the contact distance.",
