@@ -3,6 +3,7 @@
 #include <array>
 
 #include <thinwall/experiments/accuracy.hpp>
+#include <thinwall/experiments/crossing_bullets.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
 
 namespace thinwall {
@@ -12,6 +13,7 @@ std::span<const Experiment> experiments() {
   static const std::array list = {
       thin_wall_experiment(),
       accuracy_experiment(),
+      crossing_bullets_experiment(),
   };
   return list;
 }
