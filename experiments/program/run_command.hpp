@@ -10,6 +10,7 @@
 namespace thinwall {
 
 /// Returns the exit code. Results go to `out`, all else to `err`. Throws UsageError for what the user must mend.
-int run_command(const CommandLine& given, std::span<const Experiment> experiments, std::ostream& out, std::ostream& err);
+int run_command(const CommandLine& given, std::span<const Experiment> experiments, std::ostream& out,
+                std::ostream& err);
 
 }  // namespace thinwall

@@ -15,7 +15,8 @@ namespace thinwall::testing {
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
 #ifdef __SANITIZE_ADDRESS__
-using Scalars = ::testing::Types<float, double>;  // the same code: sanitized, the others take most of an hour to compile
+// The same code; sanitized, the other scalars take most of an hour to compile.
+using Scalars = ::testing::Types<float, double>;
 #else
 using Scalars = ::testing::Types<float, double, long double, Wide>;
 #endif
