@@ -49,10 +49,11 @@ Series theory_curves(const std::vector<CrossingLine>& lines, const Quantity& qua
     Crossing c = lines.front().crossing;
     c.ratio = ratio;
     double angle = ratio == 1 ? end_step : 0;
-    for (; angle <= 180; angle += angle < 10 || angle >= 170 ? end_step : curve_step) {
+    while (angle <= 180) {
       c.angle_deg = ratio == 0 ? 0 : angle;
       series.x.push_back(angle);
       series.y.push_back(quantity.theory(c));
+      angle += angle < 10 || angle >= 170 ? end_step : curve_step;
     }
     series.x.push_back(180);
     series.y.push_back(nan);
