@@ -9,10 +9,11 @@ namespace thinwall {
 enum class Mark { points, line, dashes };
 
 struct Series {
-  std::string label;                 ///< legend entry; the same label has the same colour in every panel
-  Mark mark = Mark::points;          ///< theory is drawn with `line`, measurement with `points`
-  std::vector<double> x, y;          ///< equally long; NaN leaves a gap
-  std::vector<double> lower, upper;  ///< interval bars, as long as `y`, or both empty
+  std::string label;                               ///< legend entry; the same label has the same colour in every panel
+  Mark mark = Mark::points;                        ///< theory is drawn with `line`, measurement with `points`
+  std::vector<double> x, y;                        ///< equally long; NaN leaves a gap
+  std::vector<double> lower, upper;                ///< interval bars, as long as `y`, or both empty
+  std::vector<double> x_lower = {}, x_upper = {};  ///< the same for `x`; only beside bars for `y`
 };
 
 struct Panel {
@@ -28,6 +29,7 @@ struct Figure {
   std::string title;          ///< what is seen, a short phrase
   std::string caption;        ///< what it means, a sentence or two
   std::vector<Panel> panels;  ///< stacked from top to bottom
+  bool is_timing = false;     ///< differs from run to run: left out of the manifest's hashes
 };
 
 }  // namespace thinwall

@@ -33,7 +33,9 @@ void require_drawable(const Figure& figure) {
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
       const std::size_t n = series.x.size(), bars = series.lower.size();
-      if (series.y.size() != n || series.upper.size() != bars || (bars != 0 && bars != n)) {
+      const std::size_t x_bars = series.x_lower.size();
+      if (series.y.size() != n || series.upper.size() != bars || (bars != 0 && bars != n) ||
+          series.x_upper.size() != x_bars || (x_bars != 0 && x_bars != bars)) {
         throw std::logic_error(figure_name + ", series '" + series.label + "': lists of different length");
       }
     }
@@ -43,7 +45,11 @@ void require_drawable(const Figure& figure) {
 Axis x_axis(std::span<const Panel> panels) {
   std::vector<double> values;
   for (const Panel& panel : panels) {
-    for (const Series& series : panel.series) values.insert(values.end(), series.x.begin(), series.x.end());
+    for (const Series& series : panel.series) {
+      for (const auto* list : {&series.x, &series.x_lower, &series.x_upper}) {
+        values.insert(values.end(), list->begin(), list->end());
+      }
+    }
   }
   return axis_around(values, panels[0].log_x);
 }
@@ -86,6 +92,9 @@ std::vector<std::string> plot_items(const std::string& file, const Series& serie
   std::vector<std::string> items;
   if (!series.lower.empty()) {
     items.push_back(fmt::format("{0} using 1:3:(0):($4-$3) with vectors nohead linestyle {1} notitle", from, style));
+  }
+  if (!series.x_lower.empty()) {
+    items.push_back(fmt::format("{0} using 5:2:($6-$5):(0) with vectors nohead linestyle {1} notitle", from, style));
   }
   items.push_back(fmt::format("{} using 1:2 with {} linestyle {}{} notitle", from, with, style, size));
   return items;
@@ -164,12 +173,14 @@ std::string plot_data(const Figure& figure) {
   std::string out;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     for (const Series& series : figure.panels[p].series) {
-      const bool bars = !series.lower.empty();
-      out += fmt::format("# panel {}, {}: x y{}\n", p + 1, one_line(series.label), bars ? " lower upper" : "");
-      if (series.x.empty()) out += "NaN NaN NaN NaN\n";  // a block must not be empty
+      const bool bars = !series.lower.empty(), x_bars = !series.x_lower.empty();
+      out += fmt::format("# panel {}, {}: x y{}{}\n", p + 1, one_line(series.label), bars ? " lower upper" : "",
+                         x_bars ? " x_lower x_upper" : "");
+      if (series.x.empty()) out += "NaN NaN NaN NaN NaN NaN\n";  // a block must not be empty
       for (std::size_t i = 0; i < series.x.size(); ++i) {
         out += number(series.x[i]) + " " + number(series.y[i]);
         if (bars) out += " " + number(series.lower[i]) + " " + number(series.upper[i]);
+        if (x_bars) out += " " + number(series.x_lower[i]) + " " + number(series.x_upper[i]);
         out += "\n";
       }
       out += "\n\n";

@@ -12,7 +12,8 @@ namespace thinwall {
 /// figure's name cannot be a file's, or a series' lists differ in length.
 std::string plot_script(const Figure& figure);
 
-/// The data NAME.dat: one block a series, in the order of the panels; columns x, y and, where there are bars, lower, upper.
+/// The data NAME.dat: one block a series, in the order of the panels; columns x, y and, where
+/// there are bars, lower, upper and x_lower, x_upper.
 std::string plot_data(const Figure& figure);
 
 /// Runs `folder`/NAME.gp through gnuplot. Returns what went wrong, in one line; empty if nothing did.

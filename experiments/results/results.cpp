@@ -23,7 +23,8 @@ void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& out
   }
   std::string name = "thinwall-" + run.experiment;
   for (char& letter : name) letter = letter == '_' ? '-' : letter;
-  const PackageInfo info{name, run.question, outcome.answer, run.build.version};
+  // Its description holds no number: an answer may speak of run times, and this file is the same in every run.
+  const PackageInfo info{name, run.question, "The answer stands in report.html and manifest.json.", run.build.version};
   folder.stage("datapackage.json", datapackage_text(info, outcome.tables));
 }
 
@@ -58,6 +59,10 @@ std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& ru
   for (const auto& [file, hash] : hashes) parts.files.push_back(file);
   for (const Table& table : outcome.tables) {
     if (table.is_timing) hashes.erase("data/" + table.name + ".csv");
+  }
+  for (const Figure& figure : outcome.figures) {
+    if (!figure.is_timing) continue;
+    for (const char* kind : {".gp", ".dat", ".svg"}) hashes.erase("plots/" + figure.name + kind);
   }
   folder.stage("report.html", report_page(run, outcome, parts));
   folder.stage("manifest.json", manifest_text(run, outcome, hashes));

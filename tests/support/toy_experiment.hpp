@@ -65,6 +65,7 @@ class ToyRun final : public Run {
     out.summary = "cells: " + std::to_string(results.size());
     out.tables = {cells, timings};
     out.figures = {{"squares", "Squares", "What a square is.", {{"x [m]", "y [m^2]", false, false, 1, {points}}}}};
+    out.figures.push_back({"cost", "Cost", "How long.", {{"x [m]", "t [s]", false, false, 1, {points}}}, true});
     out.sections = {{"Method", "First.\n\nSecond."}};
     out.self_test_passed = ToyControl::pass;
     return out;

@@ -63,6 +63,18 @@ TEST(Plot, data_are_a_block_a_series) {
             "# panel 2, it's_@{a}: x y\n1 0\n10 0.5\n\n\n");
 }
 
+TEST(Plot, bars_may_lie_along_both_axes) {
+  Figure figure = two_panels();
+  Series& points = figure.panels[0].series[1];
+  points.x_lower = {0.5, 9};
+  points.x_upper = {1, 200};
+  EXPECT_NE(plot_data(figure).find("x y lower upper x_lower x_upper\n1 0 0 0.1 0.5 1\n10 0.5 0.4 0.6 9 200\n"),
+            std::string::npos);
+  EXPECT_NE(plot_script(figure).find("using 5:2:($6-$5):(0) with vectors"), std::string::npos);
+  points.x_upper.pop_back();
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+}
+
 TEST(Plot, refuses_what_cannot_be_drawn) {
   Figure figure = two_panels();
   figure.name = "../up";
