@@ -56,7 +56,9 @@ std::string tics(const Axis& axis, double pixels, double spacing) {
   if (!axis.log) return rounded_text(round_step((axis.upper - axis.lower) / most), 3);
   const double decades = std::log10(axis.upper / axis.lower);
   if (decades < 2) return one_two_five(axis);
-  return fmt::format("1e{}", std::max(1, static_cast<int>(std::ceil(decades / most))));  // powers of ten
+  // Powers of ten. Without a start gnuplot counts from the end of the axis, and labels 4, 40 and 400.
+  const int first = static_cast<int>(std::floor(std::log10(axis.lower)));
+  return fmt::format("1e{}, 1e{}", first, std::max(1, static_cast<int>(std::ceil(decades / most))));
 }
 
 }  // namespace thinwall
