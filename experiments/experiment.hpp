@@ -22,7 +22,7 @@ class Settings;  // experiments/settings.hpp: typed, checked access to one TOML 
 struct Unit {
   std::string key;                       ///< unique in the run and free of tabs and newlines
   std::int64_t trials;                   ///< for the progress bar and the estimate
-  std::function<std::string()> compute;  ///< thread-safe; deterministic; free of newlines
+  std::function<std::string()> compute;  ///< thread-safe; deterministic, but for times; free of newlines
 };
 
 struct Section {

@@ -5,6 +5,7 @@
 #include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
+#include <thinwall/experiments/work_precision.hpp>
 
 namespace thinwall {
 
@@ -14,6 +15,7 @@ std::span<const Experiment> experiments() {
       thin_wall_experiment(),
       accuracy_experiment(),
       crossing_bullets_experiment(),
+      work_precision_experiment(),
   };
   return list;
 }

@@ -1,6 +1,8 @@
 #include <thinwall/experiments/statistics.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -36,6 +38,34 @@ Interval binomial_range(std::int64_t trials, double probability, double coverage
   const bm::binomial_distribution<double> counts(static_cast<double>(trials), probability);
   const double side = (1 - coverage) / 2;
   return {bm::quantile(counts, side), bm::quantile(bm::complement(counts, side))};  // both rounded outward
+}
+
+double median(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t middle = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+}
+
+double quantile(std::span<const double> values, double share) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+  return sorted[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+}
+
+Interval bootstrap_median(std::span<const double> values, const RandomStream& stream, double confidence) {
+  constexpr std::uint64_t resamples = 1000;
+  std::vector<double> medians, drawn(values.size());
+  for (std::uint64_t k = 0; k < resamples; ++k) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const double place = uniform(random_words(stream, k, i)[0]) * static_cast<double>(values.size());
+      drawn[i] = values[static_cast<std::size_t>(place)];
+    }
+    medians.push_back(median(drawn));
+  }
+  const double side = (1 - confidence) / 2;
+  return {quantile(medians, side), quantile(medians, 1 - side)};
 }
 
 Interval chi_square_range(std::int64_t count, double coverage) {

@@ -2,6 +2,9 @@
 /// Intervals for counts: what a number of hits in a number of trials says about a probability, and the other way round.
 
 #include <cstdint>
+#include <span>
+
+#include <thinwall/experiments/random.hpp>
 
 namespace thinwall {
 
@@ -25,6 +28,16 @@ double standard_residual(std::int64_t successes, std::int64_t trials, double pro
 
 /// The least range of counts that leaves at most (1 - coverage) / 2 of Binomial(trials, probability) on either side.
 Interval binomial_range(std::int64_t trials, double probability, double coverage);
+
+/// The middle of a list, or halfway between the two in its middle. Not empty.
+double median(std::span<const double> values);
+
+/// The smallest value that at least `share` in (0, 1] of the list do not exceed. Not empty; may hold infinity, not NaN.
+double quantile(std::span<const double> values, double share);
+
+/// The percentile bootstrap interval of the median: of the medians of 1000 lists drawn from `values` with replacement.
+/// Not empty. Source: Efron, "Bootstrap Methods: Another Look at the Jackknife", 1979.
+Interval bootstrap_median(std::span<const double> values, const RandomStream& stream, double confidence = 0.95);
 
 /// The central range of a sum of `count` >= 1 squared standard normal numbers.
 Interval chi_square_range(std::int64_t count, double coverage);

@@ -14,9 +14,9 @@ namespace thinwall {
 /// of an interval the gap is linear, so that its ends bound it. An interval that is not proven free is halved, down to
 /// the tolerance; one that is makes way for the next, twice as long.
 /// Claims: never late, never misses.
-/// Error: everything before the answered time is proven free, rounding included (docs/methods.md); early by at most the
-/// tolerance; a miss nearer than the tolerance times the relative displacement may be a hit, and so may one so near that
-/// rounding hides its normal.
+/// Error: everything before the answered time is proven free, rounding included (docs/methods.md); the gap there is at most
+/// the tolerance times the relative displacement, so that it is early by at most the tolerance over the cosine of
+/// incidence; a miss nearer than that gap may be a hit, and so may one so near that rounding hides its normal.
 /// Degenerate: no relative motion is `apart`, or `overlapping` if they touch; out of evaluations is `gave_up`.
 /// Source: derived in docs/methods.md; the search is that of interval root finders, as in Tight-Inclusion (Wang et al.,
 /// "A Large-Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection", 2021).

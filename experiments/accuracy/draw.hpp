@@ -40,6 +40,15 @@ class QueryNumbers {
   std::size_t next_ = 4;
 };
 
+/// A right-handed frame that is turned any way.
+inline Mat3<double> random_axes(QueryNumbers& u) {
+  Mat3<double> axes;
+  axes.col(0) = u.direction();
+  axes.col(1) = safe_unit(cross<double>(axes.col(0), u.direction()));
+  axes.col(2) = cross<double>(axes.col(0), axes.col(1));
+  return axes;
+}
+
 template <class A> struct ShapeDraw;
 template <> struct ShapeDraw<Sphere<double>> {
   static Sphere<double> draw(QueryNumbers& u, double size) { return {Vec3<double>::Zero(), size * u.decades(-1, 0)}; }
@@ -53,9 +62,7 @@ template <> struct ShapeDraw<Aabb<double>> {
 template <> struct ShapeDraw<Obb<double>> {
   static Obb<double> draw(QueryNumbers& u, double size) {
     const Vec3<double> half = ShapeDraw<Aabb<double>>::draw(u, size).half_extents;
-    Mat3<double> axes;
-    axes.col(0) = u.direction();
-    axes.col(1) = safe_unit(cross<double>(axes.col(0), u.direction()));
+    Mat3<double> axes = random_axes(u);
     if (u.one_in(4)) {  // next to upright: nearly parallel edges
       const double tilt = u.decades(-16, -2);
       axes.col(0) = safe_unit(Vec3<double>(1, tilt, 0));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/binomial.hpp>
@@ -79,6 +81,33 @@ TEST(Ranges, chi_square_of_two_is_exponential) {
   const Interval range = chi_square_range(2, 0.999);
   EXPECT_NEAR(range.lower, -2 * std::log(1 - 0.0005), 1e-12);
   EXPECT_NEAR(range.upper, -2 * std::log(0.0005), 1e-10);
+}
+
+TEST(Quantiles, are_values_of_the_list) {
+  const std::vector<double> values = {3, 1, 2, 4};
+  EXPECT_EQ(median(values), 2.5);
+  EXPECT_EQ(median(std::vector<double>{5, 1, 3}), 3);
+  EXPECT_EQ(quantile(values, 0.5), 2);
+  EXPECT_EQ(quantile(values, 0.51), 3);
+  EXPECT_EQ(quantile(values, 1), 4);
+  EXPECT_EQ(quantile(values, 1e-9), 1);
+  EXPECT_TRUE(std::isinf(quantile(std::vector<double>{1, std::numeric_limits<double>::infinity()}, 1)));
+}
+
+/// The median of an exponential variable is ln 2. The percentile bootstrap of 25 values covers it nearly as often as it says.
+TEST(Bootstrap, covers_the_median) {
+  int covered = 0;
+  constexpr int lists = 400;
+  for (std::uint64_t k = 0; k < lists; ++k) {
+    std::vector<double> values;
+    for (std::uint64_t i = 0; i < 25; ++i) values.push_back(-std::log(1 - uniform(random_words({7, k}, i, 0)[0])));
+    const Interval interval = bootstrap_median(values, {8, k});
+    EXPECT_LE(interval.lower, median(values));
+    EXPECT_GE(interval.upper, median(values));
+    covered += interval.contains(std::log(2.0)) ? 1 : 0;
+  }
+  EXPECT_GT(covered, 0.91 * lists);
+  EXPECT_LT(covered, 0.99 * lists);
 }
 
 TEST(StandardResidual, counts_standard_errors) {

@@ -1,0 +1,53 @@
+#pragma once
+/// Races in memory, for the tests of work_precision.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/work_precision.hpp>
+#include <thinwall/experiments/work_precision/heat.hpp>
+
+namespace thinwall {
+
+/// Every method on two sets, small enough for a debug build.
+inline constexpr std::string_view few_races = R"(
+  set = ["sphere_wall", "capsule_box"]
+  queries = 40
+  rounds = 3
+  substeps = [8]
+  tolerance = [1e-5, 1e-2]
+)";
+
+inline std::unique_ptr<Run> race_run(std::string_view text) {
+  const Experiment experiment = work_precision_experiment();
+  const Settings settings(text, "test.toml", experiment.default_toml);
+  settings.reject_unknown_keys();
+  return experiment.configure(settings, {.seed = 3, .trials = {}});
+}
+
+inline std::vector<std::string> run_races(std::string_view text) {
+  const auto run = race_run(text);
+  std::vector<std::string> results;
+  for (const Unit& unit : run->units()) results.push_back(unit.compute());
+  return results;
+}
+
+inline Outcome race_outcome(std::string_view text) {
+  const std::vector<std::string> results = run_races(text);
+  return race_run(text)->finish(results, std::vector<double>(results.size(), 1));
+}
+
+/// A racer as none is, for the tests of how they are compared.
+inline Racer made_up(std::string method, double p99, std::vector<double> nanoseconds) {
+  Racer racer;
+  racer.method = std::move(method);
+  racer.queries = racer.touching = 100;
+  racer.time = {p99 / 2, p99, 2 * p99};
+  racer.nanoseconds = std::move(nanoseconds);
+  return racer;
+}
+
+}  // namespace thinwall
