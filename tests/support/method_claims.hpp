@@ -1,6 +1,6 @@
 #pragma once
 /// What each method claims, as numbers that a test can hold it to. A method that is not named here claims nothing, and
-/// still may not find contact at the start where there is none. The closed form has a contract of its own, judge.hpp.
+/// still may not find contact at the start where there is none. The closed form is held to more than this by judge.hpp.
 
 #include <optional>
 
@@ -32,4 +32,8 @@ template <Scalar S> Claims claims_of(const Bisection<S>& method) {
 template <Scalar S> Claims claims_of(const Inclusion<S>& method) {
   return {.never_late = true, .early_by = static_cast<double>(method.tolerance)};
 }
+template <Scalar S> Claims claims_of(const ClosedForm<S>&) {
+  return {.touches = true, .never_misses = true, .late_by = 0};
+}
+
 }  // namespace thinwall::testing
