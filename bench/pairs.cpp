@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <thinwall/discrete/box_manifold.hpp>
+#include <thinwall/discrete/boxes/box_manifold.hpp>
 
 #include "plain_forms.hpp"
 

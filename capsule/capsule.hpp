@@ -7,7 +7,7 @@
 #include <thinwall/capsule/segment.hpp>
 #include <thinwall/capsule/segment_box.hpp>
 #include <thinwall/capsule/segment_triangle.hpp>
-#include <thinwall/discrete/flat_entry.hpp>
+#include <thinwall/discrete/entry/flat_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
 
 namespace thinwall {

@@ -5,7 +5,7 @@
 /// Source: derived here.
 
 #include <thinwall/capsule/capsule.hpp>
-#include <thinwall/discrete/box_manifold.hpp>
+#include <thinwall/discrete/boxes/box_manifold.hpp>
 
 namespace thinwall {
 

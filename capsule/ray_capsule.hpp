@@ -10,7 +10,7 @@
 /// Source: derived here.
 
 #include <thinwall/capsule/segment.hpp>
-#include <thinwall/discrete/ball_entry.hpp>
+#include <thinwall/discrete/entry/ball_entry.hpp>
 
 namespace thinwall {
 

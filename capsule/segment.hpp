@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include <thinwall/discrete/core_entry.hpp>
-#include <thinwall/discrete/range.hpp>
+#include <thinwall/discrete/entry/core_entry.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall {

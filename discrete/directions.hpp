@@ -2,7 +2,7 @@
 /// When two directions count as one: to half the digits for faces and edges that should share a manifold, to rounding
 /// for everything that must be exact.
 
-#include <thinwall/discrete/range.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall {

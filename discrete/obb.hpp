@@ -4,7 +4,7 @@
 #include <optional>
 
 #include <thinwall/discrete/aabb.hpp>
-#include <thinwall/discrete/box_gap.hpp>
+#include <thinwall/discrete/boxes/box_gap.hpp>
 
 namespace thinwall {
 

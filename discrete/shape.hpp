@@ -20,7 +20,7 @@
 
 #include <concepts>
 
-#include <thinwall/discrete/range.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall {

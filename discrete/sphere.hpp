@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <thinwall/discrete/ball_entry.hpp>
+#include <thinwall/discrete/entry/ball_entry.hpp>
 #include <thinwall/discrete/queries.hpp>
 
 namespace thinwall {

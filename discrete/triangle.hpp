@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include <thinwall/discrete/core_entry.hpp>
-#include <thinwall/discrete/flat_entry.hpp>
+#include <thinwall/discrete/entry/core_entry.hpp>
+#include <thinwall/discrete/entry/flat_entry.hpp>
 #include <thinwall/discrete/sphere.hpp>
 
 namespace thinwall {

@@ -3,15 +3,15 @@
 /// experiments loop over this list and ask serves<Method, A, B>.
 
 #include <thinwall/discrete/type_list.hpp>
-#include <thinwall/swept/bisection.hpp>
-#include <thinwall/swept/centre_ray.hpp>
-#include <thinwall/swept/closed_form.hpp>
-#include <thinwall/swept/conservative_advancement.hpp>
-#include <thinwall/swept/inclusion.hpp>
-#include <thinwall/swept/speculative.hpp>
-#include <thinwall/swept/substeps.hpp>
-#include <thinwall/swept/sweep_then_confirm.hpp>
-#include <thinwall/swept/swept_volume_ray.hpp>
+#include <thinwall/swept/methods/bisection.hpp>
+#include <thinwall/swept/methods/centre_ray.hpp>
+#include <thinwall/swept/methods/closed_form.hpp>
+#include <thinwall/swept/methods/conservative_advancement.hpp>
+#include <thinwall/swept/methods/inclusion.hpp>
+#include <thinwall/swept/methods/speculative.hpp>
+#include <thinwall/swept/methods/substeps.hpp>
+#include <thinwall/swept/methods/sweep_then_confirm.hpp>
+#include <thinwall/swept/methods/swept_volume_ray.hpp>
 
 namespace thinwall {
 

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <type_traits>
 
-#include <thinwall/swept/closed_form.hpp>
+#include <thinwall/swept/methods/closed_form.hpp>
 
 namespace thinwall {
 

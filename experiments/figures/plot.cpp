@@ -68,8 +68,8 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
   const bool powers = axis.log && axis.upper / axis.lower >= 1e4;
   const std::string steps = tics(axis, pixels, spacing);
   return fmt::format(
-      "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} '{4}'\nset {0}tics autofreq\nset {0}tics {5}\n{6} m{0}tics\n", name,
-      rounded_text(axis.lower, 6), rounded_text(axis.upper, 6), axis.log ? "set" : "unset",
+      "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} '{4}'\nset {0}tics autofreq\nset {0}tics {5}\n{6} m{0}tics\n",
+      name, rounded_text(axis.lower, 6), rounded_text(axis.upper, 6), axis.log ? "set" : "unset",
       !labeled ? ""
       : powers ? "10^{%T}"
                : "%g",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/swept/closed_form.hpp>
+#include <thinwall/swept/methods/closed_form.hpp>
 
 namespace thinwall {
 

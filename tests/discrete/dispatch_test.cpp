@@ -1,6 +1,6 @@
 // Bodies of any type through std::variant, one by one and grouped by type pair.
 
-#include <thinwall/discrete/box_manifold.hpp>
+#include <thinwall/discrete/boxes/box_manifold.hpp>
 #include <thinwall/discrete/grouped_pairs.hpp>
 
 #include "support/shaker.hpp"

@@ -1,0 +1,96 @@
+#pragma once
+/// Manifolds of two boxes of any kind.
+///
+/// Where the contact normal is normal to a face of A or B, that face is the reference. The face of the other box that
+/// looks at it most squarely, the incident face, is clipped against the reference's four sides; its corners at or below
+/// the reference are the points of contact, each as deep as it lies below. Of up to eight, four are kept. Where the
+/// normal is that of two edges, they meet in one point.
+///
+/// Source: derived here. The normal of least overlap leads to a point of the reference face, so at least one point is
+/// left.
+
+#include <thinwall/discrete/boxes/face_polygon.hpp>
+#include <thinwall/discrete/manifold.hpp>
+#include <thinwall/discrete/obb.hpp>
+
+namespace thinwall {
+
+/// The manifold of face `axis` of A, towards B on the positive or negative side, in A's axes.
+template <Scalar S> Manifold<S> face_manifold(const BoxPair<S>& pair, int axis, bool negative) {
+  const FacePolygon<S> below = corners_below(facing_polygon(pair, axis, negative), box_noise(pair));
+  const CornerChoice<S> choice = chosen_corners(below, box_noise(pair));
+  Manifold<S> manifold;
+  for (; manifold.count < choice.count; ++manifold.count) {
+    const auto slot = static_cast<std::size_t>(manifold.count);
+    const Vec3<S>& corner = below[choice.index[slot]];
+    const BoxPoints<S> points = points_at(pair, axis, negative, corner);
+    manifold.contacts[slot] = {points.on_a, points.on_b - pair.between, axis_vector<S>(axis, negative),
+                               std::max(S(0), corner[2])};
+  }
+  return manifold;
+}
+
+/// A contact in B's axes, with A and B exchanged, as seen from A's axes.
+template <Scalar S> Contact<S> seen_from_a(const BoxPair<S>& pair, const Contact<S>& c) {
+  return {pair.axes * c.local_b, pair.axes * c.local_a, -(pair.axes * c.normal), c.penetration};
+}
+
+/// The manifold of boxes that touch or overlap, in A's axes.
+template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
+  const S size = largest(pair.between, pair.half_a, pair.half_b);
+  if (!products_in_range(size) && binary_exponent(size) != 0) {
+    const int e = binary_exponent(size);
+    const BoxPair<S> near{times_power_of_two(pair.half_a, -e), times_power_of_two(pair.half_b, -e),
+                          times_power_of_two(pair.between, -e), pair.axes};
+    return changed(boxes_manifold(near), [&](const Contact<S>& c) { return scaled(c, e); });
+  }
+  const CoreGap<S> gap = box_gap(pair);
+  const BoxFace face = face_along(pair, gap.normal, parallel_sine<S>());
+  if (face.axis >= 0) {
+    const Manifold<S> manifold = face_manifold(face.of_b ? seen_from_b(pair) : pair, face.axis, face.negative);
+    if (!manifold.empty() && !face.of_b) return manifold;
+    if (!manifold.empty()) return changed(manifold, [&](const Contact<S>& c) { return seen_from_a(pair, c); });
+  }
+  Manifold<S> point;
+  point.contacts[0] = {gap.local_a, gap.local_b, gap.normal, std::max(S(0), S(-gap.distance))};
+  point.count = 1;
+  return point;
+}
+
+/// A contact given in the box's own axes, in the world's.
+template <Scalar S> Contact<S> out_of(const Obb<S>& box, const Contact<S>& c) {
+  return {out_of(box, c.local_a), out_of(box, c.local_b), out_of(box, c.normal), c.penetration};
+}
+
+template <Scalar S> Manifold<S> touching_manifold(const Obb<S>& a, const Obb<S>& b) {
+  return changed(boxes_manifold(box_pair(a, b)), [&](const Contact<S>& c) { return out_of(a, c); });
+}
+template <Scalar S> Manifold<S> touching_manifold(const Obb<S>& a, const Aabb<S>& b) {
+  return flipped(boxes_manifold(box_pair(b, a)));
+}
+
+/// The corners of the rectangle that the two facing sides share.
+template <Scalar S> Manifold<S> touching_manifold(const Aabb<S>& a, const Aabb<S>& b) {
+  const CoreGap<S> gap = core_gap(a, b);
+  const Vec3<S> between = b.center - a.center;
+  Manifold<S> manifold = single_point(a, b, gap);
+  for (int i = 0; i < 3; ++i) {
+    if (gap.normal[i] != S(0)) continue;
+    const S low = std::max(S(-a.half_extents[i]), S(between[i] - b.half_extents[i]));
+    const S high = std::min(a.half_extents[i], S(between[i] + b.half_extents[i]));
+    if (!(low < high)) continue;  // the middle that is there already
+    for (std::size_t k = 0, known = manifold.size(); k < known; ++k) {
+      Contact<S>& first = manifold.contacts[k];
+      Contact<S>& second = manifold.contacts[known + k];
+      second = first;
+      first.local_a[i] = low;
+      second.local_a[i] = high;
+      first.local_b[i] = low - between[i];
+      second.local_b[i] = high - between[i];
+    }
+    manifold.count *= 2;
+  }
+  return manifold;
+}
+
+}  // namespace thinwall

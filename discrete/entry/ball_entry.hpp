@@ -1,0 +1,123 @@
+#pragma once
+/// When a moving point first enters a ball around the origin: |p + v t| = R.
+///
+/// The textbook quadratic (v.v) t^2 + 2 (p.v) t + (p.p - R^2) = 0 loses u (|p|/R)^2 of its discriminant to
+/// cancellation, and no better square root or fused multiply-add brings that back, because the coefficients themselves
+/// are rounded. The perpendicular form does not cancel: with the moment q = p x v,
+///
+///   D = (v.v) R^2 - q.q,    t = (p.p - R^2) / (-p.v + sqrt(D)),    p + v t = (v x q - v sqrt(D)) / (v.v).
+///
+/// Error: forward at most 4 u kappa t, backward at most 4 u (docs/closed_forms.md).
+/// Source: the perpendicular discriminant is Haines, Guenther, Akenine-Moeller, "Precision Improvements for Ray/Sphere
+/// Intersection", Ray Tracing Gems, 2019, ch. 7; the position by moment is derived in docs/closed_forms.md.
+
+#include <algorithm>
+#include <limits>
+
+#include <thinwall/discrete/numbers/double_word.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
+#include <thinwall/discrete/scalar.hpp>
+
+namespace thinwall {
+
+/// Where the discriminant is this small beside its terms, the line grazes the ball and one rounding may decide: it is
+/// computed again in double-word arithmetic. Plain rounding moves it by at most a dozen u.
+template <Scalar S> S grazing_fraction() { return 64 * std::numeric_limits<S>::epsilon(); }
+
+/// The chord that the line p + v t cuts from the ball of radius R around the origin.
+template <Scalar S> struct Chord {
+  bool exists = false;               ///< the line meets the closed ball
+  S speed_square = 0;                ///< v.v
+  S approach = 0;                    ///< -p.v: positive while the closest approach is ahead
+  S excess = 0;                      ///< p.p - R^2: positive outside
+  S half = 0;                        ///< sqrt(D), half the chord times |v|, where it exists
+  Vec3<S> moment = Vec3<S>::Zero();  ///< p x v
+
+  /// The time the line enters the ball, where the chord exists and the point is outside and approaching.
+  S entry_time() const { return excess / (approach + half); }
+  /// The direction of p + v t at that time; against the motion where R is zero. Its length is R only as far as the moment,
+  /// which loses the digits of a small ball far away, allows.
+  Vec3<S> entry_normal(const Vec3<S>& v) const {
+    const Vec3<S> offset = cross(v, moment) - v * half;
+    return offset == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : safe_unit(offset);
+  }
+};
+
+/// (v.v) R^2 - |p x v|^2 in twice the digits: right in sign, unless the true value is within a few u^2 of zero.
+template <Scalar S> THINWALL_COLD S accurate_discriminant(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  const auto moment = [&](int i, int j) { return exact_product(p[i], v[j]) - exact_product(p[j], v[i]); };
+  const auto square = [](const DoubleWord<S>& x) { return x * x; };
+  const DoubleWord<S> speed = exact_product(v[0], v[0]) + exact_product(v[1], v[1]) + exact_product(v[2], v[2]);
+  const DoubleWord<S> offset = square(moment(1, 2)) + square(moment(2, 0)) + square(moment(0, 1));
+  const DoubleWord<S> difference = speed * exact_product(R, R) - offset;
+  return difference.high;
+}
+
+/// Half the chord of a ball and an offset so small that their squares vanish; negative if there is none. They still
+/// compare: rescales just these two.
+template <Scalar S> THINWALL_COLD S half_of_tiny(const S& speed_square, const Vec3<S>& moment, const S& R) {
+  using std::sqrt;
+  const S speed = sqrt(speed_square);
+  const int e = binary_exponent(largest(moment, S(R * speed)));
+  const S radius = times_power_of_two(R, -e) * speed;
+  const S D = radius * radius - times_power_of_two(moment, -e).squaredNorm();
+  return D < S(0) ? D : times_power_of_two(S(sqrt(D)), e);
+}
+
+/// Requires p, v, R whose products of four are in range (products_in_range), v not zero.
+template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  using std::sqrt;
+  const S speed_square = v.squaredNorm();
+  const Vec3<S> moment = cross(p, v);
+  const S reach = speed_square * (R * R), offset = moment.squaredNorm(), size = std::max(reach, offset);
+  S D = reach - offset, half;
+  if (square_in_range(size)) {
+    if (largest(D) <= grazing_fraction<S>() * size) D = accurate_discriminant(p, v, R);
+    half = sqrt(largest(D));
+  } else {
+    D = half = half_of_tiny(speed_square, moment, R);
+  }
+  return {D >= S(0), speed_square, -p.dot(v), p.squaredNorm() - R * R, half, moment};
+}
+
+/// The first time at which a moving point is in a closed convex body.
+template <Scalar S> struct Entry {
+  bool inside = false;                          ///< already so at time 0, touching included
+  bool gave_up = false;                         ///< out of rounds; `time` is proven free
+  S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
+  Vec3<S> normal = Vec3<S>::Zero();             ///< unit, out of the body, where the point is at `time`
+  int rounds = 1;                               ///< how many closed forms were solved
+};
+
+template <Scalar S> Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R);
+
+/// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
+/// v = 0 never enters.
+template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  Entry<S> entry;
+  if (within(p, R)) {
+    entry.inside = true;
+    return entry;
+  }
+  if (!products_in_range(largest(p, R)) || !products_in_range(largest(v))) {
+    const Entry<S> rescaled = ball_entry_rescaled(p, v, R);
+    return rescaled;  // by way of a copy, or the compiler would keep the other answers in memory
+  }
+  const Chord<S> chord = chord_through_ball(p, v, R);
+  if (!chord.exists || chord.approach <= S(0)) return entry;
+  entry.time = chord.entry_time();  // positive, as the excess is
+  entry.normal = chord.entry_normal(v);
+  return entry;
+}
+
+/// The same where a product of lengths or displacements would overflow or underflow.
+template <Scalar S> THINWALL_COLD Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  const int length_exponent = binary_exponent(largest(p, R)), speed_exponent = binary_exponent(largest(v));
+  if (largest(v) == S(0) || (length_exponent == 0 && speed_exponent == 0)) return {};
+  Entry<S> entry = ball_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+                                 times_power_of_two(R, -length_exponent));
+  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
+  return entry;
+}
+
+}  // namespace thinwall

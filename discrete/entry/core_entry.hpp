@@ -1,0 +1,155 @@
+#pragma once
+/// When a moving point first comes within R of a convex core: a segment, a parallelogram, a triangle, a box and a segment.
+///
+/// The core is known by one function, closest(x): the flat part of it that is nearest to x (a corner, an edge, a face) and
+/// the gap from there. Extended without end, a corner, a line or a plane rounded by R has a closed-form entry time that does
+/// not cancel (ball_entry.hpp's perpendicular form, in three, two and one dimensions). The walk solves the part nearest
+/// now, moves to its answer, and looks again: the same part nearest there proves the answer, because the distance to a
+/// convex core is convex along the motion. Another part is solved in its turn; where an answer overshoots, a Newton step,
+/// which never passes the first contact, takes its place.
+///
+/// Error: forward at most 4 u kappa t, backward at most 4 u (docs/closed_forms.md). Source: derived there.
+
+#include <algorithm>
+#include <limits>
+
+#include <thinwall/discrete/entry/ball_entry.hpp>
+
+namespace thinwall {
+
+/// A flat part of a convex core, as seen from a point outside.
+template <Scalar S> struct CorePart {
+  enum Kind { corner, edge, face };
+  int id = 0;                           ///< equal for equal parts of one core
+  Kind kind = corner;                   ///< what the part extends to: a point, a line, a plane
+  Vec3<S> origin = Vec3<S>::Zero();     ///< [length] a point of it
+  Vec3<S> direction = Vec3<S>::Zero();  ///< along the edge, or normal to the face; of any length but zero
+  Vec3<S> gap = Vec3<S>::Zero();        ///< [length] from the core's closest point to the point that asked
+  S depth = -1;  ///< [length] >= 0: the point is in the core, this deep, and `gap` is a unit vector out of it
+
+  bool contains_point() const { return depth >= S(0); }
+  S distance() const { return contains_point() ? S(-depth) : safe_norm(gap); }
+  /// Unit, from the part to the point that asked. A gap that is short beside the core is turned by rounding, so that even
+  /// the sign of a closing speed would be lost; a face or an edge knows better which way it faces.
+  Vec3<S> outward() const {
+    if (contains_point() || kind == corner) return safe_unit(gap);
+    if (kind == face) return safe_unit(gap.dot(direction) < S(0) ? Vec3<S>(-direction) : direction);
+    const Vec3<S> across = cross(direction, safe_unit(cross(gap, direction)));
+    return across == Vec3<S>::Zero() ? safe_unit(gap) : safe_unit(across);
+  }
+  S closing_speed(const Vec3<S>& v) const { return -outward().dot(v); }
+};
+
+/// When the line p + v t enters and is closest to a part extended without end and rounded by R.
+template <Scalar S> struct PartEntry {
+  bool exists = false;               ///< it enters, while approaching
+  S time = 0;                        ///< [1] of entry, where it exists
+  S closest_time = 0;                ///< [1] of closest approach
+  Vec3<S> normal = Vec3<S>::Zero();  ///< unit, away from the part, at entry
+};
+
+template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  const Chord<S> chord = chord_through_ball(p, v, R);
+  PartEntry<S> entry{chord.exists && chord.approach > S(0), S(0), chord.approach / chord.speed_square, Vec3<S>::Zero()};
+  if (!entry.exists) return entry;
+  entry.time = chord.entry_time();
+  entry.normal = chord.entry_normal(v);
+  return entry;
+}
+
+/// Seen along the edge the line is a point and its rounding a disc: k = p x d and w = v x d take the places of p and v.
+template <Scalar S> PartEntry<S> edge_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& direction, const S& R) {
+  const Vec3<S> d = safe_unit(direction);
+  const Vec3<S> w = cross(v, d);
+  if (w == Vec3<S>::Zero()) return {};  // along the edge: the distance to its line does not change
+  PartEntry<S> entry = corner_entry<S>(cross(p, d), w, R);
+  if (entry.exists) entry.normal = safe_unit(cross(d, entry.normal));
+  return entry;
+}
+
+template <Scalar S> PartEntry<S> face_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& direction, const S& R) {
+  const Vec3<S> n = safe_unit(direction);
+  const S height = p.dot(n), speed = v.dot(n);
+  if (speed == S(0)) return {};
+  PartEntry<S> entry{(height > S(0)) != (speed > S(0)), S(0), -height / speed, Vec3<S>::Zero()};
+  if (!entry.exists) return entry;
+  entry.time = (largest(height) - R) / largest(speed);
+  entry.normal = speed > S(0) ? Vec3<S>(-n) : n;
+  return entry;
+}
+
+template <Scalar S> PartEntry<S> part_entry(const CorePart<S>& part, const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  const Vec3<S> from_part = p - part.origin;
+  switch (part.kind) {
+    case CorePart<S>::corner: return corner_entry(from_part, v, R);
+    case CorePart<S>::edge: return edge_entry(from_part, v, part.direction, R);
+    case CorePart<S>::face: return face_entry(from_part, v, part.direction, R);
+  }
+  return {};
+}
+
+/// First time t >= 0 at which p + v t is within R of the core. `size` [length] is the core's own, for the noise level.
+/// No contact lies before `not_before` [1] >= 0; > 0 says that there is none at the start either.
+/// Requires lengths and displacements whose products of four are in range.
+template <Scalar S, class Closest>
+Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& size, const Closest& closest,
+                    const S& not_before = S(0)) {
+  constexpr int round_limit = 256;
+  Entry<S> answer;
+  S free = not_before, now = not_before;  // no contact before `free`; `part` is the nearest at `now`
+  CorePart<S> part = closest(p + v * now);
+  answer.inside = not_before == S(0) && (part.contains_point() || within(part.gap, R));
+  if (answer.inside) return answer;
+  const auto hit = [&](const S& time, const Vec3<S>& normal) {
+    answer.time = time;
+    answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
+    return answer;
+  };
+  const S noise = gap_noise(largest(p, S(R + size)));
+  int touches = 0;
+  while (++answer.rounds < round_limit) {
+    const S closing = part.closing_speed(v);
+    if (!(closing > S(0))) return answer;  // convex: what recedes does not come back
+    const PartEntry<S> entry = part_entry(part, p, v, R);
+    const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
+    if (!is_finite(target)) return answer;
+    const CorePart<S> there = closest(p + v * target);
+    if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : answer;
+    const S ahead = there.distance() - R;
+    if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
+    const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
+    const bool touching = ahead <= S(0) && ahead >= -noise && ++touches < 4;  // to rounding: let that part have its say
+    if (before || touching) {
+      if (before) free = target;
+      now = target;
+      part = there;
+      continue;
+    }
+    const S next = now + (part.distance() - R) / closing;  // Newton: never past the first contact
+    if (!(next > free) || next == now) return hit(std::max(free, next), part.outward());
+    free = now = next;
+    part = closest(p + v * now);
+  }
+  answer.gave_up = true;
+  answer.time = free;
+  return answer;
+}
+
+/// The same for a core spanned by vectors, at any scale; closest(x, spans...) gets all of them at a scale that is safe.
+template <Scalar S, class Closest, class... Spans>
+Entry<S> core_entry_at_any_scale(const Closest& closest, const Vec3<S>& p, const Vec3<S>& v, const S& R,
+                                 const Spans&... spans) {
+  const S length = largest(p, R, spans...), speed = largest(v);
+  const int length_exponent = products_in_range(length) ? 0 : binary_exponent(length);
+  const int speed_exponent = products_in_range(speed) ? 0 : binary_exponent(speed);
+  if (length_exponent == 0 && speed_exponent == 0) {
+    return core_entry(p, v, R, largest(spans...), [&](const Vec3<S>& x) { return closest(x, spans...); });
+  }
+  Entry<S> entry = core_entry_at_any_scale<S>(
+      closest, times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+      times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
+  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
+  return entry;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,106 @@
+#pragma once
+/// The exact time of impact: a ray against the Minkowski sum, one formula a pair.
+
+#include <thinwall/swept/closed_form/boxes_entry.hpp>
+#include <thinwall/swept/closed_form/closed_form_capsule.hpp>
+#include <thinwall/swept/closed_form/closed_form_parts.hpp>
+#include <thinwall/swept/closed_form/rounded_box_entry.hpp>
+#include <thinwall/swept/closed_form/sphere_triangle_entry.hpp>
+
+namespace thinwall {
+
+template <Scalar S, Scalar T>
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
+  const T gap(method.min_separation);
+  const Entry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
+                                       a.shape.radius + b.shape.radius + gap);
+  return toi_of(a, b, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
+}
+
+template <Scalar S, Scalar T>
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
+  const T gap(method.min_separation);
+  const Entry<T> entry =
+      rounded_box_entry<T>(sphere.shape.center - box.shape.center, relative_displacement(sphere, box),
+                           box.shape.half_extents, sphere.shape.radius + gap);
+  return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+template <Scalar S, Scalar T>
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
+  const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
+                                              a.shape.half_extents + b.shape.half_extents, T(method.min_separation));
+  return toi_of(a, b, entry,
+                [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
+                  const Vec3<T> middle_a = a.shape.center + a.displacement * time,
+                                middle_b = b.shape.center + b.displacement * time;
+                  return ((middle_a - a.shape.half_extents).cwiseMax(middle_b - b.shape.half_extents) +
+                          (middle_a + a.shape.half_extents).cwiseMin(middle_b + b.shape.half_extents)) /
+                         T(2);
+                });
+}
+
+template <Scalar S, Scalar T>
+THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
+  const T gap(method.min_separation);
+  const Obb<T>& frame = box.shape;
+  const T reach = sphere.shape.radius + gap;
+  const Vec3<T> motion = relative_displacement(sphere, box);
+  const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
+  Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
+  entry.time += path.base_time;
+  entry.normal = out_of(frame, entry.normal);
+  return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+/// When two moving boxes come within `gap` of each other; the normal in A's axes.
+template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap) {
+  Entry<T> entry;
+  entry.inside = boxes_within(moving.pair, gap);
+  if (entry.inside) return entry;
+  return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
+  const T gap(method.min_separation);
+  const Vec3<T> motion = relative_displacement(b, a);
+  const NearPath<T> path(b.shape.center - a.shape.center, motion,
+                         gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
+  MovingBoxPair<T> moving{box_pair(a.shape, b.shape, path.start), into(a.shape, motion), into(b.shape, path.start),
+                          into(b.shape, motion)};
+  Entry<T> entry = boxes_entry(moving, gap);
+  const Vec3<T> touching = moving.touching_point(entry, gap);
+  entry.time += path.base_time;
+  entry.normal = out_of(a.shape, entry.normal);
+  return toi_of(a, b, entry, [&](const T& time) -> Vec3<T> {
+    return (a.shape.center + a.displacement * time) + out_of(a.shape, touching);
+  });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Aabb<T>>& b) {
+  const T gap(method.min_separation);
+  const Vec3<T> motion = relative_displacement(a, b);
+  const NearPath<T> path(a.shape.center - b.shape.center, motion,
+                         gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
+  MovingBoxPair<T> moving{box_pair(b.shape, a.shape, path.start), motion, into(a.shape, path.start),
+                          into(a.shape, motion)};
+  Entry<T> entry = boxes_entry(moving, gap);
+  const Vec3<T> touching = moving.touching_point(entry, gap);
+  entry.time += path.base_time;
+  return toi_of(a, b, flipped(entry),
+                [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
+}
+
+template <Scalar S, Scalar T>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, const Moving<Sphere<T>>& sphere) {
+  const T gap(method.min_separation);
+  const Triangle<T>& t = triangle.shape;
+  const Entry<T> entry = sphere_triangle_entry<T>(sphere.shape.center - t.a, relative_displacement(sphere, triangle),
+                                                  sphere.shape.radius + gap, t.b - t.a, t.c - t.a);
+  return toi_of(triangle, sphere, entry,
+                [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+}
+
+}  // namespace thinwall
