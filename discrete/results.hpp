@@ -44,4 +44,7 @@ template <Scalar S> Separation<S> flipped(const Separation<S>& s) {
   return {s.distance, -s.normal, s.point_b, s.point_a};
 }
 
+/// Halfway between the closest points.
+template <Scalar S> Vec3<S> middle(const Separation<S>& s) { return (s.point_a + s.point_b) / S(2); }
+
 }  // namespace thinwall

@@ -33,7 +33,7 @@ template <class A, class B>
 THINWALL_COLD Toi<typename A::Scalar> overlapping_at_start(const Moving<A>& a, const Moving<B>& b, int evaluations) {
   using S = typename A::Scalar;
   const Separation<S> deepest = separation(a.shape, b.shape);
-  return {ToiStatus::overlapping, evaluations, S(0), deepest.normal, (deepest.point_a + deepest.point_b) / S(2)};
+  return {ToiStatus::overlapping, evaluations, S(0), deepest.normal, middle(deepest)};
 }
 
 }  // namespace thinwall

@@ -34,8 +34,7 @@ Vec3<T> sphere_point(const Moving<Sphere<T>>& s, const T& time, const Vec3<T>& o
 
 /// The middle of the closest points at `time`.
 template <class A, class B, Scalar T> Vec3<T> middle_point(const Moving<A>& a, const Moving<B>& b, const T& time) {
-  const Separation<T> closest = separation(pose_at(a, time), pose_at(b, time));
-  return (closest.point_a + closest.point_b) / T(2);
+  return middle(separation(pose_at(a, time), pose_at(b, time)));
 }
 
 template <Scalar T> Entry<T> flipped(Entry<T> entry) {

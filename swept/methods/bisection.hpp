@@ -76,8 +76,7 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     const GapSample<T> between = sample((before.time + after.time) / 2);
     (between.gap > T(0) ? before : after) = between;
   }
-  const Vec3<T> point = (after.closest.point_a + after.closest.point_b) / T(2);
-  return {ToiStatus::hit, evaluations, after.time, after.closest.normal, point};
+  return {ToiStatus::hit, evaluations, after.time, after.closest.normal, middle(after.closest)};
 }
 
 }  // namespace thinwall

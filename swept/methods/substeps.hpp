@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <thinwall/discrete/queries.hpp>
+#include <thinwall/swept/methods/tolerance.hpp>
 #include <thinwall/swept/serves.hpp>
 
 namespace thinwall {
@@ -27,14 +28,14 @@ template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
 Toi<typename A::Scalar> impact(const Substeps<S>& method, const Moving<A>& a, const Moving<B>& b) {
   using T = typename A::Scalar;
-  if (method.n < 1) return {ToiStatus::invalid, 0, std::numeric_limits<T>::quiet_NaN()};
+  if (method.n < 1) return invalid_option<T>();
   for (int k = 1; k <= method.n; ++k) {
     const T time = T(k) / T(method.n);
     const A a_then = pose_at(a, time);
     const B b_then = pose_at(b, time);
     if (!overlaps_within(a_then, b_then, T(method.min_separation))) continue;
     const Separation<T> deepest = separation(a_then, b_then);
-    return {ToiStatus::hit, k, time, deepest.normal, (deepest.point_a + deepest.point_b) / T(2)};
+    return {ToiStatus::hit, k, time, deepest.normal, middle(deepest)};
   }
   return {ToiStatus::apart, method.n};
 }

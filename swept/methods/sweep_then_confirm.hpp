@@ -44,7 +44,7 @@ Toi<typename A::Scalar> impact(const SweepThenConfirm<S>& method, const Moving<A
   const B b_then = pose_at(b, entry->t);
   if (!overlaps_within(a_then, b_then, margin)) return {ToiStatus::apart, 3};
   const Separation<T> deepest = separation(a_then, b_then);
-  return {ToiStatus::hit, 3, entry->t, deepest.normal, (deepest.point_a + deepest.point_b) / T(2)};
+  return {ToiStatus::hit, 3, entry->t, deepest.normal, middle(deepest)};
 }
 
 }  // namespace thinwall

@@ -51,7 +51,7 @@ Toi<T> sweep_and_cast(const Moving<Sphere<T>>& sphere, const Moving<B>& target, 
   }
   const T time = closest_core_parameter(swept, target.shape);
   const Separation<T> closest = separation(pose_at(sphere, time), pose_at(target, time));
-  return {ToiStatus::hit, 4, time, closest.normal, (closest.point_a + closest.point_b) / T(2)};
+  return {ToiStatus::hit, 4, time, closest.normal, middle(closest)};
 }
 
 template <Scalar S, Scalar T>
