@@ -30,8 +30,9 @@ template <Scalar S> struct SegmentPair {
 };
 
 /// Closest points of the segments s * d1 and r + t * d2.
-/// Solves the 2x2 system with cross products, whose determinant |d1 x d2|^2 does not cancel, then projects each point on
-/// the other segment, which also serves parallel segments and ends.
+/// Solves the 2x2 system with cross products, whose determinant |d1 x d2|^2 does not cancel, then projects the point on the
+/// other segment, and back if an end was nearest there. Nearly parallel, the first point is poorly known, and its choice moves
+/// the gap by no more than rounding does.
 /// Error: the gap is off by a few u (|r| + |d1| + |d2|), however close to parallel the segments are.
 /// Degenerate: segments of no length are points; of many closest pairs on parallel segments the middle one.
 /// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.9, for the order of the clamps.
@@ -55,7 +56,9 @@ template <Scalar S> SegmentPair<S> closest_on_segments(const Vec3<S>& r, const V
     pair.s = (first + last) / 2;
   }
   pair.t = closest_parameter<S>(d1 * pair.s - r, d2);
-  pair.s = closest_parameter<S>(r + d2 * pair.t, d1);
+  const bool at_end = pair.t <= S(0) || pair.t >= S(1);
+  if (at_end)
+    pair.s = closest_parameter<S>(r + d2 * pair.t, d1);  // else an end of d1 would no longer be one, to rounding
   pair.gap = r + (d2 * pair.t - d1 * pair.s);
   return pair;
 }
@@ -72,15 +75,17 @@ template <Scalar S> CorePart<S> closest_on_parallelogram(const Vec3<S>& x, const
   part.id = 3 * first + second;
   part.gap = closest.gap;
   part.origin = (first == 2 ? d1 : Vec3<S>::Zero()) - (second == 2 ? d2 : Vec3<S>::Zero());
-  if (first == 0) part.direction = second == 0 ? cross(d1, d2) : d1;
+  if (first == 0) part.direction = second == 0 ? accurate_cross(d1, d2) : d1;
   if (first != 0 && second == 0) part.direction = d2;
   part.kind = first == 0 && second == 0   ? CorePart<S>::face
               : first == 0 || second == 0 ? CorePart<S>::edge
                                           : CorePart<S>::corner;
-  if (part.kind == CorePart<S>::face &&
-      part.direction == Vec3<S>::Zero()) {  // parallel: the parallelogram is a segment
-    part.kind = CorePart<S>::edge;
-    part.direction = d1;
+  if (part.kind == CorePart<S>::face) {
+    const Vec3<S> beside = cross(safe_unit(part.direction), part.gap);  // zero above the inside of the face
+    if (part.direction == Vec3<S>::Zero() || largest(beside) > gap_noise(largest(x, d1, d2))) {
+      part.kind = CorePart<S>::edge;  // parallel, to rounding: the parallelogram is a segment
+      part.direction = d1;
+    }
   }
   return part;
 }

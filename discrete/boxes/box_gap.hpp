@@ -96,6 +96,29 @@ template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, i
   return {pair.between + pair.axes * seen.on_b, pair.between + pair.axes * seen.on_a};
 }
 
+/// The axis, of the fifteen, along which the shadows overlap least: the most negative where the boxes are apart.
+template <Scalar S> struct LeastOverlap {
+  S overlap = std::numeric_limits<S>::infinity();  ///< [length]
+  int axis_a = -1, axis_b = -1;
+  Vec3<S> normal = Vec3<S>::Zero();  ///< unit, from A to B
+};
+
+/// Of equal ones the first: A's faces, B's faces, edges.
+template <Scalar S> LeastOverlap<S> least_overlap(const BoxPair<S>& pair) {
+  LeastOverlap<S> least;
+  each_separating_axis([&](int i, int j) {
+    const Vec3<S> n = pair.direction(i, j);
+    const S length = safe_norm(n);
+    if (length == S(0)) return true;
+    const S overlap = pair.overlap(n) / length;
+    if (overlap < least.overlap) {
+      least = {overlap, i, j, (pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n) / length};
+    }
+    return true;
+  });
+  return least;
+}
+
 /// The gap from A to B in A's axes, with B's point relative to B's center.
 /// Degenerate: among axes of equal overlap the first wins: A's faces, B's faces, edges; coincident centers go positive.
 template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
@@ -105,25 +128,16 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
     points = closest_points(pair);
     gap.distance = safe_norm<S>(points.on_b - points.on_a);
     gap.normal = safe_unit<S>(points.on_b - points.on_a);
+    // Beside nearly parallel faces or edges many points are as near as rounding can tell, and the line through two of them
+    // may lean; a plane across an axis that parts the boxes more than one across that line does not.
+    const LeastOverlap<S> axis = least_overlap(pair);
+    if (axis.overlap < pair.overlap(gap.normal)) gap.normal = axis.normal;
   }
   if (gap.distance <= box_noise(pair)) {
-    S least = std::numeric_limits<S>::infinity();
-    int face_a = -1, face_b = -1;
-    each_separating_axis([&](int i, int j) {
-      const Vec3<S> n = pair.direction(i, j);
-      const S length = safe_norm(n);
-      if (length == S(0)) return true;
-      const S overlap = pair.overlap(n) / length;
-      if (overlap < least) {
-        least = overlap;
-        face_a = i;
-        face_b = j;
-        gap.normal = (pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n) / length;
-      }
-      return true;
-    });
-    points = deepest_points(pair, face_a, face_b, gap.normal);
-    gap.distance = -least;
+    const LeastOverlap<S> least = least_overlap(pair);
+    gap.normal = least.normal;
+    points = deepest_points(pair, least.axis_a, least.axis_b, gap.normal);
+    gap.distance = -least.overlap;
   }
   gap.local_a = points.on_a;
   gap.local_b = points.on_b - pair.between;

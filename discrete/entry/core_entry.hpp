@@ -105,10 +105,13 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
     return answer;
   };
-  const S noise = gap_noise(largest(p, S(R + size)));
+  const S noise = gap_noise(largest(p, S(R + size))), speed_noise = gap_noise(largest(v));
   int touches = 0;
+  bool touched = false;  // in contact at `now`, to rounding
   while (++answer.rounds < round_limit) {
     const S closing = part.closing_speed(v);
+    if (touched && largest(closing) <= speed_noise)
+      return hit(now, part.outward());     // along it: no other time is any better
     if (!(closing > S(0))) return answer;  // convex: what recedes does not come back
     const PartEntry<S> entry = part_entry(part, p, v, R);
     const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
@@ -121,6 +124,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     const bool touching = ahead <= S(0) && ahead >= -noise && ++touches < 4;  // to rounding: let that part have its say
     if (before || touching) {
       if (before) free = target;
+      touched = touching;
       now = target;
       part = there;
       continue;
@@ -128,6 +132,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     const S next = now + (part.distance() - R) / closing;  // Newton: never past the first contact
     if (!(next > free) || next == now) return hit(std::max(free, next), part.outward());
     free = now = next;
+    touched = false;
     part = closest(p + v * now);
   }
   answer.gave_up = true;

@@ -33,19 +33,12 @@ bool boxes_apart(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3
   return false;
 }
 
-/// a x b of nearly parallel vectors, whose plain products cancel.
-template <Scalar S> Vec3<S> accurate_cross(const Vec3<S>& a, const Vec3<S>& b) {
-  const auto turn = [&](int i, int j) { return (exact_product(a[i], b[j]) - exact_product(a[j], b[i])).high; };
-  return {turn(1, 2), turn(2, 0), turn(0, 1)};
-}
-
 /// The same as flat_entry, for lengths and displacements whose products of four are in range.
 template <Scalar S>
 Entry<S> flat_entry_in_range(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                              const S& last) {
   const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p);
-  Vec3<S> normal = cross(e1, e2);
-  if (8 * largest(normal) < area) normal = accurate_cross(e1, e2);
+  const Vec3<S> normal = accurate_cross(e1, e2);
   const Vec3<S> moment = cross(v, p);
   const S side = v.dot(normal) < S(0) ? S(-1) : S(1);
   const S climb = side * v.dot(normal), start = side * p.dot(normal), end = start + last * climb;

@@ -50,4 +50,12 @@ template <Scalar S> DoubleWord<S> operator*(const DoubleWord<S>& a, const Double
   return exact_sum(product.high, S(product.low + (a.high * b.low + a.low * b.high)));
 }
 
+/// a x b, in direction too where a and b are nearly parallel and the plain products would cancel.
+template <Scalar S> Vec3<S> accurate_cross(const Vec3<S>& a, const Vec3<S>& b) {
+  const Vec3<S> plain = cross(a, b);
+  if (8 * largest(plain) >= largest(a) * largest(b)) return plain;
+  const auto turn = [&](int i, int j) { return (exact_product(a[i], b[j]) - exact_product(a[j], b[i])).high; };
+  return {turn(1, 2), turn(2, 0), turn(0, 1)};
+}
+
 }  // namespace thinwall
