@@ -25,12 +25,12 @@ void check(const Settings& settings, const HitscanCell& c) {
     settings.complain("step",
                       fmt::format("drag * step at most {}; drag {}, step {}", most_drag_in_a_step, c.drag, c.step));
   }
-  const auto there = at_distance(arc_of<double>(c), c.range + reach(c));
-  const double pull = arc_of<double>(c).pull * (there.vx / c.speed);
-  if (reach(c) * std::hypot(pull, c.drag * there.vx) > most_bend * there.vx * there.vx) {
+  const auto arc = arc_of<double>(c);
+  const auto there = at_distance(arc, c.range + reach(c));
+  if (reach(c) * arc.pull > most_bend * there.vx * there.vx) {
     settings.complain("speed",
-                      fmt::format("fast enough to fly nearly straight past a target: target + radius over the arc's "
-                                  "radius at most {}; not so at speed {}, range {}",
+                      fmt::format("fast enough to fly nearly straight past a target: (target + radius) * (gravity and "
+                                  "wind) at most {} of the squared speed there; not so at speed {}, range {}",
                                   most_bend, c.speed, c.range));
   }
   if (there.vx * c.step < least_path * reach(c)) {

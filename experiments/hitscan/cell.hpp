@@ -35,10 +35,10 @@ struct KnownShot {
 
 /// Shots whose numbers a reader knows. The drag is what the weapon loses at its speed, and rough.
 inline constexpr std::array<KnownShot, 4> known_shots = {{
-    {"rifle, 100 m", {100, 900, 0.0039, 3, 0.6, 1.0 / 60, 0.15, 9.81, 1.25}},
-    {"rifle, 300 m", {300, 900, 0.0039, 3, 0.6, 1.0 / 60, 0.15, 9.81, 1.25}},
-    {"paintball, 10 m", {10, 90, 0.0086, 3, 2, 1.0 / 60, 0.15, 9.81, 1.25}},
-    {"textbook bullet, 1 m", {1, 10, 0.02, 0, 0, 1.0 / 60, 0.15, 9.81, 1.25}},
+    {"rifle at 100 m", {100, 900, 0.0039, 3, 0.6, 1.0 / 60, 0.15, 9.81, 1.25}},
+    {"rifle at 300 m", {300, 900, 0.0039, 3, 0.6, 1.0 / 60, 0.15, 9.81, 1.25}},
+    {"paintball at 10 m", {10, 90, 0.0086, 3, 2, 1.0 / 60, 0.15, 9.81, 1.25}},
+    {"textbook bullet at 1 m", {1, 10, 0.02, 0, 0, 1.0 / 60, 0.15, 9.81, 1.25}},
 }};
 bool is_known(const HitscanCell& c);
 

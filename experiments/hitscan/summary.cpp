@@ -24,9 +24,9 @@ std::string known_answer(const std::vector<HitscanLine>& lines) {
   std::string text;
   for (const HitscanLine& l : lines) {
     if (l.rule.name != hitscan_ray.name || !is_known(l.cell)) continue;
-    text += fmt::format("{}{}: {} (theory {}, {} off)", text.empty() ? "Of the true hits the ray misses " : "; ",
-                        known_name(l.cell), percent(missed_share(l)), percent(missed_share_theory(l)),
-                        meters(deflection(l.cell)));
+    text += fmt::format("{}{} with a {} (theory {}, the arc {} off the line of fire)",
+                        text.empty() ? "Of the true hits the ray misses " : ", ", percent(missed_share(l)),
+                        known_name(l.cell), percent(missed_share_theory(l)), meters(deflection(l.cell)));
   }
   return text.empty() ? text : text + ". ";
 }
@@ -157,7 +157,7 @@ std::string hitscan_answer(const std::vector<HitscanLine>& lines, const std::vec
 std::string hitscan_summary(const std::vector<HitscanLine>& lines, const std::vector<HitscanTotal>& totals,
                             const HitscanVerdicts& verdicts) {
   std::string text =
-      "Missed: of the true hits. False: of the rule's own hits. Off: mean distance from the arc at the range.\n"
+      "Missed: of the true hits. False: of the rule's own hits. Off: mean distance from the arc there.\n"
       "Late: mean time from contact to the report, in steps; below 0 is early.\n";
   for (const KnownShot& known : known_shots) {
     const HitscanCell& c = known.cell;

@@ -13,16 +13,23 @@ namespace thinwall {
 
 namespace {
 
-constexpr int count_phases = 16;     // of the shares, which vary little with the phase
-constexpr int moment_phases = 2000;  // of lateness and path error, which vary most with it
+constexpr int count_phases = 32;     // of the shares
+constexpr int moment_phases = 2000;  // of lateness and path error
 
-double phase_of(int i, int phases) { return (i + 0.5) / phases; }
+/// The i-th of evenly spaced phases, such that none of them is near where one step takes over from another at the target: there
+/// everything jumps. A ray along the velocity gets a little farther than the bullet, as that slows down.
+double phase_of(const HitscanRule& rule, const HitscanCell& c, int i, int phases) {
+  const double beyond = rule.path == FlightPath::tangents ? dragged_time(c.drag, c.step) / c.step - 1 : 0;
+  const double phase = (i + 0.5) / phases + beyond - flight_time(c) / c.step;
+  const double part = phase - std::floor(phase);
+  return part < 1 ? part : 0;
+}
 
 /// Mean and deviation over the phase, uniform over a step.
-Moments over_phases(const std::function<double(double)>& f) {
+Moments over_phases(const HitscanRule& rule, const HitscanCell& c, const std::function<double(double)>& f) {
   double sum = 0, squares = 0;
   for (int i = 0; i < moment_phases; ++i) {
-    const double x = f(phase_of(i, moment_phases));
+    const double x = f(phase_of(rule, c, i, moment_phases));
     sum += x;
     squares += x * x;
   }
@@ -69,7 +76,7 @@ Areas areas_of(const HitscanRule& rule, const HitscanCell& c) {
   const double outer = reach(c), inner = c.target, rule_reach = rule.has_radius ? outer : inner;
   const int phases = rule.path == FlightPath::line ? 1 : count_phases;
   std::vector<std::vector<PathPiece>> paths;
-  for (int i = 0; i < phases; ++i) paths.push_back(pieces_of(rule.path, c, phase_of(i, phases)));
+  for (int i = 0; i < phases; ++i) paths.push_back(pieces_of(rule.path, c, phase_of(rule, c, i, phases)));
   const std::vector<PathPiece> arc = pieces_of_arc(c);
   constexpr int turns = 96;
   Areas sum;
@@ -132,7 +139,7 @@ double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
 
 Moments path_errors(const HitscanRule& rule, const HitscanCell& c) {
   if (rule.path == FlightPath::line) return {deflection(c), 0};  // the same in every shot
-  return over_phases([&](double phase) { return path_error(rule, c, phase); });
+  return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
 }
 
 /// [m] No path error is larger.
@@ -162,7 +169,7 @@ Moments next_frame_lateness(const HitscanCell& c) {
     depth += inner / rings;
   }
   const double arrival = flight_time(c) - depth / speed;
-  const Moments rest = over_phases([&](double phase) {
+  const Moments rest = over_phases(next_frame, c, [&](double phase) {
     const FrameAt frame = first_frame(c, phase, arrival, [&](double begins, double since, double length) {
       const auto start = after(arc, begins);
       const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;
