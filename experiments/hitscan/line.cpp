@@ -15,21 +15,22 @@ std::optional<double> quotient(double part, double whole) {
 std::optional<double> quotient(std::int64_t part, std::int64_t whole) {
   return quotient(static_cast<double>(part), static_cast<double>(whole));
 }
-std::optional<double> mean_of(const Spread& spread, double unit) {
+std::optional<double> mean_of(const HitscanSpread& spread, double unit) {
   if (spread.count == 0) return std::nullopt;
   return mean(spread, unit);
 }
 
-MomentTest& test_of(std::vector<MomentTest>& tests, const HitscanRule& rule, const char* quantity) {
-  const auto found = std::find_if(tests.begin(), tests.end(),
-                                  [&](const MomentTest& t) { return t.rule == rule.name && t.quantity == quantity; });
+HitscanMomentTest& test_of(std::vector<HitscanMomentTest>& tests, const HitscanRule& rule, const char* quantity) {
+  const auto found = std::find_if(tests.begin(), tests.end(), [&](const HitscanMomentTest& t) {
+    return t.rule == rule.name && t.quantity == quantity;
+  });
   if (found != tests.end()) return *found;
   tests.push_back({.rule = std::string(rule.name), .quantity = quantity});
   return tests.back();
 }
 
-void judge(MomentTest& test, const Spread& spread, double unit, const std::optional<Moments>& theory,
-           const Interval& allowed) {
+void judge(HitscanMomentTest& test, const HitscanSpread& spread, double unit,
+           const std::optional<HitscanMoments>& theory, const Interval& allowed) {
   if (spread.count == 0) return;
   ++test.cells;
   if (!allowed.contains(spread.least) || !allowed.contains(spread.most)) ++test.out_of_bounds;
@@ -111,12 +112,12 @@ std::vector<CellCount> counts_of(const std::vector<HitscanLine>& lines) {
   return counts;
 }
 
-bool MomentTest::passed() const {
+bool HitscanMomentTest::passed() const {
   return out_of_bounds == 0 && (judged == 0 || chi_square_allowed.contains(chi_square));
 }
 
-std::vector<MomentTest> moment_tests(const std::vector<HitscanLine>& lines) {
-  std::vector<MomentTest> tests;
+std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanLine>& lines) {
+  std::vector<HitscanMomentTest> tests;
   for (const HitscanLine& line : lines) {
     const HitscanCell& c = line.cell;
     const double rounding = 64 * std::numeric_limits<double>::epsilon() * (c.range + length_unit(c));
@@ -126,7 +127,7 @@ std::vector<MomentTest> moment_tests(const std::vector<HitscanLine>& lines) {
     judge(test_of(tests, line.rule, "lateness"), line.tally.lateness, time_unit(c), line.expected.lateness,
           possible_lateness(line));
   }
-  for (MomentTest& test : tests) {
+  for (HitscanMomentTest& test : tests) {
     if (test.judged > 0) test.chi_square_allowed = chi_square_range(test.judged, 0.999);
   }
   return tests;

@@ -39,7 +39,7 @@ std::vector<HitscanLine> make_hitscan_lines(const std::vector<HitscanCell>& cell
 std::vector<CellCount> counts_of(const std::vector<HitscanLine>& lines);
 
 /// A measured quantity of one rule, over all cells, against theory: means by chi-square, extremes by what geometry allows.
-struct MomentTest {
+struct HitscanMomentTest {
   std::string rule, quantity;
   std::int64_t cells = 0;                ///< with a measurement
   std::int64_t out_of_bounds = 0;        ///< ... that is beyond what is possible, more than rounding explains
@@ -48,6 +48,6 @@ struct MomentTest {
   Interval chi_square_allowed = {0, 0};  ///< central 99.9 %
   bool passed() const;
 };
-std::vector<MomentTest> moment_tests(const std::vector<HitscanLine>& lines);
+std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanLine>& lines);
 
 }  // namespace thinwall

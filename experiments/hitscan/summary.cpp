@@ -128,7 +128,7 @@ std::string tests_text(const HitscanVerdicts& verdicts) {
     if (t.certain_cells > 0) text += fmt::format("; {} cells certain, {} wrong", t.certain_cells, t.certain_wrong);
     text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
   }
-  for (const MomentTest& t : verdicts.moments) {
+  for (const HitscanMomentTest& t : verdicts.moments) {
     text += fmt::format("{}, {}: {} cells, {} out of bounds", t.rule, t.quantity, t.cells, t.out_of_bounds);
     if (t.judged > 0) {
       text += fmt::format("; {} means, chi-square {:.1f} (allowed {:.1f} to {:.1f})", t.judged, t.chi_square,

@@ -11,7 +11,7 @@ namespace thinwall {
 
 struct HitscanVerdicts {
   std::vector<SelfTest> counts;
-  std::vector<MomentTest> moments;
+  std::vector<HitscanMomentTest> moments;
   bool passed() const;
 };
 

@@ -85,7 +85,7 @@ Table hitscan_counts_test_table(const std::vector<SelfTest>& tests) {
   return table;
 }
 
-Table moment_tests_table(const std::vector<MomentTest>& tests) {
+Table moment_tests_table(const std::vector<HitscanMomentTest>& tests) {
   Table table;
   table.name = "moments";
   table.description = "Path errors and lateness against theory, over all cells of a rule at once.";
@@ -101,7 +101,7 @@ Table moment_tests_table(const std::vector<MomentTest>& tests) {
       {"chi_square_upper", ColumnType::number, "1", "Most allowed."},
       {"passed", ColumnType::boolean, "", "All of the above hold."},
   };
-  for (const MomentTest& t : tests) {
+  for (const HitscanMomentTest& t : tests) {
     const auto judged = [&](double x) { return t.judged > 0 ? Value(x) : Value(); };
     table.rows.push_back({t.rule, t.quantity, t.cells, t.out_of_bounds, t.judged, judged(t.chi_square),
                           judged(t.chi_square_allowed.lower), judged(t.chi_square_allowed.upper), t.passed()});

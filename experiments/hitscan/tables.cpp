@@ -78,10 +78,10 @@ std::vector<Field> verdicts() {
 
 std::vector<Field> errors() {
   using enum ColumnType;
-  const auto extreme = [](Spread HitscanTally::*spread, double Spread::*end) {
+  const auto extreme = [](HitscanSpread HitscanTally::*spread, double HitscanSpread::*end) {
     return [=](const HitscanLine& l) { return (l.tally.*spread).count > 0 ? Value(l.tally.*spread.*end) : Value(); };
   };
-  const auto steps = [](double Spread::*end) {
+  const auto steps = [](double HitscanSpread::*end) {
     return [=](const HitscanLine& l) {
       return l.tally.lateness.count > 0 ? Value(l.tally.lateness.*end / l.cell.step) : Value();
     };
@@ -91,21 +91,21 @@ std::vector<Field> errors() {
        [](const HitscanLine& l) { return mean_path_error(l); }},
       {{"path_error_theory", number, "m", "The same by theory."},
        [](const HitscanLine& l) { return l.expected.path_error.mean; }},
-      {{"path_error_max", number, "m", "The largest."}, extreme(&HitscanTally::path_error, &Spread::most)},
+      {{"path_error_max", number, "m", "The largest."}, extreme(&HitscanTally::path_error, &HitscanSpread::most)},
       {{"path_error_bound", number, "m", "The largest possible, by theory."},
        [](const HitscanLine& l) { return l.expected.path_error_most; }},
       {{"point_error_mean", number, "m",
         "From the reported point on the target to the true one, of the true hits it reports; missing if there are none."},
        [](const HitscanLine& l) { return maybe(mean_point_error(l)); }},
-      {{"point_error_max", number, "m", "The largest."}, extreme(&HitscanTally::point_error, &Spread::most)},
+      {{"point_error_max", number, "m", "The largest."}, extreme(&HitscanTally::point_error, &HitscanSpread::most)},
       {{"lateness_mean", number, "step", "From first contact to the report, of the same hits; < 0 is early."},
        [](const HitscanLine& l) { return maybe(mean_lateness(l), l.cell.step); }},
       {{"lateness_theory", number, "step", "The same by theory, of next_frame."},
        [](const HitscanLine& l) {
          return l.expected.lateness ? Value(l.expected.lateness->mean / l.cell.step) : Value();
        }},
-      {{"lateness_min", number, "step", "The earliest report."}, steps(&Spread::least)},
-      {{"lateness_max", number, "step", "The latest."}, steps(&Spread::most)},
+      {{"lateness_min", number, "step", "The earliest report."}, steps(&HitscanSpread::least)},
+      {{"lateness_max", number, "step", "The latest."}, steps(&HitscanSpread::most)},
   };
 }
 

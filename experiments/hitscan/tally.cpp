@@ -14,10 +14,10 @@ namespace {
 
 constexpr int bits = 30;
 
-std::string text(const Spread& s) { return fmt::format("{} {} {:a} {:a}", s.count, s.sum, s.least, s.most); }
+std::string text(const HitscanSpread& s) { return fmt::format("{} {} {:a} {:a}", s.count, s.sum, s.least, s.most); }
 
-Spread read_spread(std::istream& in) {
-  Spread s;
+HitscanSpread read_spread(std::istream& in) {
+  HitscanSpread s;
   std::string least, most;
   in >> s.count >> s.sum >> least >> most;
   s.least = std::strtod(least.c_str(), nullptr);  // streams do not read hexadecimal or infinity
@@ -27,14 +27,14 @@ Spread read_spread(std::istream& in) {
 
 }  // namespace
 
-void add(Spread& spread, double x, double unit) {
+void add(HitscanSpread& spread, double x, double unit) {
   ++spread.count;
   spread.sum += std::llround(std::ldexp(x / unit, bits));
   spread.least = std::min(spread.least, x);
   spread.most = std::max(spread.most, x);
 }
 
-double mean(const Spread& spread, double unit) {
+double mean(const HitscanSpread& spread, double unit) {
   return std::ldexp(static_cast<double>(spread.sum), -bits) * unit / static_cast<double>(spread.count);
 }
 

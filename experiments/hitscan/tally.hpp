@@ -9,25 +9,25 @@
 namespace thinwall {
 
 /// A sum and the extremes of a quantity. The sum is kept in 2^-30 of a unit that the cell sets.
-struct Spread {
+struct HitscanSpread {
   std::int64_t count = 0;
   std::int64_t sum = 0;                                    ///< [2^-30 units]
   double least = std::numeric_limits<double>::infinity();  ///< in its own unit
   double most = -std::numeric_limits<double>::infinity();
-  bool operator==(const Spread&) const = default;
+  bool operator==(const HitscanSpread&) const = default;
 };
 /// |x| <= 2 `unit`, so that 2^30 of them add up without overflow.
-void add(Spread& spread, double x, double unit);
-double mean(const Spread& spread, double unit);  ///< requires count > 0
+void add(HitscanSpread& spread, double x, double unit);
+double mean(const HitscanSpread& spread, double unit);  ///< requires count > 0
 
 struct HitscanTally {
   std::int64_t shots = 0;
   std::int64_t touching = 0;    ///< the bullet truly hits
   std::int64_t missed = 0;      ///< it does, and the rule says no
   std::int64_t false_hits = 0;  ///< it does not, and the rule says so
-  Spread lateness;              ///< [s] from first contact to the report, of the true hits that are reported
-  Spread point_error;           ///< [m] from the reported point on the target to the true one, of the same
-  Spread path_error;  ///< [m] from the rule's path to the arc, where they cross the target's plane; of all shots
+  HitscanSpread lateness;       ///< [s] from first contact to the report, of the true hits that are reported
+  HitscanSpread point_error;    ///< [m] from the reported point on the target to the true one, of the same
+  HitscanSpread path_error;  ///< [m] from the rule's path to the arc, where they cross the target's plane; of all shots
 
   std::int64_t reported() const { return touching - missed + false_hits; }
   bool operator==(const HitscanTally&) const = default;

@@ -26,7 +26,7 @@ double phase_of(const HitscanRule& rule, const HitscanCell& c, int i, int phases
 }
 
 /// Mean and deviation over the phase, uniform over a step.
-Moments over_phases(const HitscanRule& rule, const HitscanCell& c, const std::function<double(double)>& f) {
+HitscanMoments over_phases(const HitscanRule& rule, const HitscanCell& c, const std::function<double(double)>& f) {
   double sum = 0, squares = 0;
   for (int i = 0; i < moment_phases; ++i) {
     const double x = f(phase_of(rule, c, i, moment_phases));
@@ -137,7 +137,7 @@ double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
   return part * fallen(length) - fallen(since);
 }
 
-Moments path_errors(const HitscanRule& rule, const HitscanCell& c) {
+HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c) {
   if (rule.path == FlightPath::line) return {deflection(c), 0};  // the same in every shot
   return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
 }
@@ -155,7 +155,7 @@ double path_error_bound(const HitscanRule& rule, const HitscanCell& c) {
 }
 
 /// [s] Of next_frame: what is left of the step in which the center gets to the target, and how much earlier the ball touches.
-Moments next_frame_lateness(const HitscanCell& c) {
+HitscanMoments next_frame_lateness(const HitscanCell& c) {
   const auto arc = arc_of<double>(c);
   const auto there = at_distance(arc, c.range);
   const double speed = std::hypot(there.vx, there.vs), outer = reach(c);
@@ -169,7 +169,7 @@ Moments next_frame_lateness(const HitscanCell& c) {
     depth += inner / rings;
   }
   const double arrival = flight_time(c) - depth / speed;
-  const Moments rest = over_phases(next_frame, c, [&](double phase) {
+  const HitscanMoments rest = over_phases(next_frame, c, [&](double phase) {
     const FrameAt frame = first_frame(c, phase, arrival, [&](double begins, double since, double length) {
       const auto start = after(arc, begins);
       const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;

@@ -8,19 +8,19 @@
 namespace thinwall {
 
 /// Mean and spread of a quantity from shot to shot.
-struct Moments {
+struct HitscanMoments {
   double mean = 0, sigma = 0;
 };
 
 /// What a rule should count, as shares of the shots, and measure.
 struct HitscanExpected {
-  double touch;                     ///< the bullet truly hits
-  double reported;                  ///< the rule says so
-  double missed;                    ///< the bullet hits, and the rule says no
-  double false_hits;                ///< it does not, and the rule says so
-  Moments path_error;               ///< [m] from the rule's path to the arc at the range
-  double path_error_most;           ///< [m]
-  std::optional<Moments> lateness;  ///< [s], of next_frame
+  double touch;                            ///< the bullet truly hits
+  double reported;                         ///< the rule says so
+  double missed;                           ///< the bullet hits, and the rule says no
+  double false_hits;                       ///< it does not, and the rule says so
+  HitscanMoments path_error;               ///< [m] from the rule's path to the arc at the range
+  double path_error_most;                  ///< [m]
+  std::optional<HitscanMoments> lateness;  ///< [s], of next_frame
 };
 HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c);
 

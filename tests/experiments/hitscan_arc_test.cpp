@@ -1,4 +1,4 @@
-/// The arc of hitscan's bullet: against 50 digits, against its equation of motion, and the oracle against the arc.
+/// The arc of hitscan's bullet: against 100 digits, against its equation of motion, and the oracle against the arc.
 #include <thinwall/experiments/hitscan/arc.hpp>
 
 #include <algorithm>

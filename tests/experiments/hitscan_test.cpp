@@ -167,7 +167,7 @@ TEST(Hitscan, fails_wrong_errors) {
     std::vector<HitscanLine> changed = measured();
     for (HitscanLine& line : changed) change(line);
     const auto tests = moment_tests(changed);
-    return std::all_of(tests.begin(), tests.end(), [](const MomentTest& t) { return t.passed(); });
+    return std::all_of(tests.begin(), tests.end(), [](const HitscanMomentTest& t) { return t.passed(); });
   };
   EXPECT_TRUE(passes_with([](HitscanLine&) {}));
   EXPECT_FALSE(passes_with([](HitscanLine& l) { l.expected.path_error.mean *= 1.05; }));
