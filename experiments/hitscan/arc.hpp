@@ -1,6 +1,6 @@
 #pragma once
-/// The arc of a bullet fired level, with a drag that grows as the speed: dv/dt = -k (v - wind) + gravity. A constant wind
-/// acts as a constant pull k * wind, so gravity and wind add up to one pull `a`, and the arc lies in one plane:
+/// The arc of a bullet fired level, with a drag that grows as the speed: dv/dt = -k (v - wind) + gravity. A constant
+/// wind acts as a constant pull k * wind, so gravity and wind add up to one pull `a`, and the arc lies in one plane:
 ///
 ///   tau = (1 - exp(-k t)) / k,   x = v tau,   s = a (t - tau) / k.
 ///
@@ -33,8 +33,8 @@ template <class Real> Real dragged_time(const Real& drag, const Real& tau) {
   return y < std::numeric_limits<Real>::epsilon() ? tau : Real(-log1p(-y) / drag);
 }
 
-/// [s^2] (t - tau) / k as a function of tau: the deflection of a pull of 1. With y = k tau it is (-log(1 - y) - y) / k^2, a sum of
-/// positive terms tau^2 (1/2 + y/3 + ...), so that it loses no digits where the subtraction would.
+/// [s^2] (t - tau) / k as a function of tau: the deflection of a pull of 1. With y = k tau it is (-log(1 - y) - y) /
+/// k^2, a sum of positive terms tau^2 (1/2 + y/3 + ...), so that it loses no digits where the subtraction would.
 /// Error: a few units of round-off for 0 <= y <= 0.99.
 template <class Real> Real pull_factor(const Real& drag, const Real& tau) {
   using std::log1p;
@@ -44,7 +44,8 @@ template <class Real> Real pull_factor(const Real& drag, const Real& tau) {
   return (-log1p(-y) - y) / (drag * drag);
 }
 
-/// Where the bullet is, and how it moves, after a time or at a distance: along the line of fire, and across, along the pull.
+/// Where the bullet is, and how it moves, after a time or at a distance: along the line of fire, and across, along the
+/// pull.
 template <class Real> struct ArcPoint {
   Real x, s;    ///< [m]
   Real vx, vs;  ///< [m/s]

@@ -62,8 +62,8 @@ struct HitscanWindow {
 };
 HitscanWindow contact_window(const HitscanCell& c);
 
-/// The bounds [s] of the steps from the last but one before the window to the one that ends it. The gun goes off `phase` [1], in
-/// [0, 1), of a step after a frame, so that the first step is shorter. Time counts from there.
+/// The bounds [s] of the steps from the last but one before the window to the one that ends it. The gun goes off
+/// `phase` [1], in [0, 1), of a step after a frame, so that the first step is shorter. Time counts from there.
 std::vector<double> frames_near_target(const HitscanCell& c, double phase);
 
 /// `known_shots` first, then every combination of the settings' factors in which the bullet arrives. Throws UsageError.

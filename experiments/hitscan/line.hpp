@@ -1,5 +1,6 @@
 #pragma once
-/// One line of the results: a cell, a rule, what was counted and measured and what theory expects; and whether the two agree.
+/// One line of the results: a cell, a rule, what was counted and measured and what theory expects; and whether the two
+/// agree.
 
 #include <optional>
 #include <string>
@@ -34,11 +35,12 @@ std::vector<HitscanLine> make_hitscan_lines(const std::vector<HitscanCell>& cell
                                             const std::vector<HitscanRule>& rules,
                                             const std::vector<std::vector<HitscanTally>>& tallies);
 
-/// What is held against theory, as the self-test wants it: `method` is the rule, `scalar` the event, "reported", "missed" or
-/// "false"; the rule "exact arc" is the oracle.
+/// What is held against theory, as the self-test wants it: `method` is the rule, `scalar` the event, "reported",
+/// "missed" or "false"; the rule "exact arc" is the oracle.
 std::vector<CellCount> counts_of(const std::vector<HitscanLine>& lines);
 
-/// A measured quantity of one rule, over all cells, against theory: means by chi-square, extremes by what geometry allows.
+/// A measured quantity of one rule, over all cells, against theory: means by chi-square, extremes by what geometry
+/// allows.
 struct HitscanMomentTest {
   std::string rule, quantity;
   std::int64_t cells = 0;                ///< with a measurement

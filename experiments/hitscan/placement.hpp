@@ -1,6 +1,6 @@
 #pragma once
-/// The shots of a cell: where the target stands, when the gun goes off, and whether and when the bullet truly touches. No rule is
-/// in here.
+/// The shots of a cell: where the target stands, when the gun goes off, and whether and when the bullet truly touches.
+/// No rule is in here.
 
 #include <cstdint>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The rules that the shots are put to: which way the bullet is taken to fly, whether it has a radius, and when a hit is reported.
+/// The rules that the shots are put to: which way the bullet is taken to fly, whether it has a radius, and when a hit
+/// is reported.
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-/// What is counted over the shots of one cell and rule. Every field adds up, or is an extreme, so that the order of the shots
-/// never matters.
+/// What is counted over the shots of one cell and rule. Every field adds up, or is an extreme, so that the order of the
+/// shots never matters.
 
 #include <cstdint>
 #include <limits>

@@ -3,14 +3,9 @@
 
 #include <optional>
 
-#include <thinwall/experiments/hitscan/rules.hpp>
+#include <thinwall/experiments/hitscan/error_theory.hpp>
 
 namespace thinwall {
-
-/// Mean and spread of a quantity from shot to shot.
-struct HitscanMoments {
-  double mean = 0, sigma = 0;
-};
 
 /// What a rule should count, as shares of the shots, and measure.
 struct HitscanExpected {
@@ -28,8 +23,8 @@ HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c);
 double flat_missed(double target, double radius, double deflection);  ///< [1] of the true hits, by hitscan
 double flat_false(double target, double radius, double deflection);   ///< [1] of its hits
 
-/// [m] The range at which hitscan misses that share of the true hits, of a bullet without radius, in the limit of flat fire. The
-/// other factors are the cell's. Nothing where no range does: no pull, or the bullet does not get there.
+/// [m] The range at which hitscan misses that share of the true hits, of a bullet without radius, in the limit of flat
+/// fire. The other factors are the cell's. Nothing where no range does: no pull, or the bullet does not get there.
 std::optional<double> range_of_missed(const HitscanCell& c, double share);
 
 }  // namespace thinwall

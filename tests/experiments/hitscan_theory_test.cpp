@@ -100,8 +100,8 @@ TEST(HitscanTheory, path_errors_without_drag_have_formulas) {
   EXPECT_NEAR(chord.path_error_most, fall / 8, 1e-12 * fall);
 }
 
-/// Two equal discs little apart: what the one has and the other has not is 2 / (pi R) of that distance. Wherever in a step the
-/// target is: few steps are flown.
+/// Two equal discs little apart: what the one has and the other has not is 2 / (pi R) of that distance. Wherever in a
+/// step the target is: few steps are flown.
 TEST(HitscanTheory, steps_miss_by_their_path_error) {
   for (const double range : {50.0, 57.0, 63.0, 77.0, 100.0}) {
     const HitscanCell c = some_shot(range, 1000, 0);
