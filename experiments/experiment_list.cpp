@@ -4,6 +4,7 @@
 
 #include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
+#include <thinwall/experiments/swept_bounds.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
 
 namespace thinwall {
@@ -14,6 +15,7 @@ std::span<const Experiment> experiments() {
       thin_wall_experiment(),
       accuracy_experiment(),
       crossing_bullets_experiment(),
+      swept_bounds_experiment(),
   };
   return list;
 }
