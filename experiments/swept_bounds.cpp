@@ -47,7 +47,7 @@ class SweptBoundsRun final : public Run {
     const std::vector<SelfTest> tests = self_test(counts_of(lines));
     const std::vector<SweepCost> costs = sweep_costs(subjects_, std::span(seconds).subspan(pairs_.size()));
     Outcome outcome = {
-        .answer = sweep_answer(lines, sums),
+        .answer = sweep_answer(lines, sums, plan_.view),
         .summary = sweep_summary(lines, sums, tests, costs, plan_.view),
         .tables = {diagonal_table(lines), shapes_table(sums), sweep_test_table(tests), sweeps_table(lines)},
         .figures = sweep_figures(lines, bounds_, plan_.view),

@@ -57,6 +57,8 @@ struct OrientedBox : OverlapBound {
   static constexpr std::string_view name = "oriented_box";
   static FittedBody body(const Sweep& s) { return oriented_box_body(s); }
   static Obb<double> around(const MovingBox& m) { return swept_volume(m); }
+  /// Of two rectangles that mirror each other rounding picks one: balls are drawn around the one that was picked.
+  static FittedBody drawn_around(const Sweep& s) { return box_around(exact_body(s), swept_volume(moving_box(s)).axes); }
 };
 
 /// Seen from the box the ball moves, and sweeps a capsule: exact, but without a time.
@@ -80,14 +82,22 @@ struct ExactMotion {
 
 template <class Bound, class Motion> constexpr bool serves_motion = requires(const Motion& m) { Bound::around(m); };
 
+/// What the balls of a bound are drawn around.
+template <class Bound> FittedBody drawn_around(const Sweep& s) {
+  if constexpr (requires { Bound::drawn_around(s); }) {
+    return Bound::drawn_around(s);
+  } else {
+    return Bound::body(s);
+  }
+}
+
 /// Tells the optimizer that the value is used, and that all memory may have changed: what comes next is done anew.
 template <class T> void use(const T& value) { asm volatile("" : : "r"(&value) : "memory"); }
 
 template <class Bound, class Motion>
-SweepTally count_all(const Motion& motion, const Sweep& s, const FittedBody& body, const RandomStream& stream,
+SweepTally count_all(const Motion& motion, const Sweep& s, const BallRegion& region, const RandomStream& stream,
                      std::int64_t shots) {
   const auto bound = Bound::around(motion);
-  const BallRegion region = region_around(body, s);
   SweepTally t;
   t.shots = t.grazing = shots;
   for (std::int64_t i = 0; i < shots; ++i) {
@@ -163,7 +173,8 @@ template <class Bound> SweptBound erased() {
       .ask_all =
           [](const Sweep& s, std::uint64_t seed, std::int64_t shots) {
             return ask_shape<Bound, SweepTally>(s, [&](const auto& motion) {
-              return count_all<Bound>(motion, s, Bound::body(s), random_stream(s, seed), shots);
+              return count_all<Bound>(motion, s, region_around(drawn_around<Bound>(s), s), random_stream(s, seed),
+                                      shots);
             });
           },
       .reports =

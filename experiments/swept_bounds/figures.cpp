@@ -27,10 +27,12 @@ bool belongs(Sweep s, const Factor& factor, const Sweep& view) {
   return s == view;
 }
 
+bool drawable(const Sweep& s, const Factor& factor) { return !factor.log || factor.x(s) > 0; }
+
 std::vector<SweepLine> chosen(const std::vector<SweepLine>& lines, const Factor& factor, const Sweep& view) {
   std::vector<SweepLine> result;
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(result),
-               [&](const SweepLine& l) { return belongs(l.sweep, factor, view); });
+               [&](const SweepLine& l) { return drawable(l.sweep, factor) && belongs(l.sweep, factor, view); });
   std::stable_sort(result.begin(), result.end(), [&](const SweepLine& a, const SweepLine& b) {
     return a.sweep.*factor.member < b.sweep.*factor.member;
   });
@@ -75,7 +77,7 @@ std::vector<Panel> panels(const std::vector<SweepLine>& lines, const std::vector
                  [&](const SweepLine& l) { return l.sweep.form == form; });
     if (shown.empty()) continue;
     Panel panel = {.x_label = factor.label,
-                   .y_label = fmt::format("false [1], {}", name(form)),
+                   .y_label = fmt::format("false share [1], {}", name(form)),
                    .log_x = factor.log,
                    .log_y = false,
                    .height = 0.6,
@@ -122,13 +124,13 @@ std::vector<Figure> sweep_figures(const std::vector<SweepLine>& lines, const std
   const std::string balls = fmt::format("among balls of {:g} widths", view.obstacle);
   const std::string moves = fmt::format("a path of {:.3g} widths", path_in_widths(view));
   std::vector<Figure> figures = {
-      {"false_hits", "False hits of swept bounds, against the path: counted, and Steiner's formula",
+      {"false_hits", "False hits against the path: points counted, lines by Steiner's formula",
        fmt::format("{}Motion {}, {}.", how, motion_text(view), balls), panels(chosen(lines, path, view), bounds, path)},
-      {"direction", "False hits of swept bounds, against the direction",
+      {"direction", "False hits against the direction: points counted, lines by theory",
        fmt::format("{}Motion turned by {:g} degrees: 54.7 is then the space diagonal if that is 45. At {}, {}.", how,
                    turned_view.turn_deg, moves, balls),
        panels(chosen(lines, angle, turned_view), bounds, angle)},
-      {"obstacle", "False hits of swept bounds, against the size of what is hit",
+      {"obstacle", "False hits against the size of what is hit: points counted, lines by theory",
        fmt::format("{}Motion {}, {}.", how, motion_text(view), moves),
        panels(chosen(lines, obstacle, view), bounds, obstacle)}};
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });

@@ -28,7 +28,8 @@ std::vector<SweepPair> serving_pairs(const std::vector<Sweep>& sweeps, const std
 }
 
 SweepLine make_line(const SweepPair& pair, const SweepTally& tally) {
-  return {pair.sweep, pair.bound->name, sweep_theory(pair.bound->body(pair.sweep), pair.sweep), tally};
+  return {pair.sweep, pair.bound->name, pair.bound->makes_volume,
+          sweep_theory(pair.bound->body(pair.sweep), pair.sweep), tally};
 }
 
 std::optional<double> false_fraction(const SweepTally& tally) {

@@ -20,6 +20,7 @@ std::vector<SweepPair> serving_pairs(const std::vector<Sweep>& sweeps, const std
 struct SweepLine {
   Sweep sweep;
   std::string bound;
+  bool is_volume;  ///< not a question to the moving shape itself
   SweepTheory theory;
   SweepTally tally;
 };

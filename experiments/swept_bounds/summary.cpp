@@ -16,15 +16,31 @@ std::string spoken(std::string text) {
   return text;
 }
 
-/// "Of what its enclosing sphere reports, 92.1 % is false (theory 92.0 %), of its capsule's 0.0 % (0.0 %)".
+/// "enclosing sphere 85.8 % (theory 85.9 %), capsule 0.0 % (theory 0.0 %)", of the bounds that are volumes.
 std::string diagonal_answer(const std::vector<SweepLine>& lines, const Sweep& diagonal) {
   std::string text;
   for (const SweepLine& l : lines) {
-    if (l.sweep != diagonal || !false_fraction(l.tally)) continue;
-    text += fmt::format("{} {} {} (theory {})", text.empty() ? "" : ",", spoken(l.bound),
+    if (l.sweep != diagonal || !l.is_volume || l.tally.reported == 0) continue;
+    text += fmt::format("{}{} {} (theory {})", text.empty() ? "" : ", ", spoken(l.bound),
                         percent(false_fraction(l.tally)), percent(l.theory.false_fraction));
   }
   return text;
+}
+
+/// "1.9 widths (cube), 1.0 (plate)", in the direction of the view.
+std::string turning_answer(const std::vector<SweepTotal>& totals, Sweep view) {
+  std::string text;
+  for (const SweepTotal& t : totals) {
+    if (t.bound != "oriented_box") continue;
+    view.form = t.form;
+    const std::optional<double> widths = path_to_turn_for(view);
+    if (widths) text += fmt::format("{}{:.2f} ({})", text.empty() ? "" : ", ", *widths, name(t.form));
+  }
+  if (text.empty()) return "";
+  return fmt::format(
+      "At {:g} degrees from x, turned by {:g}, the oriented box makes fewer false hits than the enclosing "
+      "one on paths longer than, in widths, {}, and more on shorter ones. ",
+      view.angle_deg, view.turn_deg, text);
 }
 
 std::string row(const SweepLine& l) {
@@ -45,8 +61,8 @@ std::string row(const SweepTotal& t) {
 std::string row(const SweepCost& c) {
   return fmt::format("{:<7} {:<17} {:>8} {:>8} {:>8.1f} {:>8.1f} {:>8} {:>8.1f} {:>8.1f} {:>6.1f}-{:.1f}\n",
                      name(c.sweep.form), c.bound, percent(c.reported), percent(c.false_hits), c.build_ns, c.test_ns,
-                     c.false_ns ? fmt::format("{:.1f}", *c.false_ns) : "-", c.wasted_ns(), c.pair_ns, c.pair_least_ns,
-                     c.pair_most_ns);
+                     c.false_ns ? fmt::format("{:.1f}", *c.false_ns) : "-", c.wasted_ns(), c.pair_ns, c.pair_lower_ns,
+                     c.pair_upper_ns);
 }
 
 std::string counts_text(const std::vector<SelfTest>& tests) {
@@ -66,14 +82,14 @@ std::string counts_text(const std::vector<SelfTest>& tests) {
 
 }  // namespace
 
-std::string sweep_answer(const std::vector<SweepLine>& lines, const std::vector<SweepTotal>& totals) {
+std::string sweep_answer(const std::vector<SweepLine>& lines, const std::vector<SweepTotal>& totals,
+                         const Sweep& view) {
   std::string text;
   for (const Sweep& diagonal : diagonals) {
     const std::string shares = diagonal_answer(lines, diagonal);
     if (shares.empty()) continue;
     text += fmt::format(
-        "A {} that moves {:.2f} widths along a diagonal among balls as wide: of the hits reported, so many "
-        "are false:{}. ",
+        "Of what is reported when a {} moves {:.2f} widths along a diagonal among balls as wide, false are: {}. ",
         name(diagonal.form), path_in_widths(diagonal), shares);
   }
   std::int64_t missed = 0, touched = 0;
@@ -81,7 +97,7 @@ std::string sweep_answer(const std::vector<SweepLine>& lines, const std::vector<
     missed += t.tally.missed;
     touched += t.tally.touching + t.tally.grazing;
   }
-  return text +
+  return text + turning_answer(totals, view) +
          fmt::format("Of {} balls that are touched the bounds miss {}.", grouped_text(touched), grouped_text(missed));
 }
 
@@ -105,7 +121,7 @@ std::string sweep_summary(const std::vector<SweepLine>& lines, const std::vector
   if (!costs.empty()) {
     text += fmt::format(
         "\nTimes at {:g} m/s, {:g} degrees from x, in ns, among pairs whose swept boxes overlap. Wasted: on false\n"
-        "hits, a pair. Pair: the bound, then the closed form on what it reports; median, least-most.\n"
+        "hits, a pair. Pair: the bound, then the closed form on what it reports; median, quartiles.\n"
         "{:<7} {:<17} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>11}\n",
         view.speed, view.angle_deg, "shape", "bound", "reported", "false", "build", "test", "a false", "wasted", "pair",
         "");

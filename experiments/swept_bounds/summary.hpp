@@ -10,7 +10,7 @@
 namespace thinwall {
 
 /// Counts alone: the same on every run.
-std::string sweep_answer(const std::vector<SweepLine>& lines, const std::vector<SweepTotal>& totals);
+std::string sweep_answer(const std::vector<SweepLine>& lines, const std::vector<SweepTotal>& totals, const Sweep& view);
 
 /// Counts, and what was timed at the view's speed.
 std::string sweep_summary(const std::vector<SweepLine>& lines, const std::vector<SweepTotal>& totals,

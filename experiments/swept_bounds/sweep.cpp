@@ -10,8 +10,6 @@ namespace thinwall {
 
 namespace {
 
-constexpr double least_path = 1e-3, longest_path = 1e4;  // [widths]
-
 /// Exact at the ends, where a sine or cosine would not be.
 double cosine(double deg) { return deg == 90 ? 0 : std::cos(deg * (std::numbers::pi / 180)); }
 double sine(double deg) { return deg == 90 ? 1 : std::sin(deg * (std::numbers::pi / 180)); }
@@ -89,7 +87,7 @@ SweepPlan make_sweeps(const Settings& settings) {
   const std::vector<SweptForm> forms = chosen_forms(settings);
   const auto speeds = settings.numbers("speed", {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"});
   const double step = settings.number("step", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"});
-  const double width = settings.number("width", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "m"});
+  const double width = settings.number("width", {.lower = 1e-9, .upper = 1e3, .unit = "m"});  // its cube is a double
   const auto angles = settings.numbers("angle_deg", {.lower = 0, .upper = 90, .unit = "deg"});
   const auto turns = settings.numbers("turn_deg", {.lower = 0, .upper = 90, .unit = "deg"});
   const auto obstacles = settings.numbers("obstacle", {.lower = 0, .upper = 1000, .unit = "widths"});

@@ -38,6 +38,8 @@ bool is_diagonal(const Sweep& s);
 
 std::string key(const Sweep& s);  ///< one line, for people and the journal
 
+inline constexpr double least_path = 1e-3, longest_path = 1e4;  ///< [widths]
+
 double path_in_widths(const Sweep& s);               ///< [1] speed * step / width
 double ball_radius(const Sweep& s);                  ///< [m] of the balls at rest
 Vec3<double> half_extents(const Sweep& s);           ///< [m] of the moving shape

@@ -1,6 +1,6 @@
 #include <thinwall/experiments/swept_bounds/theory.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace thinwall {
@@ -72,11 +72,15 @@ FittedBody enclosing_aabb_body(const Sweep& s) {
 
 FittedBody capsule_body(const Sweep& s) { return {{{path(s)}, radius_around(s)}, fitted_axes(s)}; }
 
+FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes) {
+  Vec3<double> half;
+  for (int i = 0; i < 3; ++i) half[i] = half_width(exact.body, axes.col(i));
+  return {{edges(half, axes), 0}, axes};
+}
+
 FittedBody oriented_box_body(const Sweep& s) {
   const FittedBody exact = exact_body(s);
-  const Vec3<double> half(half_width(exact.body, exact.axes.col(0)), half_width(exact.body, exact.axes.col(1)),
-                          half_width(exact.body, exact.axes.col(2)));
-  return {{edges(half, exact.axes), 0}, exact.axes};
+  return box_around(exact, exact.axes);
 }
 
 double volume(const BallRegion& region) { return 8 * region.half_extents.prod(); }
@@ -97,6 +101,22 @@ SweepTheory sweep_theory(const FittedBody& bound, const Sweep& s) {
           .false_hits = false_volume / drawn,
           .false_fraction = false_volume / of_bound,
           .empty = rest(volume(bound.body), volume(exact)) / volume(bound.body)};
+}
+
+std::optional<double> path_to_turn_for(const Sweep& s) {
+  const auto pays = [&](double widths) {
+    Sweep at = s;
+    at.speed = widths * s.width / s.step;
+    return sweep_theory(oriented_box_body(at), at).false_fraction <
+           sweep_theory(enclosing_aabb_body(at), at).false_fraction;
+  };
+  double shorter = least_path, longer = longest_path;
+  if (s.form == SweptForm::sphere || pays(shorter) || !pays(longer)) return std::nullopt;
+  for (int i = 0; i < 64; ++i) {
+    const double middle = std::sqrt(shorter * longer);
+    (pays(middle) ? longer : shorter) = middle;
+  }
+  return longer;
 }
 
 }  // namespace thinwall

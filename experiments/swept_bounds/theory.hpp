@@ -2,6 +2,8 @@
 /// What geometry expects of a bound: how large it is, and how much of it is never touched. Derived in docs/swept_bounds.md;
 /// shares no code with the library's bounds.
 
+#include <optional>
+
 #include <thinwall/experiments/swept_bounds/steiner.hpp>
 #include <thinwall/experiments/swept_bounds/sweep.hpp>
 
@@ -18,6 +20,7 @@ FittedBody enclosing_sphere_body(const Sweep& s);  ///< the ball around the ball
 FittedBody enclosing_aabb_body(const Sweep& s);    ///< the box along x, y, z around both ends
 FittedBody capsule_body(const Sweep& s);           ///< what the ball around the shape sweeps
 FittedBody oriented_box_body(const Sweep& s);      ///< the least box with an axis along the motion; of box shapes
+FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes);  ///< the least with these axes
 
 /// A box that balls are drawn from.
 struct BallRegion {
@@ -40,5 +43,9 @@ struct SweepTheory {
   double reported() const { return touching + false_hits; }
 };
 SweepTheory sweep_theory(const FittedBody& bound, const Sweep& s);
+
+/// [widths] The path from which the oriented box makes fewer false hits than the box along x, y, z, if there is one: its
+/// speed left aside, the cell is kept. Shorter paths do not pay for turning the box into the motion.
+std::optional<double> path_to_turn_for(const Sweep& s);
 
 }  // namespace thinwall

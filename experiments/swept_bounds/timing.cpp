@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array works = {TimedWork::build, TimedWork::test, TimedWork::exact, TimedWork::pipeline};
 constexpr std::array work_names = {"build", "test", "exact", "pipeline"};
-constexpr int balls_in_question = 2048, tests_a_round = 1 << 16;
+constexpr int balls_in_question = 2048, tests_a_round = 1 << 13;
 
 /// Where the centers of balls are whose bounding box overlaps that of the swept shape.
 BallRegion box_pairs(const Sweep& s) {
@@ -23,21 +23,24 @@ BallRegion box_pairs(const Sweep& s) {
 
 double share(std::size_t part, std::size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return (values[(n - 1) / 2] + values[n / 2]) / 2;
+/// The value below which `part` of the rounds lie, straight between neighbors.
+double quantile(std::vector<double> rounds, double part) {
+  std::sort(rounds.begin(), rounds.end());
+  const double place = part * static_cast<double>(rounds.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, rounds.size() - 1);
+  return rounds[below] + (rounds[above] - rounds[below]) * (place - static_cast<double>(below));
 }
 
 void note(SweepCost& cost, TimedWork work, const std::vector<double>& rounds) {
   switch (work) {
-    case TimedWork::build: cost.build_ns = median(rounds); break;
-    case TimedWork::test: cost.test_ns = median(rounds); break;
-    case TimedWork::exact: cost.false_ns = median(rounds); break;
+    case TimedWork::build: cost.build_ns = quantile(rounds, 0.5); break;
+    case TimedWork::test: cost.test_ns = quantile(rounds, 0.5); break;
+    case TimedWork::exact: cost.false_ns = quantile(rounds, 0.5); break;
     case TimedWork::pipeline:
-      cost.pair_ns = median(rounds);
-      cost.pair_least_ns = *std::min_element(rounds.begin(), rounds.end());
-      cost.pair_most_ns = *std::max_element(rounds.begin(), rounds.end());
+      cost.pair_ns = quantile(rounds, 0.5);
+      cost.pair_lower_ns = quantile(rounds, 0.25);
+      cost.pair_upper_ns = quantile(rounds, 0.75);
       break;
   }
 }
@@ -118,13 +121,13 @@ Table sweep_timings_table(const std::vector<SweepCost>& costs) {
       {"false_ns", number, "ns", "Time of the closed form on one of its false hits; missing if there are none."},
       {"wasted_ns", number, "ns", "false_hits * false_ns: time a pair that false hits cost."},
       {"pair_ns", number, "ns", "Time a pair, the bound first and then the closed form on those reported."},
-      {"pair_least_ns", number, "ns", "The least of all rounds."},
-      {"pair_most_ns", number, "ns", "The most of all rounds."},
+      {"pair_lower_ns", number, "ns", "Lower quartile of the rounds."},
+      {"pair_upper_ns", number, "ns", "Upper quartile of them."},
   };
   for (const SweepCost& c : costs) {
     table.rows.push_back({std::string(name(c.sweep.form)), c.sweep.speed, path_in_widths(c.sweep), c.bound, c.reported,
                           c.false_hits, c.build_ns, c.test_ns, c.false_ns ? Value(*c.false_ns) : Value(), c.wasted_ns(),
-                          c.pair_ns, c.pair_least_ns, c.pair_most_ns});
+                          c.pair_ns, c.pair_lower_ns, c.pair_upper_ns});
   }
   return table;
 }

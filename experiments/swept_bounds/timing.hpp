@@ -38,9 +38,9 @@ struct SweepCost {
   std::string bound;
   double reported, false_hits;  ///< [1] shares of the pairs in question
   double build_ns = 0, test_ns = 0;
-  std::optional<double> false_ns;              ///< the closed form on one of its false hits, if it makes any
-  double pair_ns = 0;                          ///< the bound on a pair, then the closed form if reported
-  double pair_least_ns = 0, pair_most_ns = 0;  ///< of all rounds
+  std::optional<double> false_ns;               ///< the closed form on one of its false hits, if it makes any
+  double pair_ns = 0;                           ///< the bound on a pair, then the closed form if reported
+  double pair_lower_ns = 0, pair_upper_ns = 0;  ///< quartiles of the rounds
 
   /// Time spent on false hits, a pair in question.
   double wasted_ns() const { return false_hits * false_ns.value_or(0); }
