@@ -108,7 +108,7 @@ SweepTally count_all(const Motion& motion, const Sweep& s, const BallRegion& reg
     t.reported += reported ? 1 : 0;
     t.false_hits += reported && !touched ? 1 : 0;
     t.missed += touched && !reported ? 1 : 0;
-    t.missed += Bound::reports(bound, grazing_ball(s, stream, trial)) ? 0 : 1;
+    t.missed += Bound::reports(bound, grazing_ball(s, region.axes, stream, trial)) ? 0 : 1;
   }
   return t;
 }

@@ -73,6 +73,25 @@ Real least_squared(const SquaredDistance& f) {
   return least;
 }
 
+Vec3<double> uniform_direction(const RandomStream& stream, std::uint64_t trial) {
+  for (std::uint64_t draw = 2;; ++draw) {
+    const RandomWords words = random_words(stream, trial, draw);
+    const Vec3<double> v(both_signs(words[0]), both_signs(words[1]), both_signs(words[2]));
+    const double squared = v.squaredNorm();
+    if (0 < squared && squared <= 1) return v / std::sqrt(squared);
+  }
+}
+
+/// Every fourth along an axis, every fourth to a corner, the others anywhere.
+Vec3<double> outward_direction(const Vec3<double>& corner, const Mat3<double>& axes, const RandomStream& stream,
+                               std::uint64_t trial) {
+  const RandomWords words = random_words(stream, trial, 1);
+  const auto sign = [&](std::size_t i) { return words[i] >> 63 != 0 ? 1.0 : -1.0; };
+  if (trial % 4 == 0) return axes.col(static_cast<int>(3 * uniform(words[3]))) * sign(0);
+  if (trial % 4 == 1) return Vec3<double>(corner[0] * sign(0), corner[1] * sign(1), corner[2] * sign(2)).normalized();
+  return uniform_direction(stream, trial);
+}
+
 }  // namespace
 
 Sphere<double> ball_in(const BallRegion& region, const Sweep& s, const RandomStream& stream, std::uint64_t trial) {
@@ -81,25 +100,16 @@ Sphere<double> ball_in(const BallRegion& region, const Sweep& s, const RandomStr
   return {region.middle + region.axes * place.cwiseProduct(region.half_extents), ball_radius(s)};
 }
 
-Sphere<double> grazing_ball(const Sweep& s, const RandomStream& stream, std::uint64_t trial) {
+Sphere<double> grazing_ball(const Sweep& s, const Mat3<double>& axes, const RandomStream& stream, std::uint64_t trial) {
   constexpr double inward = 0x1p-20;
-  const Vec3<double> half_path = path(s) / 2;
-  for (std::uint64_t draw = 1;; ++draw) {
-    const RandomWords words = random_words(stream, trial, draw);
-    const Vec3<double> v(both_signs(words[0]), both_signs(words[1]), both_signs(words[2]));
-    const double squared = v.squaredNorm();
-    if (squared > 1 || squared == 0) continue;
-    const Vec3<double> outward = v / std::sqrt(squared);
-    Vec3<double> reach = half_path.dot(outward) < 0 ? Vec3<double>(-half_path) : half_path;
-    double radius = ball_radius(s);
-    if (s.form == SweptForm::sphere) {
-      radius += s.width / 2;
-    } else {
-      const Vec3<double> half = half_extents(s);
-      for (int i = 0; i < 3; ++i) reach[i] += outward[i] < 0 ? -half[i] : half[i];
-    }
-    return {half_path + (reach + outward * radius) * (1 - inward), ball_radius(s)};
-  }
+  const bool is_box = s.form != SweptForm::sphere;
+  const Vec3<double> half = half_extents(s), half_path = path(s) / 2;
+  const Vec3<double> outward = outward_direction(is_box ? half : Vec3<double>::Ones(), axes, stream, trial);
+  Vec3<double> reach = half_path.dot(outward) < 0 ? Vec3<double>(-half_path) : half_path;
+  double radius = ball_radius(s);
+  if (!is_box) radius += s.width / 2;
+  for (int i = 0; is_box && i < 3; ++i) reach[i] += outward[i] < 0 ? -half[i] : half[i];
+  return {half_path + (reach + outward * radius) * (1 - inward), ball_radius(s)};
 }
 
 long double least_distance(const Sweep& s, const Vec3<double>& center) {

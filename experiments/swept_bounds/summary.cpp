@@ -59,10 +59,11 @@ std::string row(const SweepTotal& t) {
 }
 
 std::string row(const SweepCost& c) {
-  return fmt::format("{:<7} {:<17} {:>8} {:>8} {:>8.1f} {:>8.1f} {:>8} {:>8.1f} {:>8.1f} {:>6.1f}-{:.1f}\n",
-                     name(c.sweep.form), c.bound, percent(c.reported), percent(c.false_hits), c.build_ns, c.test_ns,
-                     c.false_ns ? fmt::format("{:.1f}", *c.false_ns) : "-", c.wasted_ns(), c.pair_ns, c.pair_lower_ns,
-                     c.pair_upper_ns);
+  const auto ns = [](double time) { return fmt::format("{:.3g}", time); };
+  return fmt::format("{:<7} {:<17} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6}-{}\n", name(c.sweep.form), c.bound,
+                     percent(c.reported), percent(c.false_hits), ns(c.build_ns), ns(c.test_ns),
+                     c.false_ns ? ns(*c.false_ns) : "-", ns(c.wasted_ns()), ns(c.pair_ns), ns(c.pair_lower_ns),
+                     ns(c.pair_upper_ns));
 }
 
 std::string counts_text(const std::vector<SelfTest>& tests) {
@@ -122,9 +123,9 @@ std::string sweep_summary(const std::vector<SweepLine>& lines, const std::vector
     text += fmt::format(
         "\nTimes at {:g} m/s, {:g} degrees from x, in ns, among pairs whose swept boxes overlap. Wasted: on false\n"
         "hits, a pair. Pair: the bound, then the closed form on what it reports; median, quartiles.\n"
-        "{:<7} {:<17} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>11}\n",
-        view.speed, view.angle_deg, "shape", "bound", "reported", "false", "build", "test", "a false", "wasted", "pair",
-        "");
+        "{:<7} {:<17} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
+        view.speed, view.angle_deg, "shape", "bound", "reported", "false", "build", "test", "a false", "wasted",
+        "pair");
   }
   for (const SweepCost& cost : costs) {
     if (cost.sweep.speed == view.speed) text += row(cost);

@@ -65,6 +65,8 @@ std::vector<Field> verdicts() {
        [](const SweepLine& l) { return false_bar(l, &Interval::upper); }},
       {{"false_theory", number, "1", "The same by Steiner's formula."},
        [](const SweepLine& l) { return l.theory.false_fraction; }},
+      {{"wasted_tests", number, "1", "False hits for each true one, by theory: exact tests that find nothing."},
+       [](const SweepLine& l) { return l.theory.false_hits / l.theory.touching; }},
       {{"empty", number, "1", "Share of the bound's own volume that is not swept."},
        [](const SweepLine& l) { return l.theory.empty; }},
       {{"grazing", integer, "1", "More balls, which just touch."}, [](const SweepLine& l) { return l.tally.grazing; }},
