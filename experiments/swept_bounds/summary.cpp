@@ -139,8 +139,8 @@ std::vector<Section> sweep_sections(const std::vector<SelfTest>& tests) {
        "A ball or a box moves straight through one step, past balls at rest. A bound of what it sweeps reports the balls it "
        "overlaps; each report costs an exact test. A false hit is a ball that is reported and that the shape does not touch at "
        "any time of the step.\n\nThe centers of the balls are uniform over a box around the bound, a tenth wider than need be. As "
-       "many more balls are put where they just touch the swept volume, in directions uniform over the sphere: a bound that is too "
-       "small anywhere misses some of them."},
+       "many more balls are put where they just touch the swept volume: in directions uniform over the sphere, along the bound's axes and "
+       "towards corners, where a bound can be tight. A bound that is too small there misses them."},
       {"Oracle",
        "The moving shape touches a ball if the least distance of the ball's center from it, over the step, is at most the ball's "
        "radius. That distance is found in long double, from the pieces of its derivative; no query of the library takes part."},

@@ -45,6 +45,9 @@ TEST(SweptBoundsConfig, draws_what_is_nearest_to_the_diagonal) {
   EXPECT_EQ(plan.view.speed, 8);
   EXPECT_EQ(plan.view.angle_deg, 40);
   EXPECT_EQ(plan.view.obstacle, 0);
+  const SweepPlan along_x =
+      make_sweeps(Settings("angle_deg = [0]\nturn_deg = [45]", "test.toml", experiment.default_toml));
+  EXPECT_EQ(along_x.view.turn_deg, 0);  // what goes along x is turned by nothing
 }
 
 TEST(SweptBoundsConfig, every_row_is_as_long_as_its_columns_and_every_column_is_described) {
@@ -84,7 +87,7 @@ TEST(SweptBoundsConfig, times_are_medians_over_the_rounds) {
   const auto subjects = timed_subjects({diagonals[1]}, bounds, 1);
   ASSERT_EQ(subjects.size(), 4U);
   std::vector<double> seconds;
-  for (const double round : {3.0, 1.0, 9.0}) {
+  for (const double round : {9.0, 1.0, 3.0}) {
     for (const TimedSubject& t : subjects) seconds.push_back(1e-9 * round * static_cast<double>(t.tests()));
   }
   const std::vector<SweepCost> costs = sweep_costs(subjects, seconds);
