@@ -5,6 +5,7 @@
 #include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
 #include <thinwall/experiments/hitscan.hpp>
+#include <thinwall/experiments/swept_bounds.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
 #include <thinwall/experiments/work_precision.hpp>
 
@@ -13,8 +14,9 @@ namespace thinwall {
 std::span<const Experiment> experiments() {
   // A new experiment is a line here: one that registered itself could be dropped by the linker.
   static const std::array list = {
-      thin_wall_experiment(),      accuracy_experiment(), crossing_bullets_experiment(),
-      work_precision_experiment(), hitscan_experiment(),
+      thin_wall_experiment(),      accuracy_experiment(),         crossing_bullets_experiment(),
+      work_precision_experiment(), hitscan_experiment(),          thin_wall_experiment(),
+      accuracy_experiment(),       crossing_bullets_experiment(), swept_bounds_experiment(),
   };
   return list;
 }

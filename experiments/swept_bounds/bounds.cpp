@@ -1,0 +1,209 @@
+#include <thinwall/experiments/swept_bounds/bounds.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include <thinwall/capsule/capsule.hpp>
+#include <thinwall/discrete/obb.hpp>
+#include <thinwall/swept/swept_volume.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Ball = Sphere<double>;
+using MovingBall = Moving<Ball>;
+using MovingBox = Moving<Aabb<double>>;
+
+MovingBall ball_around(const MovingBox& m) { return {{m.shape.center, m.shape.half_extents.norm()}, m.displacement}; }
+
+template <Shape A> bool meet_in_the_step(const Moving<A>& moving, const Ball& ball) {
+  const ToiStatus status = time_of_impact(moving, at_rest(ball)).status;
+  return status == ToiStatus::hit || status == ToiStatus::overlapping;
+}
+
+/// What every bound but the last two does: make a volume, and ask whether it overlaps the ball.
+struct OverlapBound {
+  static constexpr bool makes_volume = true;
+  template <Shape Volume> static bool reports(const Volume& volume, const Ball& ball) { return overlaps(volume, ball); }
+};
+
+struct EnclosingSphere : OverlapBound {
+  static constexpr std::string_view name = "enclosing_sphere";
+  static FittedBody body(const Sweep& s) { return enclosing_sphere_body(s); }
+  static Ball around(const MovingBall& m) { return enclosing_sphere(m); }
+  static Ball around(const MovingBox& m) { return enclosing_sphere(ball_around(m)); }
+};
+
+struct EnclosingAabb : OverlapBound {
+  static constexpr std::string_view name = "enclosing_aabb";
+  static FittedBody body(const Sweep& s) { return enclosing_aabb_body(s); }
+  static Aabb<double> around(const MovingBall& m) { return swept_bounds(m); }
+  static Aabb<double> around(const MovingBox& m) { return enclosing_aabb(m); }
+};
+
+struct SweptCapsule : OverlapBound {
+  static constexpr std::string_view name = "capsule";
+  static FittedBody body(const Sweep& s) { return capsule_body(s); }
+  static Capsule<double> around(const MovingBall& m) { return swept_volume(m); }
+  static Capsule<double> around(const MovingBox& m) { return swept_volume(ball_around(m)); }
+};
+
+struct OrientedBox : OverlapBound {
+  static constexpr std::string_view name = "oriented_box";
+  static FittedBody body(const Sweep& s) { return oriented_box_body(s); }
+  static Obb<double> around(const MovingBox& m) { return swept_volume(m); }
+  /// Of two rectangles that mirror each other rounding picks one: balls are drawn around the one that was picked.
+  static FittedBody drawn_around(const Sweep& s) { return box_around(exact_body(s), swept_volume(moving_box(s)).axes); }
+};
+
+/// Seen from the box the ball moves, and sweeps a capsule: exact, but without a time.
+struct RelativeCapsule {
+  static constexpr std::string_view name = "relative_capsule";
+  static constexpr bool makes_volume = false;
+  static FittedBody body(const Sweep& s) { return exact_body(s); }
+  static MovingBox around(const MovingBox& m) { return m; }
+  static bool reports(const MovingBox& m, const Ball& ball) {
+    return overlaps(swept_volume(MovingBall{ball, -m.displacement}), m.shape);
+  }
+};
+
+struct ExactMotion {
+  static constexpr std::string_view name = "closed_form";
+  static constexpr bool makes_volume = false;
+  static FittedBody body(const Sweep& s) { return exact_body(s); }
+  template <Shape A> static Moving<A> around(const Moving<A>& m) { return m; }
+  template <Shape A> static bool reports(const Moving<A>& m, const Ball& ball) { return meet_in_the_step(m, ball); }
+};
+
+template <class Bound, class Motion> constexpr bool serves_motion = requires(const Motion& m) { Bound::around(m); };
+
+/// What the balls of a bound are drawn around.
+template <class Bound> FittedBody drawn_around(const Sweep& s) {
+  if constexpr (requires { Bound::drawn_around(s); }) {
+    return Bound::drawn_around(s);
+  } else {
+    return Bound::body(s);
+  }
+}
+
+/// Tells the optimizer that the value is used, and that all memory may have changed: what comes next is done anew.
+template <class T> void use(const T& value) { asm volatile("" : : "r"(&value) : "memory"); }
+
+template <class Bound, class Motion>
+SweepTally count_all(const Motion& motion, const Sweep& s, const BallRegion& region, const RandomStream& stream,
+                     std::int64_t shots) {
+  const auto bound = Bound::around(motion);
+  SweepTally t;
+  t.shots = t.grazing = shots;
+  for (std::int64_t i = 0; i < shots; ++i) {
+    const auto trial = static_cast<std::uint64_t>(i);
+    const Ball ball = ball_in(region, s, stream, trial);
+    const bool touched = touches(s, ball.center), reported = Bound::reports(bound, ball);
+    t.touching += touched ? 1 : 0;
+    t.reported += reported ? 1 : 0;
+    t.false_hits += reported && !touched ? 1 : 0;
+    t.missed += touched && !reported ? 1 : 0;
+    t.missed += Bound::reports(bound, grazing_ball(s, region.axes, stream, trial)) ? 0 : 1;
+  }
+  return t;
+}
+
+/// How many of the balls `answers` is true of, over all passes.
+template <class Answers> std::int64_t go_through(std::span<const Ball> balls, int passes, const Answers& answers) {
+  std::int64_t count = 0;
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const Ball& ball : balls) count += answers(ball) ? 1 : 0;
+    use(balls);
+  }
+  return count;
+}
+
+template <class Bound, class Motion>
+std::int64_t repeat_work(TimedWork work, const Motion& motion, std::span<const Ball> balls, int passes) {
+  const auto bound = Bound::around(motion);
+  use(motion);
+  use(bound);
+  const auto build = [&](const Ball&) {
+    use(Bound::around(motion));
+    return true;
+  };
+  const auto test = [&](const Ball& ball) { return Bound::reports(bound, ball); };
+  const auto exact = [&](const Ball& ball) { return meet_in_the_step(motion, ball); };
+  const auto pipeline = [&](const Ball& ball) { return test(ball) && exact(ball); };
+  if (work == TimedWork::build) return go_through(balls, passes, build);
+  if (work == TimedWork::exact) return go_through(balls, passes, exact);
+  if (work == TimedWork::test || std::is_same_v<Bound, ExactMotion>) return go_through(balls, passes, test);
+  return go_through(balls, passes, pipeline);
+}
+
+template <class Visit> void for_each_bound(const Visit& visit) {
+  visit(EnclosingSphere{});
+  visit(EnclosingAabb{});
+  visit(SweptCapsule{});
+  visit(OrientedBox{});
+  visit(RelativeCapsule{});
+  visit(ExactMotion{});
+}
+
+/// Calls `ask` with the moving shape, which the bound serves.
+template <class Bound, class Result, class Ask> Result ask_shape(const Sweep& s, const Ask& ask) {
+  return with_shape(s, [&]<class Motion>(const Motion& motion) -> Result {
+    if constexpr (serves_motion<Bound, Motion>) {
+      return ask(motion);
+    } else {
+      throw std::logic_error(fmt::format("{} does not serve a {}", Bound::name, thinwall::name(s.form)));
+    }
+  });
+}
+
+template <class Bound> SweptBound erased() {
+  return {
+      .name = std::string(Bound::name),
+      .makes_volume = Bound::makes_volume,
+      .serves =
+          [](SweptForm form) {
+            return form == SweptForm::sphere ? serves_motion<Bound, MovingBall> : serves_motion<Bound, MovingBox>;
+          },
+      .body = Bound::body,
+      .ask_all =
+          [](const Sweep& s, std::uint64_t seed, std::int64_t shots) {
+            return ask_shape<Bound, SweepTally>(s, [&](const auto& motion) {
+              return count_all<Bound>(motion, s, region_around(drawn_around<Bound>(s), s), random_stream(s, seed),
+                                      shots);
+            });
+          },
+      .reports =
+          [](const Sweep& s, const Ball& ball) {
+            return ask_shape<Bound, bool>(
+                s, [&](const auto& motion) { return Bound::reports(Bound::around(motion), ball); });
+          },
+      .repeat =
+          [](TimedWork work, const Sweep& s, std::span<const Ball> balls, int passes) {
+            return ask_shape<Bound, std::int64_t>(
+                s, [&](const auto& motion) { return repeat_work<Bound>(work, motion, balls, passes); });
+          },
+  };
+}
+
+}  // namespace
+
+std::vector<std::string_view> swept_bound_names() {
+  std::vector<std::string_view> names;
+  for_each_bound([&](const auto& bound) { names.push_back(bound.name); });
+  return names;
+}
+
+std::vector<SweptBound> swept_bounds_named(std::span<const std::string> names) {
+  std::vector<SweptBound> all;
+  for_each_bound([&]<class Bound>(const Bound&) {
+    if (std::find(names.begin(), names.end(), Bound::name) != names.end()) all.push_back(erased<Bound>());
+  });
+  return all;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,122 @@
+#include <thinwall/experiments/swept_bounds/theory.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace thinwall {
+
+namespace {
+
+std::vector<Vec3<double>> edges(const Vec3<double>& half_extents, const Mat3<double>& axes) {
+  std::vector<Vec3<double>> all;
+  for (int i = 0; i < 3; ++i) all.emplace_back(axes.col(i) * (2 * half_extents[i]));
+  return all;
+}
+
+double radius_around(const Sweep& s) { return s.form == SweptForm::sphere ? s.width / 2 : half_extents(s).norm(); }
+
+/// The axes with the motion first and a rectangle around the box's shadow behind it, one side along the shadow of `edge`.
+Mat3<double> axes_with_edge(const Vec3<double>& motion, int edge) {
+  Mat3<double> axes;
+  axes.col(0) = motion;
+  axes.col(1) = (axis_vector<double>(edge) - motion * motion[edge]).normalized();
+  axes.col(2) = cross<double>(axes.col(0), axes.col(1));
+  return axes;
+}
+
+/// Of the three rectangles that may have the least area. Along an axis, the box's own.
+Mat3<double> fitted_axes(const Sweep& s) {
+  const Vec3<double> motion = direction(s);
+  if (motion.cwiseAbs().maxCoeff() == 1) return Mat3<double>::Identity();
+  const RoundedZonotope box = {edges(half_extents(s), Mat3<double>::Identity()), 0};
+  Mat3<double> best = Mat3<double>::Identity();
+  double least = std::numeric_limits<double>::infinity();
+  for (int edge = 0; edge < 3; ++edge) {
+    const Mat3<double> axes = axes_with_edge(motion, edge);
+    const double area = half_width(box, axes.col(1)) * half_width(box, axes.col(2));
+    if (area < least) {
+      least = area;
+      best = axes;
+    }
+  }
+  return best;
+}
+
+/// The part of `whole` that is not in `part`; what rounding alone can leave is none.
+double rest(double whole, double part) {
+  const double left = whole - part;
+  return left > 64 * std::numeric_limits<double>::epsilon() * whole ? left : 0;
+}
+
+}  // namespace
+
+FittedBody exact_body(const Sweep& s) {
+  FittedBody exact = {{{}, 0}, fitted_axes(s)};
+  if (s.form == SweptForm::sphere) {
+    exact.body.radius = s.width / 2;
+  } else {
+    exact.body.segments = edges(half_extents(s), Mat3<double>::Identity());
+  }
+  exact.body.segments.push_back(path(s));
+  return exact;
+}
+
+FittedBody enclosing_sphere_body(const Sweep& s) {
+  return {{{}, radius_around(s) + path(s).norm() / 2}, Mat3<double>::Identity()};
+}
+
+FittedBody enclosing_aabb_body(const Sweep& s) {
+  const Mat3<double> axes = Mat3<double>::Identity();
+  return {{edges(half_extents(s) + path(s).cwiseAbs() / 2, axes), 0}, axes};
+}
+
+FittedBody capsule_body(const Sweep& s) { return {{{path(s)}, radius_around(s)}, fitted_axes(s)}; }
+
+FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes) {
+  Vec3<double> half;
+  for (int i = 0; i < 3; ++i) half[i] = half_width(exact.body, axes.col(i));
+  return {{edges(half, axes), 0}, axes};
+}
+
+FittedBody oriented_box_body(const Sweep& s) {
+  const FittedBody exact = exact_body(s);
+  return box_around(exact, exact.axes);
+}
+
+double volume(const BallRegion& region) { return 8 * region.half_extents.prod(); }
+
+BallRegion region_around(const FittedBody& bound, const Sweep& s) {
+  constexpr double room = 1.1;
+  const RoundedZonotope reached = grown(bound.body, ball_radius(s));
+  BallRegion region = {path(s) / 2, bound.axes, {}};
+  for (int i = 0; i < 3; ++i) region.half_extents[i] = room * half_width(reached, bound.axes.col(i));
+  return region;
+}
+
+SweepTheory sweep_theory(const FittedBody& bound, const Sweep& s) {
+  const RoundedZonotope exact = exact_body(s).body;
+  const double of_exact = volume(grown(exact, ball_radius(s))), of_bound = volume(grown(bound.body, ball_radius(s)));
+  const double drawn = volume(region_around(bound, s)), false_volume = rest(of_bound, of_exact);
+  return {.touching = of_exact / drawn,
+          .false_hits = false_volume / drawn,
+          .false_fraction = false_volume / of_bound,
+          .empty = rest(volume(bound.body), volume(exact)) / volume(bound.body)};
+}
+
+std::optional<double> path_to_turn_for(const Sweep& s) {
+  const auto pays = [&](double widths) {
+    Sweep at = s;
+    at.speed = widths * s.width / s.step;
+    return sweep_theory(oriented_box_body(at), at).false_fraction <
+           sweep_theory(enclosing_aabb_body(at), at).false_fraction;
+  };
+  double shorter = least_path, longer = longest_path;
+  if (s.form == SweptForm::sphere || pays(shorter) || !pays(longer)) return std::nullopt;
+  for (int i = 0; i < 64; ++i) {
+    const double middle = std::sqrt(shorter * longer);
+    (pays(middle) ? longer : shorter) = middle;
+  }
+  return longer;
+}
+
+}  // namespace thinwall
