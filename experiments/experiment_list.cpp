@@ -14,9 +14,9 @@ namespace thinwall {
 std::span<const Experiment> experiments() {
   // A new experiment is a line here: one that registered itself could be dropped by the linker.
   static const std::array list = {
-      thin_wall_experiment(),      accuracy_experiment(),         crossing_bullets_experiment(),
-      work_precision_experiment(), hitscan_experiment(),          thin_wall_experiment(),
-      accuracy_experiment(),       crossing_bullets_experiment(), swept_bounds_experiment(),
+      thin_wall_experiment(),  //
+      accuracy_experiment(),         work_precision_experiment(), swept_bounds_experiment(),
+      crossing_bullets_experiment(), hitscan_experiment(),
   };
   return list;
 }
