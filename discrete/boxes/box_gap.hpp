@@ -128,10 +128,6 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
     points = closest_points(pair);
     gap.distance = safe_norm<S>(points.on_b - points.on_a);
     gap.normal = safe_unit<S>(points.on_b - points.on_a);
-    // Beside nearly parallel faces or edges many points are as near as rounding can tell, and the line through two of them
-    // may lean; a plane across an axis that parts the boxes more than one across that line does not.
-    const LeastOverlap<S> axis = least_overlap(pair);
-    if (axis.overlap < pair.overlap(gap.normal)) gap.normal = axis.normal;
   }
   if (gap.distance <= box_noise(pair)) {
     const LeastOverlap<S> least = least_overlap(pair);
@@ -141,6 +137,17 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
   }
   gap.local_a = points.on_a;
   gap.local_b = points.on_b - pair.between;
+  return gap;
+}
+
+/// The same with the normal of a plane that parts the boxes by all of the gap. Beside nearly parallel faces or edges many
+/// points are as near as rounding can tell, and the line through two of them may lean: then an axis parts them more.
+template <Scalar S> CoreGap<S> parting_gap(const BoxPair<S>& pair) {
+  CoreGap<S> gap = box_gap(pair);
+  if (gap.distance > S(0)) {
+    const LeastOverlap<S> axis = least_overlap(pair);
+    if (axis.overlap < pair.overlap(gap.normal)) gap.normal = axis.normal;
+  }
   return gap;
 }
 
