@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace thinwall {
 
 namespace {
@@ -59,6 +61,21 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
 
 bool all_passed(const std::vector<SelfTest>& tests) {
   return std::all_of(tests.begin(), tests.end(), [](const SelfTest& test) { return test.passed(); });
+}
+
+std::string self_test_text(const std::vector<SelfTest>& tests) {
+  std::string text;
+  for (const SelfTest& t : tests) {
+    text += fmt::format("{}, {}: {} cells certain, {} wrong", t.method, t.scalar, t.certain_cells, t.certain_wrong);
+    if (t.judged_cells > 0) {
+      text += fmt::format(
+          "; {} of {} intervals hold the theory (allowed {} to {}), chi-square {:.1f} (allowed {:.1f} to {:.1f})",
+          t.covered, t.judged_cells, t.covered_allowed.lower, t.covered_allowed.upper, t.chi_square,
+          t.chi_square_allowed.lower, t.chi_square_allowed.upper);
+    }
+    text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
+  }
+  return text;
 }
 
 Table self_test_table(const std::vector<SelfTest>& tests) {

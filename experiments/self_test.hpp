@@ -36,6 +36,9 @@ struct SelfTest {
 /// By method and scalar, in the order of their first cell.
 std::vector<SelfTest> self_test(const std::vector<CellCount>& cells);
 
+/// A paragraph for each: "closed_form, double: 864 cells certain, 0 wrong."
+std::string self_test_text(const std::vector<SelfTest>& tests);
+
 Table self_test_table(const std::vector<SelfTest>& tests);
 bool all_passed(const std::vector<SelfTest>& tests);
 

@@ -61,21 +61,6 @@ template <class Tests> bool all_of_them(const Tests& tests) {
   return std::all_of(tests.begin(), tests.end(), [](const auto& test) { return test.passed(); });
 }
 
-std::string counts_text(const std::vector<SelfTest>& tests) {
-  std::string text;
-  for (const SelfTest& t : tests) {
-    text += fmt::format("{}, {}: {} cells certain, {} wrong", t.method, t.scalar, t.certain_cells, t.certain_wrong);
-    if (t.judged_cells > 0) {
-      text += fmt::format(
-          "; {} of {} intervals hold the theory (allowed {} to {}), chi-square {:.1f} (allowed {:.1f} to {:.1f})",
-          t.covered, t.judged_cells, t.covered_allowed.lower, t.covered_allowed.upper, t.chi_square,
-          t.chi_square_allowed.lower, t.chi_square_allowed.upper);
-    }
-    text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 bool CrossingVerdicts::passed() const { return all_passed(counts) && all_of_them(times); }
@@ -151,7 +136,7 @@ std::vector<Section> crossing_sections(const CrossingVerdicts& verdicts) {
        "Wilson intervals that hold the theory must lie in the central 99.9 % of its binomial distribution, and the sum of squared "
        "standard residuals in that of its chi-square. The mean lateness of the tutorial's rule is held against theory in the same "
        "way; no answered time may be one at which the balls are apart.\n\n" +
-           counts_text(verdicts.counts)},
+           self_test_text(verdicts.counts)},
       {"Limits",
        "Two balls of one radius, straight motion, one step. Totals over all cells weigh them alike and depend on which are asked; "
        "the range over the cells and the table of cells do not."},

@@ -66,21 +66,6 @@ std::string row(const SweepCost& c) {
                      ns(c.pair_upper_ns));
 }
 
-std::string counts_text(const std::vector<SelfTest>& tests) {
-  std::string text;
-  for (const SelfTest& t : tests) {
-    text += fmt::format("{}, {}: {} cells certain, {} wrong", t.method, t.scalar, t.certain_cells, t.certain_wrong);
-    if (t.judged_cells > 0) {
-      text += fmt::format(
-          "; {} of {} intervals hold the theory (allowed {} to {}), chi-square {:.1f} (allowed {:.1f} to {:.1f})",
-          t.covered, t.judged_cells, t.covered_allowed.lower, t.covered_allowed.upper, t.chi_square,
-          t.chi_square_allowed.lower, t.chi_square_allowed.upper);
-    }
-    text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string sweep_answer(const std::vector<SweepLine>& lines, const std::vector<SweepTotal>& totals,
@@ -154,7 +139,7 @@ std::vector<Section> sweep_sections(const std::vector<SelfTest>& tests) {
        "Where theory is exactly 0 the count must be: false hits of exact bounds, and misses of all. Where at least 5 events are "
        "expected and 5 not to be, the number of 95 % Wilson intervals that hold the theory must lie in the central 99.9 % of its "
        "binomial distribution, and the sum of squared standard residuals in that of its chi-square.\n\n" +
-           counts_text(tests)},
+           self_test_text(tests)},
       {"Limits",
        "One straight step without turning; obstacles are balls, at rest. Times are of this machine, with every core at work; they "
        "differ from run to run. Totals over all cells weigh them alike and depend on which are asked."},

@@ -77,23 +77,6 @@ template <class Tests> std::string verdict(const Tests& tests) {
   return std::all_of(tests.begin(), tests.end(), [](const auto& test) { return test.passed(); }) ? "passed" : "FAILED";
 }
 
-/// "covered 143 of 150 (allowed 131 to 149)" for each method and scalar.
-std::string self_test_text(const std::vector<SelfTest>& tests) {
-  std::string text;
-  for (const SelfTest& t : tests) {
-    text += fmt::format("{} {}: {} cells certain, {} wrong", t.method, t.scalar, t.certain_cells, t.certain_wrong);
-    if (t.judged_cells > 0) {
-      text += fmt::format(
-          "; {} of {} intervals hold the theory (allowed {} to {}), chi-square {:.1f} (allowed {:.1f} to "
-          "{:.1f})",
-          t.covered, t.judged_cells, t.covered_allowed.lower, t.covered_allowed.upper, t.chi_square,
-          t.chi_square_allowed.lower, t.chi_square_allowed.upper);
-    }
-    text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 bool Verdicts::passed() const {

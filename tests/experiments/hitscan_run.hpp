@@ -1,15 +1,14 @@
 #pragma once
 /// Runs of hitscan in memory, for its tests.
 
-#include <algorithm>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/hitscan.hpp>
 #include <thinwall/experiments/hitscan/line.hpp>
-#include <thinwall/experiments/settings.hpp>
+
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 
@@ -36,35 +35,9 @@ inline HitscanCell some_shot(double range, double speed, double radius) {
 }
 
 inline std::unique_ptr<Run> hitscan_run(std::string_view text, RunOptions options = {.seed = 1, .trials = {}}) {
-  const Experiment experiment = hitscan_experiment();
-  const Settings settings(text, "test.toml", experiment.default_toml);
-  settings.reject_unknown_keys();
-  return experiment.configure(settings, options);
+  return run_of(hitscan_experiment(), text, options);
 }
 
-inline std::vector<std::string> results_of(const std::vector<Unit>& units) {
-  std::vector<std::string> results;
-  for (const Unit& unit : units) results.push_back(unit.compute());
-  return results;
-}
-
-inline Outcome hitscan_outcome(std::string_view text) {
-  const auto run = hitscan_run(text);
-  const std::vector<std::string> results = results_of(run->units());
-  return run->finish(results, std::vector<double>(results.size(), 1e-3));
-}
-
-inline const Table& table_of(const Outcome& outcome, const std::string& name) {
-  return *std::find_if(outcome.tables.begin(), outcome.tables.end(), [&](const Table& t) { return t.name == name; });
-}
-
-/// Of the rule's row in a table with one row a rule.
-inline const Value& value_of(const Table& table, const std::string& rule, const std::string& column) {
-  const auto at =
-      std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == column; });
-  const auto row =
-      std::find_if(table.rows.begin(), table.rows.end(), [&](const auto& r) { return r[0] == Value(rule); });
-  return (*row)[static_cast<std::size_t>(at - table.columns.begin())];
-}
+inline Outcome hitscan_outcome(std::string_view text) { return outcome_of(*hitscan_run(text)); }
 
 }  // namespace thinwall

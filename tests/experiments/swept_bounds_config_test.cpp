@@ -69,7 +69,7 @@ TEST(SweptBoundsConfig, summary_fits_a_terminal) {
 /// Only the table of times may know how long anything took.
 TEST(SweptBoundsConfig, what_is_not_a_timing_does_not_depend_on_the_clock) {
   const auto run = sweep_run(few_timed);
-  const std::vector<std::string> results = sweep_results(run->units());
+  const std::vector<std::string> results = results_of(run->units());
   const Outcome fast = run->finish(results, std::vector<double>(results.size(), 1e-6));
   const Outcome slow = run->finish(results, std::vector<double>(results.size(), 1));
   EXPECT_EQ(fast.answer, slow.answer);

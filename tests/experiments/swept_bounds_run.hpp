@@ -1,15 +1,14 @@
 #pragma once
 /// Runs of the swept bounds in memory, for their tests.
 
-#include <algorithm>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/swept_bounds.hpp>
 #include <thinwall/experiments/swept_bounds/line.hpp>
+
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 
@@ -24,27 +23,10 @@ inline constexpr std::string_view few_sweeps = R"(
 )";
 
 inline std::unique_ptr<Run> sweep_run(std::string_view text, RunOptions options = {.seed = 1, .trials = {}}) {
-  const Experiment experiment = swept_bounds_experiment();
-  const Settings settings(text, "test.toml", experiment.default_toml);
-  settings.reject_unknown_keys();
-  return experiment.configure(settings, options);
+  return run_of(swept_bounds_experiment(), text, options);
 }
 
-inline std::vector<std::string> sweep_results(const std::vector<Unit>& units) {
-  std::vector<std::string> results;
-  for (const Unit& unit : units) results.push_back(unit.compute());
-  return results;
-}
-
-inline Outcome sweep_outcome(std::string_view text) {
-  const auto run = sweep_run(text);
-  const std::vector<std::string> results = sweep_results(run->units());
-  return run->finish(results, std::vector<double>(results.size(), 1e-3));
-}
-
-inline const Table& sweep_table(const Outcome& outcome, const std::string& name) {
-  return *std::find_if(outcome.tables.begin(), outcome.tables.end(), [&](const Table& t) { return t.name == name; });
-}
+inline Outcome sweep_outcome(std::string_view text) { return outcome_of(*sweep_run(text)); }
 
 /// The measured lines of settings laid over the defaults.
 inline std::vector<SweepLine> sweep_lines(std::string_view text, std::int64_t shots) {

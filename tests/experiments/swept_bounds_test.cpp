@@ -40,7 +40,7 @@ TEST(SweptBounds, the_exact_make_no_false_hit_and_the_naive_do) {
 TEST(SweptBounds, agrees_with_theory) {
   const Outcome outcome = sweep_outcome(few_sweeps);
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
-  EXPECT_EQ(sweep_table(outcome, "self_test").rows.size(), 6U * 4);  // six bounds, four events
+  EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 6U * 4);  // six bounds, four events
 }
 
 /// Of two rectangles that mirror each other the library and the theory may pick different ones.
@@ -127,16 +127,16 @@ TEST(SweptBounds, grazing_balls_find_a_bound_that_is_a_little_too_small) {
 TEST(SweptBounds, does_not_depend_on_the_order_of_the_units) {
   const auto run = sweep_run(few_sweeps);
   std::vector<Unit> units = run->units();
-  const std::vector<std::string> forward = sweep_results(units);
+  const std::vector<std::string> forward = results_of(units);
   std::reverse(units.begin(), units.end());
-  std::vector<std::string> backward = sweep_results(units);
+  std::vector<std::string> backward = results_of(units);
   std::reverse(backward.begin(), backward.end());
   EXPECT_EQ(forward, backward);
 }
 
 TEST(SweptBounds, a_cell_keeps_its_balls_whatever_else_is_asked) {
-  const Table all = sweep_table(sweep_outcome(few_sweeps), "cells");
-  const Table one = sweep_table(
+  const Table all = table_of(sweep_outcome(few_sweeps), "cells");
+  const Table one = table_of(
       sweep_outcome("shape = ['rod']\nspeed = [40]\nangle_deg = [30]\nturn_deg = [45]\nobstacle = [0.1]\nshots = 1000\n"
                     "bound = ['oriented_box']\ntiming_repeats = 0"),
       "cells");

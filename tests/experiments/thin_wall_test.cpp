@@ -18,7 +18,7 @@ namespace {
 /// The failure is specified too.
 TEST(ThinWall, end_of_step_tunnels) {
   const Outcome outcome = outcome_of(*configured(small));
-  for (const std::int64_t count : tunneled(table(outcome, "bullet"), "end_of_step")) {
+  for (const std::int64_t count : tunneled(table_of(outcome, "bullet"), "end_of_step")) {
     EXPECT_NEAR(static_cast<double>(count), 0.7 * 400, 40);
   }
 }
@@ -27,7 +27,7 @@ TEST(ThinWall, exact_methods_never_do) {
   const Outcome outcome = outcome_of(*configured(small));
   for (const char* method :
        {"closed_form", "swept_volume_ray", "speculative", "conservative_advancement", "bisection", "inclusion"}) {
-    const auto counts = tunneled(table(outcome, "cells"), method);
+    const auto counts = tunneled(table_of(outcome, "cells"), method);
     EXPECT_EQ(counts.size(), 2 * 33U);
     EXPECT_EQ(std::count(counts.begin(), counts.end(), 0), static_cast<std::ptrdiff_t>(counts.size())) << method;
   }
@@ -44,14 +44,14 @@ TEST(ThinWall, center_ray_misses_the_rim_of_a_finite_wall) {
     wall = ["finite"]
     shots = 1000
     method = ["centre_ray"])"));
-  EXPECT_GT(tunneled(table(outcome, "cells"), "centre_ray").back(), 100);
+  EXPECT_GT(tunneled(table_of(outcome, "cells"), "centre_ray").back(), 100);
 }
 
 TEST(ThinWall, agrees_with_theory) {
   const Outcome outcome = outcome_of(*configured(small));
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
-  EXPECT_EQ(table(outcome, "self_test").rows.size(), 22U);
-  EXPECT_EQ(table(outcome, "stratified").rows.size(), 11U);
+  EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 22U);
+  EXPECT_EQ(table_of(outcome, "stratified").rows.size(), 11U);
 }
 
 /// Counts of end_of_step at infinite walls against a theory that may be wrong.
@@ -68,7 +68,8 @@ bool self_test_passes(double (*theory)(const Cell&)) {
     method = ["end_of_step"])",
                           "test.toml", experiment.default_toml);
   const Plan plan = make_plan(settings, {.seed = 1, .trials = {}});
-  const std::vector<std::string> results = computed(experiment.configure(settings, {.seed = 1, .trials = {}})->units());
+  const std::vector<std::string> results =
+      results_of(experiment.configure(settings, {.seed = 1, .trials = {}})->units());
   std::vector<Tally> tallies;
   for (std::size_t i = 0; i < plan.cells.size() * plan.detectors.size(); ++i)
     tallies.push_back(tally_from_line(results[i]));
@@ -96,11 +97,11 @@ TEST(ThinWall, fails_a_wrong_theory) {
 }
 
 TEST(ThinWall, a_cell_keeps_its_shots_whatever_else_is_fired) {
-  const Table all = table(outcome_of(*configured(small)), "cells");
-  const Table one = table(outcome_of(*configured("speed = [40]\nstep = [0.05]\nradius = [0.02]\nthickness = [0.01]\n"
-                                                 "angle_deg = [60]\nwall = ['finite']\nshots = 400\n"
-                                                 "method = ['end_of_step']\nscalar = ['double']")),
-                          "cells");
+  const Table all = table_of(outcome_of(*configured(small)), "cells");
+  const Table one = table_of(outcome_of(*configured("speed = [40]\nstep = [0.05]\nradius = [0.02]\nthickness = [0.01]\n"
+                                                    "angle_deg = [60]\nwall = ['finite']\nshots = 400\n"
+                                                    "method = ['end_of_step']\nscalar = ['double']")),
+                             "cells");
   ASSERT_EQ(one.rows.size(), 2U);  // the bullet, and the cell
   for (const std::vector<Value>& row : one.rows) {
     EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
@@ -110,16 +111,16 @@ TEST(ThinWall, a_cell_keeps_its_shots_whatever_else_is_fired) {
 TEST(ThinWall, does_not_depend_on_the_order_of_the_units) {
   const auto run = configured(small);
   std::vector<Unit> units = run->units();
-  const std::vector<std::string> forward = computed(units);
+  const std::vector<std::string> forward = results_of(units);
   std::reverse(units.begin(), units.end());
-  std::vector<std::string> backward = computed(units);
+  std::vector<std::string> backward = results_of(units);
   std::reverse(backward.begin(), backward.end());
   EXPECT_EQ(forward, backward);
 }
 
 TEST(ThinWall, another_seed_gives_other_shots) {
-  const Table first = table(outcome_of(*configured(small)), "cells");
-  const Table second = table(outcome_of(*configured(small, {.seed = 2, .trials = {}})), "cells");
+  const Table first = table_of(outcome_of(*configured(small)), "cells");
+  const Table second = table_of(outcome_of(*configured(small, {.seed = 2, .trials = {}})), "cells");
   EXPECT_NE(tunneled(first, "end_of_step"), tunneled(second, "end_of_step"));
 }
 

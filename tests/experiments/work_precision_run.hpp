@@ -1,14 +1,14 @@
 #pragma once
 /// Races in memory, for the tests of work_precision.
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/work_precision.hpp>
 #include <thinwall/experiments/work_precision/heat.hpp>
+
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 
@@ -22,23 +22,12 @@ inline constexpr std::string_view few_races = R"(
 )";
 
 inline std::unique_ptr<Run> race_run(std::string_view text) {
-  const Experiment experiment = work_precision_experiment();
-  const Settings settings(text, "test.toml", experiment.default_toml);
-  settings.reject_unknown_keys();
-  return experiment.configure(settings, {.seed = 3, .trials = {}});
+  return run_of(work_precision_experiment(), text, {.seed = 3, .trials = {}});
 }
 
-inline std::vector<std::string> run_races(std::string_view text) {
-  const auto run = race_run(text);
-  std::vector<std::string> results;
-  for (const Unit& unit : run->units()) results.push_back(unit.compute());
-  return results;
-}
+inline std::vector<std::string> run_races(std::string_view text) { return results_of(race_run(text)->units()); }
 
-inline Outcome race_outcome(std::string_view text) {
-  const std::vector<std::string> results = run_races(text);
-  return race_run(text)->finish(results, std::vector<double>(results.size(), 1));
-}
+inline Outcome race_outcome(std::string_view text) { return outcome_of(*race_run(text)); }
 
 /// A racer as none is, for the tests of how they are compared.
 inline Racer made_up(std::string method, double p99, std::vector<double> nanoseconds) {

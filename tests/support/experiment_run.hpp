@@ -1,0 +1,52 @@
+#pragma once
+/// Runs of an experiment in memory, for its tests.
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/settings.hpp>
+
+namespace thinwall {
+
+/// Configured by `text`, laid over the experiment's defaults. Throws UsageError.
+inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_view text,
+                                   RunOptions options = {.seed = 1, .trials = {}}) {
+  const Settings settings(text, "test.toml", experiment.default_toml);
+  settings.reject_unknown_keys();
+  return experiment.configure(settings, options);
+}
+
+inline std::vector<std::string> results_of(const std::vector<Unit>& units) {
+  std::vector<std::string> results;
+  for (const Unit& unit : units) results.push_back(unit.compute());
+  return results;
+}
+
+inline Outcome outcome_of(const Run& run) {
+  const std::vector<std::string> results = results_of(run.units());
+  return run.finish(results, std::vector<double>(results.size(), 1e-3));
+}
+
+inline const Table& table_of(const Outcome& outcome, const std::string& name) {
+  return *std::find_if(outcome.tables.begin(), outcome.tables.end(), [&](const Table& t) { return t.name == name; });
+}
+
+inline const Value& value_of(const Table& table, std::size_t row, const std::string& column) {
+  const auto found =
+      std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == column; });
+  return table.rows[row][static_cast<std::size_t>(found - table.columns.begin())];
+}
+
+/// Of the row that starts with `first`, in a table with one such row.
+inline const Value& value_of(const Table& table, const std::string& first, const std::string& column) {
+  const auto row =
+      std::find_if(table.rows.begin(), table.rows.end(), [&](const auto& r) { return r[0] == Value(first); });
+  return value_of(table, static_cast<std::size_t>(row - table.rows.begin()), column);
+}
+
+}  // namespace thinwall
