@@ -5,6 +5,7 @@
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/boxes/box_gap.hpp>
+#include <thinwall/discrete/entry/near_path.hpp>
 
 namespace thinwall {
 
@@ -52,23 +53,6 @@ template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { retu
 template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
 
 /// The path p + v t from `base_time` on: start + v * (t - base_time), where it comes within about `reach` of the origin.
-/// A box's axes are orthonormal to rounding only; turning a point far beyond `reach` would move its whole path by that
-/// times its distance. So a far path is turned from a point shortly before it passes, found by its moment p x v.
-template <Scalar S> struct NearPath {
-  Vec3<S> start;
-  S base_time = 0;  ///< [1] >= 0: there is no contact before
-
-  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach) : start(p) {
-    const S near = 4 * reach;
-    if (largest(p) < 2 * near || !products_in_range(largest(p)) || !products_in_range(largest(v))) return;
-    const S speed_square = v.squaredNorm(), lead = near / safe_norm(v);
-    const S earlier = -p.dot(v) / speed_square - lead;
-    if (!(earlier > S(0))) return;
-    base_time = earlier;
-    start = cross(v, cross(p, v)) / speed_square - v * lead;
-  }
-};
-
 /// A gap given in the box's own axes, in the world's.
 template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
   return {gap.distance, out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),

@@ -11,6 +11,7 @@
 
 #include <thinwall/experiments/accuracy/pairs.hpp>
 #include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -112,9 +113,11 @@ class AccuracyRun final : public Run {
       over += within_goal(row) ? 0 : 1;
     }
     return fmt::format(
-        "Over {} queries the closed form's time is off by at most {:.2f} u kappa t, its backward error at most {:.2f} u; {} "
-        "verdicts are wrong, by at most {:.2g} u of their input. {}",
-        all.queries, all.forward.largest(), all.backward.largest(), all.wrong_verdicts, all.largest_wrong,
+        "Over {} queries through the front door the closed form's time is off by at most {:.2f} u kappa t, its backward error "
+        "at most {:.2f} u; {} verdicts at the threshold fall on its other side, where their input would have to change by at "
+        "most {:.2g} u. {}",
+        grouped_text(all.queries), all.forward.largest(), all.backward.largest(), grouped_text(all.wrong_verdicts),
+        all.largest_wrong,
         over == 0 ? "Every pair meets the goal." : fmt::format("{} rows of the table are over the goal.", over));
   }
 
@@ -151,7 +154,7 @@ class AccuracyRun final : public Run {
   static Table pairs_table(const std::vector<Row>& rows) {
     Table table{
         "pairs",
-        "Errors of the closed form against the oracle, by pair and scalar",
+        "Errors of the closed form against the oracle, by pair and scalar.",
         {{"pair", ColumnType::text, "", "The two shapes"},
          {"scalar", ColumnType::text, "",
           "float and double through the front door; the kernel in float; verdicts alone, in double"},

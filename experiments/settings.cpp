@@ -142,6 +142,7 @@ struct Settings::Impl {
   template <class Read, class Allowed> auto several(std::string_view key, Read read, Allowed allowed) const {
     const toml::node& node = *entry(key).node;
     const auto* const array = node.as_array();
+    if (!array && read(node)) complain(key, node, shown(node) + " is not a list", "put it in brackets");
     if (!array) complain(key, node, shown(node) + " is not a list", allowed(node));
     if (array->empty()) complain(key, node, "an empty list is not allowed", allowed(node));
     std::vector<std::remove_cvref_t<decltype(*read(node))>> values;

@@ -20,9 +20,10 @@
 
 namespace thinwall {
 
-/// Where the discriminant is this small beside its terms, the line grazes the ball and one rounding may decide: it is
-/// computed again in double-word arithmetic. Plain rounding moves it by at most a dozen u.
-template <Scalar S> S grazing_fraction() { return 64 * std::numeric_limits<S>::epsilon(); }
+/// Where the discriminant is this small beside its terms, the line grazes the ball, and rounding may decide: it is computed
+/// again in double-word arithmetic. Plain rounding moves it by a dozen u, which decides below 1e-15 and turns the time
+/// of a graze by several u kappa t far above that.
+template <Scalar S> S grazing_fraction() { return constant_power_of_two<S, -10>(); }
 
 /// The chord that the line p + v t cuts from the ball of radius R around the origin.
 template <Scalar S> struct Chord {
@@ -64,20 +65,38 @@ template <Scalar S> THINWALL_COLD S half_of_tiny(const S& speed_square, const Ve
   return D < S(0) ? D : times_power_of_two(S(sqrt(D)), e);
 }
 
-/// Requires p, v, R whose products of four are in range (products_in_range), v not zero.
-template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+/// The same for the line past an edge along d: that of p x n, v x n and R, where n is the unit vector along d. It is
+/// [ |v x d|^2 R^2 - (p.(v x d))^2 ] / |d|^2, from the numbers as given: no product is rounded before it counts.
+template <Scalar S>
+THINWALL_COLD S accurate_edge_discriminant(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+  const Vec3<S> axis = times_power_of_two(d, -binary_exponent(largest(d)));  // for six factors, four are in range
+  const auto turn = [&](int i, int j) { return exact_product(v[i], axis[j]) - exact_product(v[j], axis[i]); };
+  const DoubleWord<S> x = turn(1, 2), y = turn(2, 0), z = turn(0, 1);
+  const auto times = [](const S& a, const DoubleWord<S>& b) { return DoubleWord<S>{a, S(0)} * b; };
+  const DoubleWord<S> offset = times(p[0], x) + times(p[1], y) + times(p[2], z);
+  const DoubleWord<S> difference = (x * x + y * y + z * z) * exact_product(R, R) - offset * offset;
+  return difference.high / axis.squaredNorm();
+}
+
+/// Requires p, v, R whose products of four are in range (products_in_range), v not zero. accurate() is the discriminant in
+/// twice the digits.
+template <Scalar S, class Accurate>
+THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
   using std::sqrt;
   const S speed_square = v.squaredNorm();
   const Vec3<S> moment = cross(p, v);
   const S reach = speed_square * (R * R), offset = moment.squaredNorm(), size = std::max(reach, offset);
   S D = reach - offset, half;
   if (square_in_range(size)) {
-    if (largest(D) <= grazing_fraction<S>() * size) D = accurate_discriminant(p, v, R);
+    if (largest(D) <= grazing_fraction<S>() * size) D = accurate();
     half = sqrt(largest(D));
   } else {
     D = half = half_of_tiny(speed_square, moment, R);
   }
   return {D >= S(0), speed_square, -p.dot(v), p.squaredNorm() - R * R, half, moment};
+}
+template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  return chord_through_ball(p, v, R, [&] { return accurate_discriminant(p, v, R); });
 }
 
 /// The first time at which a moving point is in a closed convex body.
@@ -93,7 +112,8 @@ template <Scalar S> Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>
 
 /// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
 /// v = 0 never enters.
-template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+template <Scalar S, class Accurate>
+THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
   Entry<S> entry;
   if (within(p, R)) {
     entry.inside = true;
@@ -103,11 +123,15 @@ template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec
     const Entry<S> rescaled = ball_entry_rescaled(p, v, R);
     return rescaled;  // by way of a copy, or the compiler would keep the other answers in memory
   }
-  const Chord<S> chord = chord_through_ball(p, v, R);
+  const Chord<S> chord = chord_through_ball(p, v, R, accurate);
   if (!chord.exists || chord.approach <= S(0)) return entry;
   entry.time = chord.entry_time();  // positive, as the excess is
   entry.normal = chord.entry_normal(v);
   return entry;
+}
+
+template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  return ball_entry(p, v, R, [&] { return accurate_discriminant(p, v, R); });
 }
 
 /// The same where a product of lengths or displacements would overflow or underflow.

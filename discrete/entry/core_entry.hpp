@@ -48,8 +48,7 @@ template <Scalar S> struct PartEntry {
   Vec3<S> normal = Vec3<S>::Zero();  ///< unit, away from the part, at entry
 };
 
-template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
-  const Chord<S> chord = chord_through_ball(p, v, R);
+template <Scalar S> PartEntry<S> entry_by_chord(const Chord<S>& chord, const Vec3<S>& v) {
   PartEntry<S> entry{chord.exists && chord.approach > S(0), S(0), chord.approach / chord.speed_square, Vec3<S>::Zero()};
   if (!entry.exists) return entry;
   entry.time = chord.entry_time();
@@ -57,12 +56,20 @@ template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v
   return entry;
 }
 
-/// Seen along the edge the line is a point and its rounding a disc: k = p x d and w = v x d take the places of p and v.
+template <Scalar S> PartEntry<S> corner_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+  return entry_by_chord(chord_through_ball(p, v, R), v);
+}
+
+/// Seen along the edge the line is a point and its rounding a disc: p x d, v x d and R |d| take the places of p, v and R. So d
+/// is not made unit, which would turn it by a rounding.
 template <Scalar S> PartEntry<S> edge_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& direction, const S& R) {
-  const Vec3<S> d = safe_unit(direction);
+  using std::sqrt;
+  const Vec3<S> d = times_power_of_two(direction, -binary_exponent(largest(direction)));  // about 1 long
+  const S length_square = d.squaredNorm();
   const Vec3<S> w = cross(v, d);
   if (w == Vec3<S>::Zero()) return {};  // along the edge: the distance to its line does not change
-  PartEntry<S> entry = corner_entry<S>(cross(p, d), w, R);
+  const auto accurate = [&] { return accurate_edge_discriminant(p, v, d, R) * (length_square * length_square); };
+  PartEntry<S> entry = entry_by_chord<S>(chord_through_ball<S>(cross(p, d), w, R * sqrt(length_square), accurate), w);
   if (entry.exists) entry.normal = safe_unit(cross(d, entry.normal));
   return entry;
 }

@@ -51,7 +51,8 @@ int reply(const CommandLine& line, const RunRecord& run, const Outcome& outcome,
   }
   out.flush();
   if (outcome.self_test_passed) return exit_done;
-  err << "the self-test failed: do not trust these numbers; the report says more\n";
+  err << "the self-test failed: do not trust these numbers; the report says more. Chance fails one correct run in a hundred or "
+         "fewer: another --seed tells\n";
   return exit_failed;
 }
 

@@ -80,7 +80,8 @@ std::string verdict(bool passed) {
   return passed
              ? "<p class=\"verdict\">The self-test passed.</p>\n"
              : "<p class=\"verdict failed\"><strong>The self-test failed:</strong> the numbers below do not agree with "
-               "what they were tested against. Do not cite them.</p>\n";
+               "what they were tested against. Do not cite them. Chance fails one correct run in a hundred or fewer: another "
+               "seed tells.</p>\n";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ std::string percent(double x) { return fmt::format("{:.1f} %", 100 * x); }
 std::string percent(const std::optional<double>& x) { return x ? percent(*x) : "-"; }
 
 std::string spoken(std::string text) {
+  if (text == "enclosing_aabb") return "enclosing AABB";
   for (char& letter : text) letter = letter == '_' ? ' ' : letter;
   return text;
 }
@@ -47,8 +48,8 @@ std::string row(const SweepLine& l) {
   const Interval bar = l.tally.reported > 0 ? wilson(l.tally.false_hits, l.tally.reported) : Interval{0, 1};
   return fmt::format("{:<7} {:<17} {:>9} {:>9} {:>8} {:>17} {:>8} {:>8} {:>7}\n", name(l.sweep.form), l.bound,
                      grouped_text(l.tally.reported), grouped_text(l.tally.false_hits), percent(false_fraction(l.tally)),
-                     percent(bar.lower) + " to " + percent(bar.upper).substr(0, 5), percent(l.theory.false_fraction),
-                     percent(l.theory.empty), grouped_text(l.tally.missed));
+                     fmt::format("[{:.1f}, {:.1f}] %", 100 * bar.lower, 100 * bar.upper),
+                     percent(l.theory.false_fraction), percent(l.theory.empty), grouped_text(l.tally.missed));
 }
 
 std::string row(const SweepTotal& t) {

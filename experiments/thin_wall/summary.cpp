@@ -54,7 +54,7 @@ std::string total_row(const Total& total) {
                      grouped_text(total.cells - total.clean_cells),
                      known ? percent(share(static_cast<double>(total.theory_tunneled), total.theory_shots)) : "-",
                      known ? percent(share(total.theory_expected, total.theory_shots)) : "-",
-                     total.worst_residual == 0 ? "-" : fmt::format("{:+.2f}", total.worst_residual),
+                     total.worst_residual ? fmt::format("{:+.2f}", *total.worst_residual) : "-",
                      1e9 * total.seconds / static_cast<double>(total.shots));
 }
 

@@ -19,7 +19,7 @@ void add(Total& total, const Line& line) {
     total.theory_tunneled += line.tally.tunneled;
     total.theory_expected += *line.theory.probability * static_cast<double>(line.tally.shots);
   }
-  if (can_be_judged(line) && std::abs(*residual(line)) > std::abs(total.worst_residual)) {
+  if (can_be_judged(line) && std::abs(*residual(line)) >= std::abs(total.worst_residual.value_or(0))) {
     total.worst_residual = *residual(line);
   }
 }
@@ -68,7 +68,7 @@ Table totals_table(const std::vector<Total>& totals) {
     const bool none = t.tunneled == 0 && t.undecided == 0;
     table.rows.push_back({t.method, t.scalar, t.cells, t.clean_cells, t.shots, t.tunneled, t.undecided,
                           none ? Value(clopper_pearson(0, t.shots).upper) : Value(), t.theory_shots, t.theory_tunneled,
-                          t.theory_expected, t.worst_residual});
+                          t.theory_expected, t.worst_residual ? Value(*t.worst_residual) : Value()});
   }
   return table;
 }

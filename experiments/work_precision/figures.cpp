@@ -70,7 +70,8 @@ std::vector<Panel> panels_of(const std::vector<Heat>& heats, QueryClass kind, st
     if (by_time) panel.series.push_back(front_line(heat));
     for_each_type(Methods<double>{},
                   [&]<class Method>(TypeTag<Method>) { add_method(heat, Method::name, by_time, panel.series); });
-    panels.push_back(std::move(panel));
+    const auto has_points = [](const Series& s) { return s.mark == Mark::points; };
+    if (std::any_of(panel.series.begin(), panel.series.end(), has_points)) panels.push_back(std::move(panel));
   }
   return panels;
 }

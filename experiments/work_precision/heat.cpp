@@ -67,6 +67,17 @@ std::vector<const Racer*> one_a_method(const Heat& heat) {
   return chosen;
 }
 
+std::optional<double> false_share(const std::vector<Heat>& heats, const Heat& heat, const Racer& racer) {
+  for (const Heat& other : heats) {
+    if (other.set != heat.set || other.scalar != heat.scalar || other.kind != QueryClass::miss) continue;
+    for (const Racer& r : other.racers) {
+      if (r.method != racer.method || r.setting != racer.setting || r.queries == 0) continue;
+      return static_cast<double>(r.false_hits) / static_cast<double>(r.queries);
+    }
+  }
+  return {};
+}
+
 const Racer* closed_form_of(const Heat& heat) {
   for (const Racer& racer : heat.racers) {
     if (racer.method == ClosedForm<double>::name) return &racer;

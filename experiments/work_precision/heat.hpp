@@ -1,6 +1,7 @@
 #pragma once
 /// One race: a set of queries, a class and a scalar, and all who took part; and how they compare.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,9 @@ std::vector<const Racer*> pareto_front(const Heat& heat);
 
 /// Of every method one racer, in the order of the list: the roughest setting that is fine, or else the finest there is.
 std::vector<const Racer*> one_a_method(const Heat& heat);
+
+/// [1] The share of the misses of a heat's set and scalar that a racer of the heat calls a hit; missing if none were asked.
+std::optional<double> false_share(const std::vector<Heat>& heats, const Heat& heat, const Racer& racer);
 
 /// The racer of `ClosedForm`, what all others are held against; null if it does not take part.
 const Racer* closed_form_of(const Heat& heat);

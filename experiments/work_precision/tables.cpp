@@ -108,6 +108,7 @@ Table trailing_table(const std::vector<Heat>& heats) {
   append(
       table.columns,
       {{"missed", ColumnType::integer, "1", "Contacts that it does not see."},
+       {"false_share", ColumnType::number, "1", "Share of the misses, asked apart, that it calls a hit."},
        {"error_median", ColumnType::number, "step", "Median error of the time of impact."},
        {"error_p99", ColumnType::number, "step", "99th percentile of the same; missing: it misses more than 1 %."},
        {"evaluations", ColumnType::number, "1", "A query, on average."},
@@ -120,8 +121,9 @@ Table trailing_table(const std::vector<Heat>& heats) {
     const Racer* exact = closed_form_of(heat);
     for (const Racer* r : one_a_method(heat)) {
       std::vector<Value> row = key_of(heat, *r);
-      append(row,
-             {r->missed, number(r->time.median, *r), number(r->time.p99, *r), r->evaluations, nanoseconds(*r).median});
+      const std::optional<double> wrong = false_share(heats, heat, *r);
+      append(row, {r->missed, wrong ? Value(*wrong) : Value(), number(r->time.median, *r), number(r->time.p99, *r),
+                   r->evaluations, nanoseconds(*r).median});
       if (exact != nullptr) {
         const Estimate ratio = slowdown(*r, *exact);
         append(row, {ratio.median, ratio.interval.lower, ratio.interval.upper});

@@ -10,9 +10,11 @@ namespace thinwall {
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
-  const Entry<T> entry =
-      rounded_segment_entry<T>(sphere.shape.center - capsule.shape.a, relative_displacement(sphere, capsule),
-                               capsule.shape.b - capsule.shape.a, capsule.shape.radius + sphere.shape.radius + gap);
+  const T reach = capsule.shape.radius + sphere.shape.radius + gap;
+  const Vec3<T> core = capsule.shape.b - capsule.shape.a, motion = relative_displacement(sphere, capsule);
+  const NearPath<T> path(sphere.shape.center - capsule.shape.a, motion, reach + largest(core));
+  Entry<T> entry = rounded_segment_entry<T>(path.start, motion, core, reach);
+  entry.time += path.base_time;
   return toi_of(capsule, sphere, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
@@ -22,21 +24,30 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Mo
   const T reach = a.shape.radius + b.shape.radius + T(method.min_separation);
   const Vec3<T> start = b.shape.a - a.shape.a, motion = relative_displacement(b, a);
   const Vec3<T> core_a = a.shape.b - a.shape.a, core_b = b.shape.b - b.shape.a;
-  const Entry<T> entry =
-      reach == T(0) ? flat_entry<T>(FlatShape::parallelogram, start, motion, core_a, -core_b, T(1))
-                    : core_entry_at_any_scale(&closest_on_parallelogram<T>, start, motion, reach, core_a, core_b);
+  const NearPath<T> path(start, motion, reach + largest(core_a) + largest(core_b));
+  Entry<T> entry;
+  if (reach == T(0)) {
+    entry = flat_entry<T>(FlatShape::parallelogram, start, motion, core_a, -core_b, T(1));
+  } else {
+    entry = core_entry_at_any_scale(&closest_on_parallelogram<T>, path.start, motion, reach, core_a, core_b);
+    entry.time += path.base_time;
+  }
   return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Aabb<T>>& box) {
   const T gap(method.min_separation);
-  const Vec3<T> start = capsule.shape.a - box.shape.center, motion = relative_displacement(capsule, box);
   const Vec3<T> core = capsule.shape.b - capsule.shape.a, &h = box.shape.half_extents;
-  const Entry<T> entry = capsule_box_entry<T>(start, motion, capsule.shape.radius + gap, core, h);
-  return toi_of(capsule, box, flipped(entry), [&](const T& time) -> Vec3<T> {
+  const Vec3<T> motion = relative_displacement(capsule, box);
+  const T reach = capsule.shape.radius + gap;
+  const NearPath<T> path(capsule.shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
+  const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
+  Entry<T> entry = flipped(own);
+  entry.time += path.base_time;
+  return toi_of(capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
-           (point_on_box<T>(start + motion * time, core, h) + entry.normal * (gap / 2));
+           (point_on_box<T>(path.start + motion * own.time, core, h) + own.normal * (gap / 2));
   });
 }
 
@@ -63,10 +74,12 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const auto closest = [](const Vec3<T>& x, const Vec3<T>& d, const Vec3<T>& e1, const Vec3<T>& e2) {
     return closest_on_swept_triangle(x, d, e1, e2).part;
   };
-  const Entry<T> entry =
-      core_entry_at_any_scale<T>(closest, capsule.shape.a - t.a, relative_displacement(capsule, triangle),
-                                 capsule.shape.radius + T(method.min_separation),
-                                 Vec3<T>(capsule.shape.b - capsule.shape.a), Vec3<T>(t.b - t.a), Vec3<T>(t.c - t.a));
+  const Vec3<T> core = capsule.shape.b - capsule.shape.a, e1 = t.b - t.a, e2 = t.c - t.a;
+  const Vec3<T> motion = relative_displacement(capsule, triangle);
+  const T reach = capsule.shape.radius + T(method.min_separation);
+  const NearPath<T> path(capsule.shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
+  Entry<T> entry = core_entry_at_any_scale<T>(closest, path.start, motion, reach, core, e1, e2);
+  entry.time += path.base_time;
   return toi_of(capsule, triangle, flipped(entry),
                 [&](const T& time) { return middle_point(capsule, triangle, time); });
 }

@@ -25,10 +25,9 @@ SharedTime<S> point_and_triangle_share(const Vec3<S>& p, const Vec3<S>& v, const
   return shared;
 }
 
-/// First time at which p + v t is within R of the triangle (0, e1, e2); the normal out of the triangle.
+/// First time at which p + v t is within R > 0 of the triangle (0, e1, e2); the normal out of the triangle.
 template <Scalar S>
 Entry<S> sphere_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& e1, const Vec3<S>& e2) {
-  if (R == S(0)) return flat_entry(FlatShape::triangle, p, v, e1, e2, S(1));
   const S size = largest(p, R, e1, e2);
   if (!products_in_range(size) || !products_in_range(largest(v))) {
     return core_entry_at_any_scale<S>(&closest_on_triangle<S>, p, v, R, e1, e2);

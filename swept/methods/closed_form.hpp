@@ -97,8 +97,16 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Triangle<T>& t = triangle.shape;
-  const Entry<T> entry = sphere_triangle_entry<T>(sphere.shape.center - t.a, relative_displacement(sphere, triangle),
-                                                  sphere.shape.radius + gap, t.b - t.a, t.c - t.a);
+  const Vec3<T> e1 = t.b - t.a, e2 = t.c - t.a, motion = relative_displacement(sphere, triangle);
+  const T reach = sphere.shape.radius + gap;
+  const NearPath<T> path(sphere.shape.center - t.a, motion, reach + largest(e1, e2));
+  Entry<T> entry;
+  if (reach == T(0)) {
+    entry = flat_entry<T>(FlatShape::triangle, sphere.shape.center - t.a, motion, e1, e2, T(1));
+  } else {
+    entry = sphere_triangle_entry<T>(path.start, motion, reach, e1, e2);
+    entry.time += path.base_time;
+  }
   return toi_of(triangle, sphere, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }

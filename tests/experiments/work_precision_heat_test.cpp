@@ -51,11 +51,11 @@ TEST(WorkPrecisionHeat, who_is_fine_and_faster_than_the_closed_form_is_named) {
                                      made_up("noisy", 1e-13, {30, 60, 52}), made_up("rough", 1e-9, {10, 10, 10})};
   const Heat heat = heat_of(racers);
   EXPECT_EQ(names(fine_and_faster(heat)), Names{"quick"});
-  EXPECT_NE(work_precision_answer({heat}).find("In 0 of 1 races"), std::string::npos);
+  EXPECT_NE(work_precision_answer({heat}).find("In 0 of 1 races on hits"), std::string::npos);
   EXPECT_NE(work_precision_answer({heat}).find("quick is faster on sphere_wall in double"), std::string::npos);
   EXPECT_NE(heat_text(heat).find("quick is as fine and faster than the closed form"), std::string::npos);
   const Heat without = heat_of({racers[0], racers[2], racers[3]});
-  EXPECT_NE(work_precision_answer({without}).find("In 1 of 1 races no method"), std::string::npos);
+  EXPECT_NE(work_precision_answer({without}).find("In 1 of 1 races on hits no method"), std::string::npos);
 }
 
 TEST(WorkPrecisionHeat, says_where_the_curves_cross_and_by_how_much) {
@@ -66,6 +66,16 @@ TEST(WorkPrecisionHeat, says_where_the_curves_cross_and_by_how_much) {
       << text;
   EXPECT_NE(text.find("where 1.0e-02 is good enough the curves cross and rough is, in 0.20 of that"), std::string::npos)
       << text;
+}
+
+TEST(WorkPrecisionHeat, false_hits_are_those_among_the_misses) {
+  Heat hits = heat_of({made_up("rash", 1e-3, {1}), made_up("other", 1e-3, {1})});
+  Heat misses = hits;
+  misses.kind = QueryClass::miss;
+  misses.racers[0].false_hits = 25;
+  EXPECT_EQ(false_share({hits, misses}, hits, hits.racers[0]), 0.25);
+  EXPECT_EQ(false_share({hits, misses}, hits, hits.racers[1]), 0.0);
+  EXPECT_FALSE(false_share({hits}, hits, hits.racers[0]));
 }
 
 TEST(WorkPrecisionHeat, a_closed_form_that_errs_fails_the_self_test) {
@@ -115,6 +125,17 @@ TEST(WorkPrecisionConfig, refuses_what_no_method_can_take) {
   expect_refusal("method = [\"closed_from\"]", {"closed_form"});
   expect_refusal("set = [\"box_box\"]\nmethod = [\"swept_volume_ray\"]",
                  {"key 'method'", "box_box", "conservative_advancement", "closed_form", "swept_volume_ray"});
+}
+
+TEST(WorkPrecisionResult, leaves_out_pictures_of_nothing) {  // gnuplot minds
+  const Outcome outcome = race_outcome("method = [\"end_of_step\"]\nset = [\"sphere_wall\"]\nqueries = 40\nrounds = 2");
+  for (const Figure& figure : outcome.figures) {
+    for (const Panel& panel : figure.panels) {
+      bool any = false;
+      for (const Series& series : panel.series) any = any || (series.mark == Mark::points && !series.x.empty());
+      EXPECT_TRUE(any) << figure.name;
+    }
+  }
 }
 
 TEST(WorkPrecisionConfig, leaves_out_what_is_not_served_where_all_are_asked_for) {

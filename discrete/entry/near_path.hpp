@@ -1,0 +1,28 @@
+#pragma once
+/// A path that starts far off is looked at from a point shortly before it passes. What is computed from there has the
+/// rounding of the body's size, not that of the distance; and an oriented box, whose axes are orthonormal to rounding only,
+/// does not move a whole path by turning it.
+
+#include <thinwall/discrete/numbers/double_word.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
+#include <thinwall/discrete/scalar.hpp>
+
+namespace thinwall {
+
+/// The path p + v t, of which only what lies within `reach` of the origin matters.
+/// Error: `start` is p + v * base_time to a rounding of its own.
+template <Scalar S> struct NearPath {
+  Vec3<S> start;
+  S base_time = 0;  ///< [1] >= 0: there is no contact before
+
+  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach) : start(p) {
+    const S near = 2 * reach;  // more than the diagonal of a cube of that half width
+    if (largest(p) < 2 * near || !products_in_range(largest(p)) || !products_in_range(largest(v))) return;
+    const S earlier = -p.dot(v) / v.squaredNorm() - near / safe_norm(v);
+    if (!(earlier > S(0)) || !is_finite(earlier)) return;
+    base_time = earlier;
+    for (int i = 0; i < 3; ++i) start[i] = (exact_product(v[i], earlier) + DoubleWord<S>{p[i], S(0)}).high;
+  }
+};
+
+}  // namespace thinwall
