@@ -20,8 +20,9 @@ TEST(HardQueries, nothing_overlaps_from_far_away_however_coarse_the_times) {
 
 TEST(HardQueries, small_triangle_and_far_sphere) {
   using F = Vec3<float>;
-  const Triangle<float> triangle{F(-0.8F, -4.6F, -0.8F), F(0.8F, -0.8F, 5), F(4.6F, -1, -13.4F)};
-  const Sphere<float> sphere{F(-3, 0x1p+53F, -4), 0.8F};
+  const Triangle<float> triangle{F(-0x1.99999ap-1F, -0x1.266666p+2F, -0x1.99999ap-1F),
+                                 F(0x1.99999ap-1F, -0x1.99999ap-1F, 0x1.4p+2F), F(0x1.266666p+2F, -1, -0x1.acccccp+2F)};
+  const Sphere<float> sphere{F(-0x1.7ffff8p+1F, 0x1p+53F, -4), 0x1.99999ap-1F};
   const auto apart = separation(triangle, sphere);
   EXPECT_FLOAT_EQ(apart.distance, 0x1p+53F);
   EXPECT_FLOAT_EQ(apart.normal[1], 1);
