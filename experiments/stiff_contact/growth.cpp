@@ -10,10 +10,10 @@ namespace thinwall {
 
 namespace {
 
-constexpr int bound = 32;                                        // [log2] what counts as growth, and as decay
-constexpr int damped_doublings = 50, undamped_doublings = 36;    // of the number of steps
-constexpr int damped_exponent = -20, undamped_exponent = -14;    // of the least step that is tried
-constexpr int last_exponent = 20, halvings = 16;                 // of the greatest; of its exponent, by bisection
+constexpr int bound = 32;                                      // [log2] what counts as growth, and as decay
+constexpr int damped_doublings = 50, undamped_doublings = 36;  // of the number of steps
+constexpr int damped_exponent = -20, undamped_exponent = -14;  // of the least step that is tried
+constexpr int last_exponent = 20, halvings = 16;               // of the greatest; of its exponent, by bisection
 
 /// m * 2^exponent, the largest entry of m in [1, 2), or all of them 0.
 struct Power {
