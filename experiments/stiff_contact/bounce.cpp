@@ -11,8 +11,6 @@ namespace thinwall {
 
 namespace {
 
-constexpr std::int64_t most_steps = std::int64_t{1} << 20;
-
 struct Ball {
   Sphere<double> shape;
   Vec3<double> velocity;  ///< [m/s]
@@ -22,6 +20,11 @@ struct Ball {
 Aabb<double> wall_of(const Approach& e) {
   const double side = e.thickness + e.radius;
   return {{0, 0, 0}, {e.thickness / 2, side, side}};
+}
+
+/// In continuous time a bounce takes at most (pi + 4 zeta) / omega; this is sixteen times as long, and more.
+std::int64_t most_steps(const PenaltyContact& c) {
+  return 1024 + static_cast<std::int64_t>(64 * (1 + c.damping_ratio) / c.step);
 }
 
 struct Stepper {
@@ -66,7 +69,8 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
   const Stepper stepper = {c.scheme, spring_of(e, c), wall_of(e)};
   Ball ball = {{{-contact_distance - phase * e.speed * step, 0, 0}, e.radius}, {e.speed, 0, 0}};
   Bounce result = {Ending::unfinished, 0, 0, 0, 0};
-  for (std::int64_t count = 1; count <= most_steps; ++count) {
+  const std::int64_t budget = most_steps(c);
+  for (std::int64_t count = 1; count <= budget; ++count) {
     const Ball before = ball;
     const std::optional<Contact<double>> touch = contact(ball.shape, stepper.wall);
     const double x = ball.shape.center[0], v = ball.velocity[0];

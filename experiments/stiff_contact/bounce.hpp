@@ -44,7 +44,7 @@ double seconds(const Approach& e, const PenaltyContact& c);  ///< [s] a step
 enum class Ending {
   returned,    ///< left on the side it came from
   escaped,     ///< left on the other
-  unfinished,  ///< it rests there, or is there after 2^20 steps, or is no longer a finite number
+  unfinished,  ///< it rests there, or is there after 1024 + 64 (1 + zeta) / step steps, or is no finite number
 };
 
 struct Bounce {

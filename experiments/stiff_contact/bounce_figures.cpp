@@ -14,6 +14,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_ratio = 1e-3;  // drawn in place of a speed ratio that is less, down to 0
+constexpr double last_step = 3;       // of the picture of bounces
+constexpr double sparse = 1.25;       // the map leaves out steps that are less than this factor apart
 constexpr const char* step_label = "h omega [1]";
 
 Series series_of(std::string label, Mark mark) {
@@ -55,7 +57,7 @@ Panel bounce_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
       const PenaltyContact& c = l.contact;
       const bool drawn = c.scheme == scheme && c.damping_ratio == ratio && c.stiffness == plan.stiffest() &&
                          c.detection == Detection::discrete;
-      if (!drawn || !is_clean(plan, l) || c.step > 10) continue;
+      if (!drawn || !is_clean(plan, l) || c.step > last_step) continue;
       add(points, c.step, std::max(least_ratio, l.tally.mean_speed()));
       points.lower.push_back(std::max(least_ratio, l.tally.slowest));
       points.upper.push_back(std::max(least_ratio, l.tally.fastest));
@@ -92,11 +94,16 @@ namespace {
 Panel escape_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, Scheme scheme, Detection detection) {
   const Approach& e = plan.approach;
   const double ratio = plan.bounce_ratios.front();
+  std::vector<double> steps;
+  for (const double step : plan.bounce_steps) {
+    if (steps.empty() || step >= sparse * steps.back()) steps.push_back(step);
+  }
   Series returns = series_of("all return", Mark::points), fast = series_of("all return, some too fast", Mark::points);
   Series some = series_of("some get through", Mark::points), all = series_of("all get through", Mark::points);
   for (const BounceLine& l : lines) {
     const PenaltyContact& c = l.contact;
     if (c.scheme != scheme || c.detection != detection || c.damping_ratio != ratio) continue;
+    if (std::find(steps.begin(), steps.end(), c.step) == steps.end()) continue;
     const BounceTally& t = l.tally;
     Series& series = t.escaped == t.bounces() ? all : t.escaped > 0 ? some : t.blown_up > 0 ? fast : returns;
     add(series, c.step, c.stiffness);

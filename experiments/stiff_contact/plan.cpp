@@ -11,7 +11,7 @@ namespace {
 // Growth is told from decay over ten decades of damping; see growth.hpp.
 constexpr double least_ratio = 1e-5, greatest_ratio = 1e5;
 constexpr Range positive_steps = {.lower = 1e-6, .upper = 1e6, .unit = "1/omega"};
-// A bounce takes about pi / step steps, and is given up after 2^20.
+// A bounce takes about pi / step steps.
 constexpr Range bounce_steps = {.lower = 1e-3, .upper = 1e6, .unit = "1/omega"};
 constexpr double least_path =
     0x1p-30;  // of the distance from first contact to the middle: 22 bits are left for the phase

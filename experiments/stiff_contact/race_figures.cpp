@@ -14,6 +14,8 @@ namespace thinwall {
 
 namespace {
 
+constexpr double least_spread = 1e-5;  // drawn in place of one that is less, down to 0
+
 Series series_of(std::string label, Mark mark) {
   return {.label = std::move(label), .mark = mark, .x = {}, .y = {}, .lower = {}, .upper = {}};
 }
@@ -85,7 +87,7 @@ Panel race_panel(const StiffPlan& plan, const std::vector<StiffRacer>& racers, d
 }  // namespace
 
 Figure detection_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
-  const auto spread = [](const BounceLine& l) { return l.tally.fastest - l.tally.slowest; };
+  const auto spread = [](const BounceLine& l) { return std::max(least_spread, l.tally.fastest - l.tally.slowest); };
   const auto error = [](const BounceLine& l) { return l.tally.rms_error(); };
   const auto depth = [&](const BounceLine& l) {
     return l.tally.deepest * frequency(spring_of(plan.approach, l.contact)) /

@@ -77,7 +77,7 @@ Figure stability_figure(const StiffPlan& plan, const std::vector<LimitLine>& lim
   figure.name = "stability";
   figure.title = "Which steps a spring and damper can take";
   figure.caption = fmt::format(
-      "A ball on a spring that holds both ways: does its state grow? Points: the steps of the map, at {:g} N/m. Diamonds: the "
+      "A ball on a spring that holds both ways: does its state grow? Points: the steps of the map, at {:g} N/m. Triangles: the "
       "measured limit at every stiffness from {:g} to {:g} N/m, which lie on each other; their bars, from a step that decays to "
       "one that grows, are thinner than the line. Implicit Euler has no limit. The undamped case has no place on the axis.",
       plan.stiffness.front(), plan.stiffness.front(), plan.stiffest());

@@ -58,6 +58,21 @@ void judge_energy(const StiffPlan& plan, const std::vector<BounceLine>& lines, s
   tests.insert(tests.end(), {bounds, gains, loses});
 }
 
+/// A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
+void judge_splits(const StiffPlan& plan, const std::vector<BounceLine>& lines, std::vector<StiffTest>& tests) {
+  StiffTest same = {"explicit and semi-implicit, undamped: splitting the step changes no bounce"};
+  for (const BounceLine& line : lines) {
+    const PenaltyContact& c = line.contact;
+    if (c.detection != Detection::discrete || c.scheme == Scheme::implicit_euler || c.damping_ratio != 0) continue;
+    const BounceLine* split = twin_of(lines, line);
+    if (split == nullptr || !is_clean(plan, line)) continue;
+    const double slack = rounding(plan, c) * std::max(1.0, line.tally.fastest);
+    judge(same, is_clean(plan, *split) && std::abs(line.tally.slowest - split->tally.slowest) <= slack &&
+                    std::abs(line.tally.fastest - split->tally.fastest) <= slack);
+  }
+  tests.push_back(same);
+}
+
 void judge_escapes(const StiffPlan& plan, const std::vector<BounceLine>& lines, std::vector<StiffTest>& tests) {
   StiffTest late = {"discrete: as many escape as are first seen past the middle, or more"};
   StiffTest held = {"implicit, split, stiff enough for continuous time: none escapes"};
@@ -99,6 +114,7 @@ std::vector<StiffTest> stiff_tests(const StiffPlan& plan, const std::vector<Limi
   std::vector<StiffTest> tests;
   judge_limits(plan, limits, tests);
   judge_energy(plan, bounces, tests);
+  judge_splits(plan, bounces, tests);
   judge_escapes(plan, bounces, tests);
   return tests;
 }
