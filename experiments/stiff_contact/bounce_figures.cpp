@@ -51,7 +51,8 @@ Panel bounce_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
   p.height = 0.9;
   if (scheme == Scheme::semi_implicit && plan.bounce_ratios.front() == 0) p.series.push_back(bounds_curve(plan));
   Series exact = series_of("continuous time", Mark::dashes);
-  for (const double ratio : plan.bounce_ratios) {
+  for (std::size_t i = plan.bounce_ratios.size(); i-- > 0;) {  // the least damped on top
+    const double ratio = plan.bounce_ratios[i];
     Series points = series_of(label_of(ratio), Mark::points);
     for (const BounceLine& l : lines) {
       const PenaltyContact& c = l.contact;

@@ -14,6 +14,7 @@ namespace thinwall {
 
 namespace {
 
+constexpr double last_step = 3;        // of the picture of detections
 constexpr double least_spread = 1e-5;  // drawn in place of one that is less, down to 0
 
 Series series_of(std::string label, Mark mark) {
@@ -48,7 +49,7 @@ Panel detection_panel(const StiffPlan& plan, const std::vector<BounceLine>& line
       for (const BounceLine& l : lines) {
         const PenaltyContact& c = l.contact;
         const bool drawn = c.scheme == scheme && c.detection == detection && c.damping_ratio == ratio &&
-                           c.stiffness == plan.stiffest() && c.step <= 10 && is_clean(plan, l);
+                           c.stiffness == plan.stiffest() && c.step <= last_step && is_clean(plan, l);
         if (!drawn || !(read(l) > 0)) continue;
         points.x.push_back(c.step);
         points.y.push_back(read(l));

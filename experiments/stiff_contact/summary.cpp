@@ -150,7 +150,7 @@ std::string passage_part(const StiffPlan& plan, const std::vector<BounceLine>& b
 
 std::string race_part(const StiffPlan& plan, const std::vector<StiffRacer>& racers) {
   std::string text =
-      "\nTime a bounce [ns], and h omega, where it is least with an error of speed out over speed in of at most 1 %.\n";
+      "\nTime a bounce [ns] at h omega, the cheapest with an error of speed out over in of at most 1 %.\n";
   text += fmt::format("{:<16}{:<12}", "scheme", "detection");
   for (const double ratio : plan.bounce_ratios) text += fmt::format("{:>23}", fmt::format("damping ratio {:g}", ratio));
   text += "\n";
@@ -159,9 +159,9 @@ std::string race_part(const StiffPlan& plan, const std::vector<StiffRacer>& race
       text += fmt::format("{:<16}{:<12}", name(scheme), name(detection));
       for (const double ratio : plan.bounce_ratios) {
         const StiffRacer* best = cheapest(racers, ratio, scheme, detection, one_percent);
-        text += fmt::format("{:>23}", best == nullptr ? "-"
-                                                      : fmt::format("{:.0f} at {:g}", bounce_time(*best).median,
-                                                                    best->contact.step));
+        text += fmt::format(
+            "{:>23}",
+            best == nullptr ? "-" : fmt::format("{:.0f} at {:g}", bounce_time(*best).median, best->contact.step));
       }
       text += "\n";
     }
