@@ -134,7 +134,7 @@ std::string bounces_part(const StiffPlan& plan, const std::vector<BounceLine>& b
 std::string passage_part(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
   std::string text = fmt::format(
       "\nWalls stiff enough for continuous time, all steps and dampings. Too fast: over {:g} x the speed in.\n"
-      "Least path: the shortest step that let a ball through, over the way from first contact to the middle.\n"
+      "Least path: the shortest step that let a ball through, over the way from touch to the middle.\n"
       "{:<16}{:<12}{:>12}{:>12}{:>13}{:>12}{:>14}\n",
       plan.approach.blow_up, "scheme", "detection", "bounces", "through", "still there", "too fast", "least path");
   for (const Scheme scheme : all_schemes) {

@@ -23,7 +23,7 @@ TEST(StiffConfig, trials_override_the_bounces) {
   const Experiment experiment = stiff_contact_experiment();
   const Settings settings(few_contacts, "test.toml", experiment.default_toml);
   EXPECT_EQ(make_stiff_plan(settings, {.seed = 1, .trials = 7}).bounces, 7);
-  EXPECT_EQ(make_stiff_plan(settings, {.seed = 1, .trials = {}}).bounces, 20);
+  EXPECT_EQ(make_stiff_plan(settings, {.seed = 1, .trials = {}}).bounces, 100);
 }
 
 TEST(StiffConfig, every_row_is_as_long_as_its_columns_and_every_column_is_described) {

@@ -13,7 +13,7 @@ namespace thinwall {
 
 /// Small enough for a debug build, and still with every kind of cell: soft and stiff, undamped, damped and overdamped.
 inline constexpr std::string_view few_contacts = R"(
-  bounces = 20
+  bounces = 100
   stiffness = [100, 1e6, 1e10]
   damping_ratio = [0, 1e-5, 0.1, 1, 1e5]
   step = [1.5e-5, 0.15, 1.5, 15]
