@@ -31,14 +31,17 @@ std::string label_of(double ratio) { return fmt::format("damping ratio {:g}", ra
 
 /// Both bounds of the undamped semi-implicit bounce, as one series with a gap.
 Series bounds_curve(const StiffPlan& plan) {
+  constexpr int count = 100;
+  constexpr double last = 1.99;  // they end at 0 and infinity
+  const double first = std::min(plan.bounce_steps.front(), last);
   Series series = series_of("bounds, undamped", Mark::line);
   for (const bool upper : {false, true}) {
-    for (double step = plan.bounce_steps.front(); step < 1.99;
-         step = std::max(step * 1.05, std::min(step + 0.02, 1.99))) {
-      const auto bounds = bounce_bounds(step);
+    for (int i = 0; i <= count; ++i) {
+      const double step = first * std::pow(last / first, static_cast<double>(i) / count);
+      const auto bounds = bounce_bounds(std::min(step, last));
       add(series, step, upper ? bounds->upper : bounds->lower);
     }
-    add(series, 1.99, nan);
+    add(series, last, nan);
   }
   return series;
 }

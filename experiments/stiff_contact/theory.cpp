@@ -15,7 +15,8 @@ double arc_over_sine(double z) {
 
 }  // namespace
 
-std::optional<double> step_limit(Scheme scheme, double z) {
+std::optional<double> step_limit(Scheme scheme, double damping_ratio) {
+  const double z = damping_ratio;
   switch (scheme) {
     case Scheme::explicit_euler: return z < 1 ? 2 * z : 2 / (z + std::sqrt((z - 1) * (z + 1)));
     case Scheme::semi_implicit: return 2 / (std::hypot(1.0, z) + z);
@@ -24,9 +25,9 @@ std::optional<double> step_limit(Scheme scheme, double z) {
   return std::nullopt;
 }
 
-double restitution(double z) { return std::exp(-2 * z * arc_over_sine(z)); }
+double restitution(double damping_ratio) { return std::exp(-2 * damping_ratio * arc_over_sine(damping_ratio)); }
 
-double deepest(double z) { return std::exp(-z * arc_over_sine(z)); }
+double deepest(double damping_ratio) { return std::exp(-damping_ratio * arc_over_sine(damping_ratio)); }
 
 std::optional<Interval> bounce_bounds(double step) {
   if (!(step < 2)) return std::nullopt;
