@@ -19,8 +19,7 @@ inline double landing_time(double gap, double velocity, double gravity) {
 /// Follows the arc through one step, and calls at_bounce(time) at each impact. Bounces pile up towards a limit where the
 /// restitution is below 1; the ball is at rest from the one on whose flight is too short to move the clock. No tolerance.
 /// Degenerate: at rest on the floor it stays, to the bit.
-template <class AtBounce>
-void follow_arc(const BouncingWorld& world, BouncingBall& ball, const AtBounce& at_bounce) {
+template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBall& ball, const AtBounce& at_bounce) {
   const double g = world.gravity, start = ball.time;
   double gap = std::max(0.0, gap_of(ball)), left = world.step;
   while (left > 0) {

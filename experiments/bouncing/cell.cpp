@@ -51,8 +51,9 @@ std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
   for (const double step : steps) {
     c.step = step;
     if (!(delta(c) >= 1e-4 && delta(c) <= 0.5)) {
-      settings.complain("step", fmt::format("steps in which gravity adds 0.0001 to 0.5 of the impact speed: {} s to {} s",
-                                            rounded_text(1e-4 * fall_time(c), 3), rounded_text(0.5 * fall_time(c), 3)));
+      settings.complain("step",
+                        fmt::format("steps in which gravity adds 0.0001 to 0.5 of the impact speed: {} s to {} s",
+                                    rounded_text(1e-4 * fall_time(c), 3), rounded_text(0.5 * fall_time(c), 3)));
     }
     for (const double e : restitutions) {
       c.restitution = e;

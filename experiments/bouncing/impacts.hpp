@@ -24,7 +24,7 @@ template <class S> LineSpeeds<S> after_impact(LineSpeeds<S> before, S mass_a, S 
 /// A ball, or a wall that nothing moves out of its way.
 template <class Shape> struct FlyingBody {
   Shape shape;
-  Vec3<double> velocity;                                         ///< [m/s]
+  Vec3<double> velocity;                                          ///< [m/s]
   Moving<Shape> motion() const { return {shape, velocity * 1}; }  ///< in a second
   void fly(double seconds) { shape = moved(shape, Vec3<double>(velocity * seconds)); }
 };

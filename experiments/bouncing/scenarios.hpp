@@ -39,9 +39,16 @@ std::vector<BounceScenario> mass_scenarios(const std::vector<double>& ratios);
 /// Five touching balls in a row, and one, two or three of them come in.
 std::vector<BounceScenario> cradle_scenarios();
 
-/// Impacts of a block that stands between a wall and one 100^digits times as heavy, which comes in. S: float or double.
-/// Error: right up to 5 digits in float and 7 in double, as measured; beyond, roundings add up to a turn.
-template <class S> std::int64_t count_block_impacts(int digits);
+struct BlockCount {
+  std::int64_t impacts;
+  /// [m^2/s] Of the path of (heavy, light) around the corner where all three touch: |x_heavy v_light - x_light v_heavy|. An impact
+  /// only turns its sign, so that it stays what it was, 1. It is what the places say, where the speeds alone decide the count.
+  double moment;
+};
+
+/// Impacts of a block that stands 1 m from a wall while one 100^digits times as heavy comes in at 1 m/s. S: float or double.
+/// Error: right up to 5 digits in float and 7 in double, as measured.
+template <class S> BlockCount count_block_impacts(int digits);
 std::vector<BounceScenario> digit_scenarios(int most);
 
 /// Lists of scenarios as the line that a run's journal keeps, and back. Throws std::runtime_error if it is not one.

@@ -4,15 +4,15 @@
 #include <stdexcept>
 #include <string>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <thinwall/experiments/bouncing/policies.hpp>
 
 namespace thinwall {
 
 namespace {
 
-BounceTheory operator+(const BounceTheory& a, const BounceTheory& b) {
-  return {a.c0 + b.c0, a.c1 + b.c1, a.c2 + b.c2};
-}
+BounceTheory operator+(const BounceTheory& a, const BounceTheory& b) { return {a.c0 + b.c0, a.c1 + b.c1, a.c2 + b.c2}; }
 BounceTheory operator*(double factor, const BounceTheory& t) { return {factor * t.c0, factor * t.c1, factor * t.c2}; }
 
 /// Speed after: e (V + g h u / 2), which the flight has half a step later than Euler says, so it has lost g h / 2.
@@ -27,6 +27,12 @@ BounceTheory depth(double delta) { return {1 + delta / 4, 1 + delta / 2, delta /
 double BounceTheory::mean() const { return c0 + c2 / 3; }
 double BounceTheory::sigma() const { return std::sqrt(c1 * c1 / 3 + 4 * c2 * c2 / 45); }
 double BounceTheory::rms() const { return std::hypot(mean(), sigma()); }
+double BounceTheory::kurtosis() const {
+  const auto fourth = [&](double u) { return std::pow(at(u) - mean(), 4); };
+  const double moment =
+      boost::math::quadrature::gauss<double, 7>::integrate(fourth, -1.0, 1.0) / 2;  // exact to degree 13
+  return moment / std::pow(sigma(), 4);
+}
 
 BounceTheory bounce_theory(std::string_view policy, double delta, double restitution) {
   const double e = restitution;

@@ -11,9 +11,10 @@ namespace thinwall {
 struct BounceTheory {
   double c0 = 0, c1 = 0, c2 = 0;  ///< [g h / V]
   double at(double u) const { return c0 + u * (c1 + u * c2); }
-  double mean() const;   ///< [g h / V] over uniform phases
-  double sigma() const;  ///< [g h / V] standard deviation over them
-  double rms() const;    ///< [g h / V] root of the mean square
+  double mean() const;      ///< [g h / V] over uniform phases
+  double sigma() const;     ///< [g h / V] standard deviation over them
+  double rms() const;       ///< [g h / V] root of the mean square
+  double kurtosis() const;  ///< [1] fourth moment about the mean over the variance's square; 9/5 if c2 is 0
 };
 
 /// Requires one of the five policies' names.

@@ -41,25 +41,15 @@ template <class Policy> std::vector<double> energies(const BounceCell& cell, dou
   return energies;
 }
 
-template <class Policy> std::vector<double> gaps(const BounceCell& cell, BouncingBall ball, std::int64_t steps) {
+template <class Policy> std::vector<double> heights(const BounceCell& cell, double elapsed, std::int64_t steps) {
   const BouncingWorld world = world_of(cell);
-  std::vector<double> result;
+  BouncingBall ball = falling<Policy>(cell, elapsed * cell.step);
+  std::vector<double> gaps = {gap_of(ball)};
   for (std::int64_t i = 0; i < steps; ++i) {
     Policy::step(world, ball);
-    result.push_back(gap_of(ball));
+    gaps.push_back(gap_of(ball));
   }
-  return result;
-}
-
-template <class Policy> std::vector<double> heights(const BounceCell& cell, std::int64_t steps) {
-  std::vector<double> result = {cell.height};
-  const std::vector<double> rest = gaps<Policy>(cell, falling<Policy>(cell, 0), steps);
-  result.insert(result.end(), rest.begin(), rest.end());
-  return result;
-}
-
-template <class Policy> std::vector<double> rest(const BounceCell& cell, std::int64_t steps) {
-  return gaps<Policy>(cell, ball_at(0, 0, cell.radius), steps);
+  return gaps;
 }
 
 }  // namespace
@@ -69,7 +59,7 @@ std::vector<BouncePolicy> bounce_policies(const std::vector<std::string>& names)
   for_each_bounce_policy([&]<class Policy>(Policy) {
     if (std::find(names.begin(), names.end(), Policy::name) == names.end()) return;
     policies.push_back({std::string(Policy::name), Policy::staggered, Policy::drift, &error_at<Policy>,
-                        &energies<Policy>, &heights<Policy>, &rest<Policy>});
+                        &energies<Policy>, &heights<Policy>});
   });
   return policies;
 }

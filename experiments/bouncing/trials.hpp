@@ -22,10 +22,8 @@ struct BouncePolicy {
   /// One ball that bounces on and on: energy of the flight after each bounce over that of the first flight, until `bounces` or
   /// until a flight has become shorter than two steps. The run begins `elapsed` in [0, 1) of a step after the drop.
   std::vector<double> (*energies)(const BounceCell& cell, double elapsed, std::int64_t bounces);
-  /// [m] The gap at every step, dropped from the cell's height.
-  std::vector<double> (*heights)(const BounceCell& cell, std::int64_t steps);
-  /// [m] The gap after each of `steps` steps of a ball that rests on the floor.
-  std::vector<double> (*rest)(const BounceCell& cell, std::int64_t steps);
+  /// [m] The gap at the start of such a run, and after each step.
+  std::vector<double> (*heights)(const BounceCell& cell, double elapsed, std::int64_t steps);
 };
 
 std::vector<BouncePolicy> bounce_policies(const std::vector<std::string>& names);  ///< in the order of the list of all

@@ -42,7 +42,8 @@ std::vector<double> zeno_times() { return run_zeno().times; }
 std::vector<BounceScenario> zeno_scenarios() {
   const Zeno run = run_zeno();
   bool exact = run.times.size() == 54;
-  for (std::size_t n = 0; n < run.times.size(); ++n) exact &= run.times[n] == 3 - std::ldexp(1.0, 1 - static_cast<int>(n));
+  for (std::size_t n = 0; n < run.times.size(); ++n)
+    exact &= run.times[n] == 3 - std::ldexp(1.0, 1 - static_cast<int>(n));
   const bool rests = gap_of(run.ball) == 0 && run.ball.velocity == 0;
   return {{"bounces that pile up (restitution 1/2)",
            "at 3 - 2^(2-n) s, exactly; the clock stalls at 3 s with the 54th, then rest",

@@ -14,10 +14,12 @@ namespace thinwall {
 
 namespace {
 
+constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+
 /// Units of round-off between an answer and what it should be.
 double rounds_off(double answer, long double expected) {
-  const long double u = std::numeric_limits<double>::epsilon() / 2;
-  return static_cast<double>(std::abs((static_cast<long double>(answer) - expected) / (expected * u)));
+  return static_cast<double>(
+      std::abs((static_cast<long double>(answer) - expected) / (expected * static_cast<long double>(u))));
 }
 
 /// A ball of mass `a` at 1 m/s hits one of mass `b` at rest; the library says when.
@@ -28,8 +30,9 @@ BounceScenario head_on(double a, double b) {
   const long double la = a, lb = b;
   const long double back = (la - lb) / (la + lb), on = 2 * la / (la + lb);
   // v' = 1 - 2 b / (a + b): three roundings of a number up to 2 beside an answer that may be small; V' has three of its own.
-  const double off = std::max(a == b ? std::abs(after.a) : rounds_off(after.a, back) * std::abs(static_cast<double>(back)) / 2,
-                              rounds_off(after.b, on));
+  const double off =
+      std::max(a == b ? std::abs(after.a) : rounds_off(after.a, back) * std::abs(static_cast<double>(back)) / 2,
+               rounds_off(after.b, on));
   return {fmt::format("masses {} : {}, elastic", exact_text(a), exact_text(b)),
           fmt::format("v' = {}, V' = {}, within 4 u", rounded_text(static_cast<double>(back), 10),
                       rounded_text(static_cast<double>(on), 10)),
@@ -40,7 +43,7 @@ BounceScenario head_on(double a, double b) {
 /// Of five balls of 1 m that touch in a row, the first `count` come in at 1 m/s.
 BounceScenario cradle(int count) {
   bool passed = true;
-  std::vector<double> speeds;
+  std::string speeds;
   std::int64_t impacts = 0;
   for (const bool reversed : {false, true}) {
     std::vector<FlyingBall> balls;
@@ -57,22 +60,33 @@ BounceScenario cradle(int count) {
       const bool leaves = i >= 5 - count;
       const double place = leaves ? i + 0.5 : i;
       passed &= ball.velocity == Vec3<double>(leaves ? 1 : 0, 0, 0) && ball.shape.center == Vec3<double>(place, 0, 0);
-      speeds.push_back(ball.velocity.x());
+      speeds += (i > 0 ? " " : "") + rounded_text(ball.velocity.x(), 6);
     }
     passed &= impacts == count * (5 - count);
   }
   return {fmt::format("a cradle of five balls, {} come{} in", count, count == 1 ? "s" : ""),
           fmt::format("only the last {} leave{}, exactly; {} impacts at one instant, in either order of the list",
                       count == 1 ? "one" : std::to_string(count), count == 1 ? "s" : "", count * (5 - count)),
-          fmt::format("speeds {:g}, {} impacts", fmt::join(speeds, " "), impacts), passed};
+          fmt::format("speeds {}, {} impacts", speeds, impacts), passed};
 }
 
 constexpr std::array<std::int64_t, 8> pi_digits = {3, 31, 314, 3141, 31415, 314159, 3141592, 31415926};
 
 template <class S> BounceScenario digits_of_pi(int digits, const char* scalar) {
-  const std::int64_t impacts = count_block_impacts<S>(digits), expected = pi_digits[static_cast<std::size_t>(digits)];
-  return {fmt::format("blocks of masses 1 : 100^{} and a wall, {}", digits, scalar),
-          fmt::format("{} impacts: the digits of pi", expected), fmt::format("{}", impacts), impacts == expected};
+  const BlockCount count = count_block_impacts<S>(digits);
+  const std::int64_t expected = pi_digits[static_cast<std::size_t>(digits)];
+  BounceScenario row = {fmt::format("blocks of masses 1 : 100^{} and a wall, {}", digits, scalar),
+                        fmt::format("{} impacts: the digits of pi", expected), fmt::format("{} impacts", count.impacts),
+                        count.impacts == expected};
+  if (std::is_same_v<S, double>) {
+    // Each impact rounds places of up to 4 m beside speeds of up to 10^digits.
+    const double error = std::abs(count.moment - 1),
+                 allowed = 8 * u * static_cast<double>(expected) * std::pow(10.0, digits);
+    row.must += fmt::format("; the moment of the path, 1, stays within {:.1e}", allowed);
+    row.happened += fmt::format(", moment off by {:.1e}", error);
+    row.passed &= error <= allowed;
+  }
+  return row;
 }
 
 }  // namespace
@@ -90,7 +104,7 @@ std::vector<BounceScenario> cradle_scenarios() { return {cradle(1), cradle(2), c
 
 /// The blocks never both approach: after an impact of the two, only the light one can approach the wall, and after that one,
 /// only the two each other. So the speeds alone decide whether there is a next impact, and the library when.
-template <class S> std::int64_t count_block_impacts(int digits) {
+template <class S> BlockCount count_block_impacts(int digits) {
   using Block = Moving<Aabb<S>>;
   const S mass = static_cast<S>(std::pow(100.0, digits)), half = S(1) / S(2);
   const auto block = [&](S left) { return Block{{{left + half, 0, 0}, {half, half, half}}, Vec3<S>::Zero()}; };
@@ -118,10 +132,11 @@ template <class S> std::int64_t count_block_impacts(int digits) {
     ++impacts;
     horizon = std::max(horizon, std::numeric_limits<S>::epsilon());
   }
-  return impacts;
+  const auto place_light = double{light.shape.center.x()} - 0.5, place_heavy = double{heavy.shape.center.x()} - 1.5;
+  return {impacts, std::abs(place_heavy * double{speeds.a} - place_light * double{speeds.b})};
 }
-template std::int64_t count_block_impacts<float>(int);
-template std::int64_t count_block_impacts<double>(int);
+template BlockCount count_block_impacts<float>(int);
+template BlockCount count_block_impacts<double>(int);
 
 std::vector<BounceScenario> digit_scenarios(int most) {
   std::vector<BounceScenario> scenarios;

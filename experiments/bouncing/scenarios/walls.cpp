@@ -59,7 +59,8 @@ BounceScenario fixed_gap() {
   const std::int64_t impacts = fly_between(ball, walls, 1);
   return {"ping-pong in a gap with 2^-20 m of play, 1 s at 1 m/s",
           "2^20 = 1048576 bounces, and at 2^-22 m again, exactly: the path unfolded",
-          fmt::format("{} bounces, at 2^{:g} m, speed {:g} m/s", impacts, std::log2(ball.shape.center.x()), ball.velocity.x()),
+          fmt::format("{} bounces, at 2^{:g} m, speed {:g} m/s", impacts, std::log2(ball.shape.center.x()),
+                      ball.velocity.x()),
           impacts == 1 << 20 && ball.shape.center.x() == start && ball.velocity.x() == 1};
 }
 
@@ -86,7 +87,8 @@ BounceScenario closing_gap() {
   // A trip rounds the gap six times, by half a unit each; the product of gap and speed keeps what it has lost.
   const double allowed = trips * 6 * 0x1p-53;
   return {fmt::format("a gap of 2^-20 m closes at 1/16 m/s, for {} round trips", trips),
-          fmt::format("speed {:g} m/s, gap {:.6g} m: their product at the plate stays, within {:.1e}", speed, left, allowed),
+          fmt::format("speed {:g} m/s, gap {:.6g} m: their product at the plate stays, within {:.1e}", speed, left,
+                      allowed),
           fmt::format("{} bounces, speed {:g} m/s, gap {:.6g} m, off by {:.1e} of it", impacts, point.velocity.x(),
                       coming.shape.center.x(), error),
           impacts == 2 * trips && point.velocity.x() == speed && error <= allowed};
