@@ -1,7 +1,7 @@
 #include <thinwall/experiments/bouncing.hpp>
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -22,34 +22,35 @@ struct BouncingOptions {
   std::vector<BounceCell> cells;
   std::vector<BouncePolicy> policies;
   std::int64_t bounces = 0, runs = 0, run_bounces = 0, rounds = 0;
+  std::vector<std::string> scenarios;
   std::vector<double> mass_ratios;
   int digits = 0;
   std::uint64_t seed = 0;
 };
 
-struct NamedScenarios {
-  std::string name;
-  std::function<std::vector<BounceScenario>()> run;
-};
+constexpr std::array<std::string_view, 7> scenario_names = {"zeno",   "rest",   "walls", "gap",
+                                                            "masses", "cradle", "digits"};
+
+std::vector<BounceScenario> run_scenarios(const std::string& name, const BouncingOptions& o) {
+  if (name == "zeno") return zeno_scenarios();
+  if (name == "rest") return rest_scenarios();
+  if (name == "walls") return corner_scenarios();
+  if (name == "gap") return gap_scenarios();
+  if (name == "masses") return mass_scenarios(o.mass_ratios);
+  if (name == "cradle") return cradle_scenarios();
+  return digit_scenarios(o.digits);
+}
 
 class BouncingRun final : public Run {
  public:
   explicit BouncingRun(BouncingOptions options)
-      : options_(std::move(options)),
-        subjects_(bounce_subjects(options_.cells, options_.policies)),
-        scenarios_({{"digits of pi", [this] { return digit_scenarios(options_.digits); }},
-                    {"piling up", &zeno_scenarios},
-                    {"rest", &rest_scenarios},
-                    {"walls", &corner_scenarios},
-                    {"gap", &gap_scenarios},
-                    {"masses", [this] { return mass_scenarios(options_.mass_ratios); }},
-                    {"cradle", &cradle_scenarios}}) {}
+      : options_(std::move(options)), subjects_(bounce_subjects(options_.cells, options_.policies)) {}
 
   /// The crowds of impacts, the cells, the long runs, the timed bounces.
   std::vector<Unit> units() const override {
     std::vector<Unit> units;
-    for (const NamedScenarios& s : scenarios_) {
-      units.push_back({"scenarios " + s.name, 1, [&s] { return to_line(s.run()); }});
+    for (const std::string& name : options_.scenarios) {
+      units.push_back({"scenario " + name, 1, [this, &name] { return to_line(run_scenarios(name, options_)); }});
     }
     for (const BounceCell& cell : options_.cells) {
       for (const BouncePolicy& policy : options_.policies) {
@@ -72,9 +73,9 @@ class BouncingRun final : public Run {
   Outcome finish(const std::vector<std::string>& results, const std::vector<double>& seconds) const override {
     std::size_t at = 0;
     BouncingResults all;
-    for (const NamedScenarios& s : scenarios_)
-      all.groups.push_back({s.name, bounce_scenarios_from_line(results[at++])});
-    std::rotate(all.groups.begin(), all.groups.begin() + 1, all.groups.end());  // the longest was computed first
+    for (const std::string& name : options_.scenarios) {
+      all.groups.push_back({name, bounce_scenarios_from_line(results[at++])});
+    }
     std::vector<BounceTally> tallies;
     for (std::size_t i = 0; i < options_.cells.size() * options_.policies.size(); ++i) {
       tallies.push_back(bounce_tally_from_line(results[at++]));
@@ -106,18 +107,23 @@ class BouncingRun final : public Run {
 
   BouncingOptions options_;
   std::vector<BounceSubject> subjects_;
-  std::vector<NamedScenarios> scenarios_;
 };
 
-std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  std::vector<std::string_view> allowed = bounce_policy_names();
-  const std::vector<std::string> all(allowed.begin(), allowed.end());
+/// The names under `key`; every name for "all".
+std::vector<std::string> chosen(const Settings& settings, std::string_view key,
+                                std::span<const std::string_view> names) {
+  std::vector<std::string_view> allowed(names.begin(), names.end());
   allowed.emplace_back("all");
-  std::vector<std::string> chosen = settings.choices("policy", allowed);
-  if (std::find(chosen.begin(), chosen.end(), "all") != chosen.end()) chosen = all;
+  std::vector<std::string> some = settings.choices(key, allowed);
+  if (std::find(some.begin(), some.end(), "all") != some.end()) some.assign(names.begin(), names.end());
+  return some;
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   BouncingOptions o;
   o.cells = make_bounce_cells(settings);
-  o.policies = bounce_policies(chosen);
+  o.policies = bounce_policies(chosen(settings, "policy", bounce_policy_names()));
+  o.scenarios = chosen(settings, "scenario", scenario_names);
   o.bounces = options.trials.value_or(settings.integer("bounces", 1, std::int64_t(1) << 30));
   o.runs = settings.integer("runs", 2, 100000);
   o.run_bounces = settings.integer("run_bounces", 1, 4096);

@@ -75,7 +75,7 @@ Figure energy_figure(const BouncingResults& results) {
       .title = "What a bounce at random phase does to the energy",
       .caption = fmt::format(
           "Mean change of the flight's energy a bounce at restitution {:g}, in units of g h / V of it, with 95 % intervals "
-          "(mostly hidden by their points), and the theory. Below, how far the means are from it.",
+          "(mostly hidden by their points), and the theory. Below, how far the means are from it; the policies share their phases, so these deviations are almost the same or opposite.",
           lines.front().cell.restitution),
       .panels = {means, residuals}};
 }

@@ -66,19 +66,19 @@ std::string means_rows(const BouncingResults& results) {
   std::string text = fmt::format(
       "Energy a bounce at random phase, restitution {:g}, in g h / V of it: mean (theory), deviation (theory).\n",
       lines.front().cell.restitution);
-  text += fmt::format("{:<14}{:>30}{:>30}{:>12}{:>12}\n", "policy", fmt::format("step {:.3g} s", coarse),
+  text += fmt::format("{:<14}{:>31}{:>31}{:>11}{:>11}\n", "policy", fmt::format("step {:.3g} s", coarse),
                       fmt::format("step {:.3g} s", fine), "ns a step", "rms error");
   for (const std::string& policy : policies_of(lines)) {
     text += fmt::format("{:<14}", policy);
     for (const double step : {coarse, fine}) {
       const BounceLine& l = line_at(lines, policy, step);
       const auto small = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };  // no -0.000
-      text += fmt::format("{:>30}", fmt::format("{:.3f} ({:.3f}), {:.3f} ({:.3f})", small(l.tally.mean),
+      text += fmt::format("{:>31}", fmt::format("{:.3f} ({:.3f}), {:.3f} ({:.3f})", small(l.tally.mean),
                                                 small(l.theory.mean()), l.tally.sigma(), l.theory.sigma()));
     }
     const std::vector<BounceWork> work = work_of(results, policy);
     const BounceWork& middle = work[work.size() / 2];
-    text += fmt::format("{:>12.1f}{:>12.1e}\n", middle.nanoseconds * delta(middle.cell) / 2, middle.rms_error());
+    text += fmt::format("{:>11.1f}{:>11.1e}\n", middle.nanoseconds * delta(middle.cell) / 2, middle.rms_error());
   }
   return text;
 }

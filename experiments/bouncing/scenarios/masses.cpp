@@ -116,7 +116,7 @@ template <class S> BlockCount count_block_impacts(int digits) {
   while (speeds.a < S(0) || speeds.b < speeds.a) {
     const bool at_wall = speeds.a < S(0);
     Toi<S> toi;
-    for (horizon /= 4;; horizon *= 2) {
+    for (;; horizon *= 2) {
       light.displacement.x() = speeds.a * horizon;
       heavy.displacement.x() = speeds.b * horizon;
       toi = at_wall ? time_of_impact(light, wall) : time_of_impact(light, heavy);
@@ -130,7 +130,7 @@ template <class S> BlockCount count_block_impacts(int digits) {
       speeds = after_impact(speeds, S(1), mass, S(1));
     }
     ++impacts;
-    horizon = std::max(horizon, std::numeric_limits<S>::epsilon());
+    if (toi.time < S(1) / S(8)) horizon = std::max(S(horizon / 4), std::numeric_limits<S>::epsilon());
   }
   const auto place_light = double{light.shape.center.x()} - 0.5, place_heavy = double{heavy.shape.center.x()} - 1.5;
   return {impacts, std::abs(place_heavy * double{speeds.a} - place_light * double{speeds.b})};
