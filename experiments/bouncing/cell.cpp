@@ -21,8 +21,9 @@ double impact_speed(const BounceCell& c) { return std::sqrt(2 * c.gravity * c.he
 double fall_time(const BounceCell& c) { return impact_speed(c) / c.gravity; }
 double delta(const BounceCell& c) { return c.gravity * c.step / impact_speed(c); }
 
-BouncingWorld world_of(const BounceCell& c) {
-  return {c.gravity, c.restitution, c.step, floor_of_depth(4 * c.height + 4 * c.radius)};
+BouncingWorld world_of(const BounceCell& c, std::int64_t bounces) {
+  const double fastest = impact_speed(c) + static_cast<double>(bounces + 1) * c.gravity * c.step;
+  return {c.gravity, c.restitution, c.step, floor_of_depth(2 * c.height + 4 * c.radius + 2 * c.step * fastest)};
 }
 
 double rounding_of(const BounceCell& c) {

@@ -26,7 +26,9 @@ std::string key(const BounceCell& c);  ///< one line, for people and the journal
 double impact_speed(const BounceCell& c);  ///< [m/s] V, of the true flight
 double fall_time(const BounceCell& c);     ///< [s] V / g
 double delta(const BounceCell& c);         ///< [1] g h / V: speed that gravity adds in a step, over the impact's
-BouncingWorld world_of(const BounceCell& c);
+/// The floor is deeper than what a ball falls in a step after `bounces` of which each adds a whole g h to its speed, so that
+/// a test of the pose at the end of a step sees it.
+BouncingWorld world_of(const BounceCell& c, std::int64_t bounces = 1);
 /// [g h / V] More than what rounding does to the energy of a flight of this many steps.
 double rounding_of(const BounceCell& c);
 RandomStream random_stream(const BounceCell& c, std::uint64_t seed);  ///< from the physical factors alone

@@ -84,8 +84,8 @@ struct ExactAndProject {
   }
 };
 
-/// The exact arc, split where it meets the floor: tested at the end of the step, which is enough since an arc is concave, and
-/// solved if it ends inside.
+/// The exact arc, split where it meets the floor: tested at the end of the step, which is enough since an arc is concave and
+/// the floor deeper than a step, and solved if it ends inside.
 struct ParabolaToi {
   static constexpr std::string_view name = "parabola_toi";
   static constexpr bool staggered = false;

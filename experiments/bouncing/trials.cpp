@@ -26,13 +26,14 @@ template <class Policy> double error_at(const BounceCell& cell, double phase) {
 }
 
 template <class Policy> std::vector<double> energies(const BounceCell& cell, double elapsed, std::int64_t bounces) {
-  const BouncingWorld world = world_of(cell);
+  const BouncingWorld world = world_of(cell, bounces);
   BouncingBall ball = falling<Policy>(cell, elapsed * cell.step);
   const double first = flight_energy<Policy>(world, ball), kick = cell.gravity * cell.step;
   std::vector<double> energies;
   while (ball.bounces < bounces) {
     const std::int64_t before = ball.bounces;
     Policy::step(world, ball);
+    if (ball.velocity == 0 && gap_of(ball) <= 0) break;  // at rest
     if (ball.bounces == before) continue;
     const double energy = flight_energy<Policy>(world, ball);
     if (!(energy > kick * kick / 2)) break;
@@ -42,7 +43,7 @@ template <class Policy> std::vector<double> energies(const BounceCell& cell, dou
 }
 
 template <class Policy> std::vector<double> heights(const BounceCell& cell, double elapsed, std::int64_t steps) {
-  const BouncingWorld world = world_of(cell);
+  const BouncingWorld world = world_of(cell, steps);
   BouncingBall ball = falling<Policy>(cell, elapsed * cell.step);
   std::vector<double> gaps = {gap_of(ball)};
   for (std::int64_t i = 0; i < steps; ++i) {
