@@ -91,8 +91,8 @@ Table bounce_test_table(const std::vector<BounceTest>& tests) {
       {"passed", boolean, "", "All of the above hold."},
   };
   for (const BounceTest& t : tests) {
-    const auto if_mean = [&](Value x) { return t.judged_cells > 0 ? x : Value(); };
-    const auto if_spread = [&](Value x) { return t.spread_cells > 0 ? x : Value(); };
+    const auto if_mean = [&](const Value& x) { return t.judged_cells > 0 ? x : Value(); };
+    const auto if_spread = [&](const Value& x) { return t.spread_cells > 0 ? x : Value(); };
     table.rows.push_back({t.policy, t.certain_cells, t.certain_wrong, t.judged_cells, t.covered,
                           if_mean(static_cast<std::int64_t>(t.covered_allowed.lower)),
                           if_mean(static_cast<std::int64_t>(t.covered_allowed.upper)), if_mean(t.mean_chi_square),
