@@ -11,7 +11,7 @@ namespace thinwall {
 namespace {
 
 constexpr std::int64_t even_phases = 128;
-constexpr double steps_a_round = 1 << 18;  // some milliseconds
+constexpr double steps_a_round = 1 << 16;  // about a millisecond
 
 }  // namespace
 

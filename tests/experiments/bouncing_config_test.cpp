@@ -25,7 +25,7 @@ TEST(BouncingConfig, trials_override_the_bounces) {
 }
 
 TEST(BouncingConfig, every_row_is_as_long_as_its_columns_and_every_column_is_described) {
-  for (const Table& t : bouncing_outcome(few_bounces).tables) {
+  for (const Table& t : few_bounces_outcome().tables) {
     EXPECT_FALSE(t.rows.empty()) << t.name;
     for (const std::vector<Value>& row : t.rows) ASSERT_EQ(row.size(), t.columns.size()) << t.name;
     for (const Column& column : t.columns) {
@@ -37,12 +37,12 @@ TEST(BouncingConfig, every_row_is_as_long_as_its_columns_and_every_column_is_des
 }
 
 TEST(BouncingConfig, summary_fits_a_terminal) {
-  std::istringstream summary(bouncing_outcome(few_bounces).summary);
+  std::istringstream summary(few_bounces_outcome().summary);
   for (std::string line; std::getline(summary, line);) EXPECT_LE(line.size(), 100U) << line;
 }
 
 TEST(BouncingConfig, figures_have_panels_and_points) {
-  const Outcome outcome = bouncing_outcome(few_bounces);
+  const Outcome& outcome = few_bounces_outcome();
   ASSERT_EQ(outcome.figures.size(), 4U);
   EXPECT_EQ(outcome.figures[0].name, "energy_per_bounce");
   for (const Figure& figure : outcome.figures) {

@@ -31,6 +31,12 @@ inline std::unique_ptr<Run> bouncing_run(std::string_view text, RunOptions optio
 
 inline Outcome bouncing_outcome(std::string_view text) { return outcome_of(*bouncing_run(text)); }
 
+/// Of few_bounces, run once for all tests that only look.
+inline const Outcome& few_bounces_outcome() {
+  static const Outcome outcome = bouncing_outcome(few_bounces);
+  return outcome;
+}
+
 inline std::vector<BouncePolicy> all_bounce_policies() {
   const std::vector<std::string_view> names = bounce_policy_names();
   return bounce_policies({names.begin(), names.end()});

@@ -15,7 +15,7 @@ namespace thinwall {
 namespace {
 
 TEST(Bouncing, agrees_with_theory) {
-  const Outcome outcome = bouncing_outcome(few_bounces);
+  const Outcome& outcome = few_bounces_outcome();
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 5U);
   EXPECT_EQ(table_of(outcome, "cells").rows.size(), 3U * 3 * 5);
@@ -127,7 +127,7 @@ TEST(Bouncing, only_what_is_marked_depends_on_the_time_it_took) {
 }
 
 TEST(Bouncing, a_cell_keeps_its_bounces_whatever_else_is_asked) {
-  const Table all = table_of(bouncing_outcome(few_bounces), "cells");
+  const Table& all = table_of(few_bounces_outcome(), "cells");
   const Table one = table_of(bouncing_outcome(std::string(R"(
     step = [0.016666666666666666]
     restitution = [0.5]
