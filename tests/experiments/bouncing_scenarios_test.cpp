@@ -51,7 +51,8 @@ TEST(BounceScenarios, case_58_blocks_count_the_digits_of_pi) {
 #else
   constexpr int most = 4;
 #endif
-  expect_all_passed(digit_scenarios(most), static_cast<std::size_t>(most + 1 + std::min(most, 5) + 1));
+  constexpr std::size_t in_double = most + 1, in_float = std::min(most, 5) + 1;
+  expect_all_passed(digit_scenarios(most), in_double + in_float);
   EXPECT_EQ(count_block_impacts<double>(3).impacts, 3141);
   EXPECT_EQ(count_block_impacts<float>(3).impacts, 3141);
 }
