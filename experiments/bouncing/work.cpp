@@ -10,8 +10,8 @@ namespace thinwall {
 
 namespace {
 
-constexpr std::int64_t even_phases = 128;
-constexpr double steps_a_round = 1 << 16;  // about a millisecond
+constexpr std::int64_t even_phases = 32;
+constexpr double steps_a_round = 1 << 14;  // less than a millisecond: most rounds are not interrupted
 
 }  // namespace
 
