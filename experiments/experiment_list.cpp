@@ -3,6 +3,7 @@
 #include <array>
 
 #include <thinwall/experiments/accuracy.hpp>
+#include <thinwall/experiments/bouncing.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
 #include <thinwall/experiments/hitscan.hpp>
 #include <thinwall/experiments/stiff_contact.hpp>
@@ -16,8 +17,8 @@ std::span<const Experiment> experiments() {
   // A new experiment is a line here: one that registered itself could be dropped by the linker.
   static const std::array list = {
       thin_wall_experiment(),  //
-      accuracy_experiment(),         work_precision_experiment(), swept_bounds_experiment(),
-      crossing_bullets_experiment(), hitscan_experiment(),        stiff_contact_experiment(),
+      accuracy_experiment(),  work_precision_experiment(), swept_bounds_experiment(), crossing_bullets_experiment(),
+      hitscan_experiment(),   stiff_contact_experiment(),  bouncing_experiment(),
   };
   return list;
 }
