@@ -7,12 +7,12 @@
 #include <bit>
 #include <cstdint>
 
-#include <thinwall/swept/certified/integer_gjk.hpp>
+#include <thinwall/swept/certified/gjk.hpp>
 
 namespace thinwall {
 
 /// True if the shapes share a point at some time in [0, time].
-inline bool touched_by(const ExactQuery& query, double time) {
+inline bool touched_by(const ExactCore& query, double time) {
   constexpr unsigned fixed = 1024;
   const SweptCore core(query, time);
   if (core.integer_bits() <= static_cast<int>(fixed)) {
@@ -23,7 +23,7 @@ inline bool touched_by(const ExactQuery& query, double time) {
 
 /// The neighboring doubles that enclose the first contact of shapes that do not touch at 0 and have touched by 1.
 /// Errors: none; `lower` < first contact <= `upper`. A good guess saves rounds and changes nothing else.
-inline CertifiedToi exact_bracket(const ExactQuery& query, double guess) {
+inline CertifiedToi exact_bracket(const ExactCore& query, double guess) {
   const auto number = [](double time) { return std::bit_cast<std::uint64_t>(time); };  // doubles >= 0 in their order
   std::uint64_t lower = number(0.0), upper = number(1.0);
   const auto probe = [&](std::uint64_t at) {
@@ -39,7 +39,7 @@ inline CertifiedToi exact_bracket(const ExactQuery& query, double guess) {
   return {ToiStatus::hit, std::bit_cast<double>(lower), std::bit_cast<double>(upper), DecidedBy::exact};
 }
 
-inline CertifiedToi exact_answer(const ExactQuery& query, double guess) {
+inline CertifiedToi exact_answer(const ExactCore& query, double guess) {
   if (touched_by(query, 0)) return {ToiStatus::overlapping, 0, 0, DecidedBy::exact};
   if (!touched_by(query, 1)) return {ToiStatus::apart, 1, 1, DecidedBy::exact};
   return exact_bracket(query, guess);

@@ -1,5 +1,5 @@
 #pragma once
-/// The polytope K(t) of exact_query.hpp in integers: every coordinate over one power of two, the largest that divides all.
+/// The polytope K(t) of exact_core.hpp in integers: every coordinate over one power of two, the largest that divides all.
 ///
 /// Numbers: a coordinate of a corner of K is the sum of at most 32 terms below 2^high in multiples of 2^low, so an integer
 /// of at most L = high - low + 5 bits. integer_bits() gives the bits of the largest number that gjk.hpp makes of them.
@@ -10,7 +10,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <thinwall/swept/certified/exact_query.hpp>
+#include <thinwall/swept/certified/exact_core.hpp>
+#include <thinwall/swept/certified/simplex.hpp>
 
 namespace thinwall {
 
@@ -57,11 +58,11 @@ struct ExponentSpan {
 
 /// K(time) as sums of exact terms: the sweep is one edge more.
 struct SweptCore {
-  const ExactQuery& query;
+  const ExactCore& query;
   ExactPoint sweep{};
   ExponentSpan span{};
 
-  SweptCore(const ExactQuery& asked, double time) : query(asked), sweep(asked.velocity) {
+  SweptCore(const ExactCore& asked, double time) : query(asked), sweep(asked.velocity) {
     for (ExactSum& sum : sweep) {
       for (std::size_t i = 0; i < sum.count; ++i) sum.terms[i].y = time;
       if (time == 0) sum.count = 0;
@@ -76,8 +77,6 @@ struct SweptCore {
   int integer_bits() const { return 8 * span.bits() + 13; }
 };
 
-template <class Integer> using IntegerVec = std::array<Integer, 3>;
-
 template <class Integer> Integer integer_from(const ExactSum& sum, int low) {
   Integer total = 0;
   for (std::size_t i = 0; i < sum.count; ++i) {
@@ -88,24 +87,14 @@ template <class Integer> Integer integer_from(const ExactSum& sum, int low) {
   }
   return total;
 }
-template <class Integer> IntegerVec<Integer> integer_from(const ExactPoint& point, int low) {
+template <class Integer> Triple<Integer> integer_from(const ExactPoint& point, int low) {
   return {integer_from<Integer>(point[0], low), integer_from<Integer>(point[1], low),
           integer_from<Integer>(point[2], low)};
 }
 
-template <class Integer> Integer dot(const IntegerVec<Integer>& a, const IntegerVec<Integer>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class Integer> IntegerVec<Integer> cross(const IntegerVec<Integer>& a, const IntegerVec<Integer>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-template <class Integer> IntegerVec<Integer> operator-(const IntegerVec<Integer>& a, const IntegerVec<Integer>& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 template <class Integer> struct IntegerPolytope {
-  std::array<IntegerVec<Integer>, 3> starts;
-  std::array<IntegerVec<Integer>, 7> edges;
+  std::array<Triple<Integer>, 3> starts;
+  std::array<Triple<Integer>, 7> edges;
   std::size_t start_count = 0, edge_count = 0;
   Integer reach;
 
@@ -118,10 +107,10 @@ template <class Integer> struct IntegerPolytope {
   }
 
   /// The corner that lies least far along n.
-  IntegerVec<Integer> lowest_along(const IntegerVec<Integer>& n) const {
-    IntegerVec<Integer> corner = starts[0];
+  Triple<Integer> lowest_along(const Triple<Integer>& n) const {
+    Triple<Integer> corner = starts[0];
     for (std::size_t i = 1; i < start_count; ++i) {
-      if (dot<Integer>(n, starts[i] - corner) < 0) corner = starts[i];
+      if (dot(n, difference(starts[i], corner)) < 0) corner = starts[i];
     }
     for (std::size_t i = 0; i < edge_count; ++i) {
       if (dot(n, edges[i]) >= 0) continue;
@@ -131,7 +120,7 @@ template <class Integer> struct IntegerPolytope {
   }
 
  private:
-  void add_edge(const IntegerVec<Integer>& edge) {
+  void add_edge(const Triple<Integer>& edge) {
     if (edge[0] != 0 || edge[1] != 0 || edge[2] != 0) edges[edge_count++] = edge;
   }
 };

@@ -32,7 +32,7 @@ struct ExactSum {
 
 using ExactPoint = std::array<ExactSum, 3>;
 
-struct ExactQuery {
+struct ExactCore {
   std::array<ExactPoint, 3> starts{};  ///< one, or the corners of a triangle
   std::array<ExactPoint, 6> edges{};
   std::size_t start_count = 1, edge_count = 0;
@@ -45,7 +45,7 @@ inline void add_point(ExactPoint& point, const Vec3<double>& x, double sign) {
 }
 
 /// The half axes -g ... g as the start -g and the edge 2 g, where g = half * axis.
-inline void add_half_axis(ExactQuery& query, double half, const Vec3<double>& axis) {
+inline void add_half_axis(ExactCore& query, double half, const Vec3<double>& axis) {
   ExactPoint& edge = query.edges[query.edge_count++];
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -55,26 +55,26 @@ inline void add_half_axis(ExactQuery& query, double half, const Vec3<double>& ax
 }
 
 // The core of A (sign 1) or of B mirrored (sign -1), and its radius.
-inline void add_core(ExactQuery& query, const Sphere<double>& sphere, double sign) {
+inline void add_core(ExactCore& query, const Sphere<double>& sphere, double sign) {
   for (std::size_t i = 0; i < query.start_count; ++i) add_point(query.starts[i], sphere.center, sign);
   query.reach.add(sphere.radius);
 }
-inline void add_core(ExactQuery& query, const Aabb<double>& box, double sign) {
+inline void add_core(ExactCore& query, const Aabb<double>& box, double sign) {
   add_point(query.starts[0], box.center, sign);
   for (int i = 0; i < 3; ++i) add_half_axis(query, box.half_extents[i], axis_vector<double>(i));
 }
-inline void add_core(ExactQuery& query, const Obb<double>& box, double sign) {
+inline void add_core(ExactCore& query, const Obb<double>& box, double sign) {
   add_point(query.starts[0], box.center, sign);
   for (int i = 0; i < 3; ++i) add_half_axis(query, box.half_extents[i], box.axes.col(i));
 }
-inline void add_core(ExactQuery& query, const Capsule<double>& capsule, double sign) {
+inline void add_core(ExactCore& query, const Capsule<double>& capsule, double sign) {
   add_point(query.starts[0], capsule.a, sign);
   ExactPoint& edge = query.edges[query.edge_count++];
   add_point(edge, capsule.b, sign);
   add_point(edge, capsule.a, -sign);
   query.reach.add(capsule.radius);
 }
-inline void add_core(ExactQuery& query, const Triangle<double>& t, double sign) {
+inline void add_core(ExactCore& query, const Triangle<double>& t, double sign) {
   query.start_count = 3;
   add_point(query.starts[0], t.a, sign);
   add_point(query.starts[1], t.b, sign);
@@ -82,9 +82,9 @@ inline void add_core(ExactQuery& query, const Triangle<double>& t, double sign) 
 }
 
 /// Requires the shape of later rank first: a triangle before the sphere.
-template <Shape A, Shape B> ExactQuery exact_query(const Moving<A>& a, const Moving<B>& b) {
+template <Shape A, Shape B> ExactCore exact_core(const Moving<A>& a, const Moving<B>& b) {
   static_assert(A::rank >= B::rank);
-  ExactQuery query;
+  ExactCore query;
   add_core(query, a.shape, 1);
   add_core(query, b.shape, -1);
   add_point(query.velocity, a.displacement, 1);
