@@ -31,7 +31,7 @@ template <class Core> THINWALL_HOT Vec3<double> passing_direction(const Core& co
 
 /// A time <= 1 by which the core touches the ball, near the guess; infinity if none is proven.
 template <class Core> THINWALL_HOT double touched_until(const Core& core, const Vec3<double>& n, double guess) {
-  constexpr double never = std::numeric_limits<double>::infinity();
+  const double never = std::numeric_limits<double>::infinity();
   if constexpr (Core::is_zonotope) {
     const LikelyFace face = likely_face(core, n);
     if (core.R == 0) {
