@@ -7,8 +7,9 @@
 #include <thinwall/discrete/boxes/box_manifold.hpp>
 #include <thinwall/discrete/manifold.hpp>
 
+#include "fuzz/exhibit.hpp"
 #include "fuzz/finding.hpp"
-#include "fuzz/referee.hpp"
+#include "fuzz/moderate.hpp"
 
 namespace thinwall::fuzz {
 
@@ -18,8 +19,6 @@ template <Scalar S> bool is_unit(const Vec3<S>& n) {
   return std::abs(std::sqrt(wide.squaredNorm()) - 1) <= 8 * static_cast<long double>(std::numeric_limits<S>::epsilon());
 }
 template <Scalar S> bool is_zero(const Vec3<S>& v) { return v == Vec3<S>(Vec3<S>::Zero()); }
-
-template <Scalar S> oracle::Vec<Digits50> widened(const Vec3<S>& v) { return oracle::lift<Digits50>(v); }
 
 /// NaN and infinity: false, nothing, NaN.
 template <class A, class B> void check_bad_shapes(const Scene<A, B>& scene) {
@@ -88,29 +87,12 @@ template <class A, class B> void check_discrete(const Scene<A, B>& scene) {
 
 /// Distance, sign and normal against the oracle.
 template <class A, class B> void judge_discrete(const Scene<A, B>& scene) {
-  using S = typename A::Scalar;
-  const Check check(scene);
-  const auto a = at_rest(scene.a.shape);
-  const auto b = at_rest(scene.b.shape);
-  const Referee<Digits50> referee(a, b);
-  const Digits50 u = Digits50(std::numeric_limits<S>::epsilon()) / 2, least = std::numeric_limits<S>::denorm_min();
-  const Digits50 rounding = u * referee.size_at(0) + least;
-  const auto truth = referee.at(Digits50(0));
-  const Separation<S> gap = separation(a.shape, b.shape);
-  const auto in_roundings = [&](const Digits50& x) {
-    return std::to_string(static_cast<double>(Digits50(x / rounding)));
-  };
-  const Digits50 off = abs(Digits50(Digits50(gap.distance) - truth.gap));
-  check(off <= 8 * rounding, "separation() is off", [&] {
-    return text(gap.distance) + " for " + text(static_cast<double>(truth.gap)) + ": " + in_roundings(off) + " u size";
-  });
-  const Digits50 along = referee.separation_along(Digits50(0), widened(gap.normal));
-  const bool touching = truth.gap + referee.reach() <= 64 * rounding && truth.gap + referee.reach() >= -64 * rounding;
-  check(touching || along >= truth.gap - 32 * rounding, "separation(): the normal does not part them that far",
-        [&] { return text(gap.normal) + " is short by " + in_roundings(truth.gap - along) + " u size"; });
-  const Digits50 close = 8 * rounding;
-  check(abs(truth.gap) <= close || overlaps(a.shape, b.shape) == (truth.gap < 0), "overlaps() is wrong",
-        [&] { return "the gap is " + in_roundings(truth.gap) + " u size"; });
+  if (!is_judged(scene)) return;
+  const auto gap = separation(scene.a.shape, scene.b.shape);
+  const Judgment judgment =
+      judge_separation(exhibit(at_rest(scene.a.shape), at_rest(scene.b.shape)), double{gap.distance},
+                       gap.normal.template cast<double>(), overlaps(scene.a.shape, scene.b.shape));
+  Check(scene).no_fault(judgment, "", [] { return std::string(); });
 }
 
 /// A ray along A's displacement from A's center, against B.
@@ -139,9 +121,9 @@ template <class A, class B> void check_raycast(const Scene<A, B>& scene) {
       check(is_finite(hit->point), "raycast(): point is not finite");
     toi = {inside ? ToiStatus::overlapping : ToiStatus::hit, 1, hit->t, hit->normal, hit->point};
   }
-  const Judgment judgment = judge(point, still, toi, 4);
-  check(judgment.fault == nullptr, std::string("raycast(): ") + (judgment.fault ? judgment.fault : ""),
-        [&] { return text(toi) + ": " + std::to_string(judgment.backward) + " u, truly " + text(judgment.truth); });
+  if (!is_judged(scene)) return;
+  check.no_fault(judge_impact(exhibit(point, still), toi.status, double{toi.time}, 4),
+                 "raycast(): ", [&] { return text(toi) + ": "; });
 }
 
 }  // namespace thinwall::fuzz

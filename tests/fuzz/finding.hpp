@@ -8,6 +8,7 @@
 
 #include <thinwall/swept/shapes.hpp>
 
+#include "fuzz/exhibit.hpp"
 #include "fuzz/scene.hpp"
 
 namespace thinwall::fuzz {
@@ -77,6 +78,12 @@ template <class A, class B> class Check {
   }
   bool operator()(bool holds, std::string_view property) const {
     return (*this)(holds, property, [] { return std::string(); });
+  }
+  /// The same for what a judge found; `about` names the query in front of the fault.
+  template <class Details>
+  void no_fault(const Judgment& judgment, std::string_view about, const Details& details) const {
+    if (!judgment) return;
+    (*this)(false, std::string(about) + judgment->property, [&] { return details() + judgment->details; });
   }
 
  private:

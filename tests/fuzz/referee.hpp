@@ -1,17 +1,12 @@
 #pragma once
-/// How far is an answer from the truth? By the experiments' oracle, which shares no code with the closed forms, in long
-/// double, and at 50 digits where that does not settle it.
-///
-/// Errors are backward: by how much, in units of round-off u, each coordinate, size and displacement would have to change
-/// for the answer to be exact. To first order that is the separation over
-///   sum |n_i| (|cA| + |cB| + h + t (|vA| + |vB|))_i + R.
+/// What the experiments' oracle, which shares no code with the library, says of two moving shapes at any time and precision.
 
 #include <limits>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <thinwall/experiments/accuracy/oracle.hpp>
-#include <thinwall/swept/toi.hpp>
+#include "fuzz/exhibit.hpp"
 
 namespace thinwall::fuzz {
 
@@ -21,7 +16,12 @@ template <class R> class Referee {
  public:
   using Vec = oracle::Vec<R>;
 
-  template <class A, class B> Referee(const Moving<A>& a, const Moving<B>& b) : problem_(oracle::pose<R>(a, b)) {}
+  explicit Referee(const Exhibit& exhibit)
+      : problem_(std::visit(
+            [&](const auto& a, const auto& b) {
+              return oracle::pose<R>(Moving{a, exhibit.displacement_a}, Moving{b, exhibit.displacement_b});
+            },
+            exhibit.a, exhibit.b)) {}
 
   struct State {
     R gap = 0;      ///< [length] < 0: the least translation that parts the two
@@ -32,7 +32,7 @@ template <class R> class Referee {
   State at(const R& time) const {
     const oracle::Gap<R> apart = oracle::gap_at(problem_, time, tolerance());
     const State outside{R(apart.core - problem_.reach), apart.closing, apart.scale};
-    return apart.core > 0 ? outside : inside(time);
+    return apart.core > 16 * tolerance() * size_at(time) ? outside : inside(time);  // of less, rounding made it
   }
 
   oracle::Impact<R> first_contact(const R& guess) const { return oracle::first_contact(problem_, guess, tolerance()); }
@@ -123,56 +123,5 @@ template <class R> class Referee {
 
   oracle::Problem<R> problem_;
 };
-
-/// What is wrong with an answer: nothing, or by how many u.
-struct Judgment {
-  const char* fault = nullptr;
-  double backward = 0;  ///< [u]
-  double truth = 0;     ///< [1] the true time
-};
-
-/// Holds a time of impact to a backward error of `allowed` u, in verdict and time.
-template <class R, Scalar S> Judgment judge(const Referee<R>& referee, const Toi<S>& toi, double allowed, const R& u) {
-  const auto in_u = [&](const typename Referee<R>::State& s) {
-    return s.gap == 0 ? 0.0 : static_cast<double>(R(s.gap / (u * (s.scale > 0 ? s.scale : R(1)))));
-  };
-  const bool hit = toi.status == ToiStatus::hit;
-  const R guess = hit ? R(R(toi.time) * (1 - 1024 * u)) : R(0);
-  const oracle::Impact<R> truth = referee.first_contact(guess);
-  const double time = static_cast<double>(truth.time);
-  const bool touches = truth.verdict != oracle::Verdict::apart;
-  if (toi.status == ToiStatus::overlapping) {
-    const double start = in_u(referee.at(R(0)));
-    return {start > allowed ? "overlapping, yet apart at the start" : nullptr, start, time};
-  }
-  if (toi.status == ToiStatus::apart) {
-    if (!touches) return {};
-    const double depth = in_u(referee.deepest(truth.time));
-    return {depth < -allowed ? "missed" : nullptr, depth, time};
-  }
-  const R least = std::numeric_limits<S>::denorm_min(), t = toi.time;
-  const double there = in_u(referee.at(t));
-  if (touches && truth.verdict == oracle::Verdict::overlapping) {
-    const double start = in_u(referee.at(R(0)));
-    const bool near = start >= -allowed || t <= least;  // so deep at the start that no rounding can hide it
-    return {near ? nullptr : "hit, yet in contact at the start", start, time};
-  }
-  if (there <= allowed && there >= -allowed) return {nullptr, there, time};
-  const R off = t > truth.time ? R(t - truth.time) : R(truth.time - t);
-  if (touches && off <= least) return {nullptr, 0, time};
-  // A displacement 4 u longer or shorter makes it exact where the separation changes sign between 4 u before and after.
-  const R before = referee.at(R(t * (1 - allowed * u))).gap, after = referee.at(R(t * (1 + allowed * u))).gap;
-  if (before >= 0 && after <= 0) return {nullptr, allowed, time};
-  return {touches ? (there > 0 ? "early" : "late") : "a hit that is a miss", there, time};
-}
-
-/// The same in long double first; at 50 digits where that finds fault.
-template <class A, class B, Scalar S>
-Judgment judge(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, double allowed) {
-  const long double u = std::numeric_limits<S>::epsilon() / 2;
-  const Judgment rough = judge<long double, S>(Referee<long double>(a, b), toi, allowed * 0.99, u);
-  if (rough.fault == nullptr) return rough;
-  return judge<Digits50, S>(Referee<Digits50>(a, b), toi, allowed, Digits50(u));
-}
 
 }  // namespace thinwall::fuzz
