@@ -1,4 +1,4 @@
-# Installing, and the package that find_package(thinwall COMPONENTS discrete capsule swept) finds.
+# Installing, and the package that find_package(thinwall COMPONENTS discrete capsule swept certified) finds.
 include(CMakePackageConfigHelpers)
 
 foreach(folder IN ITEMS discrete capsule swept)
@@ -10,7 +10,7 @@ if(TARGET thinwall AND THINWALL_BUILD_PROGRAM)
 endif()
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/thinwall")
-install(TARGETS thinwall_discrete thinwall_capsule thinwall_swept EXPORT thinwall-targets)
+install(TARGETS thinwall_discrete thinwall_capsule thinwall_swept thinwall_certified EXPORT thinwall-targets)
 install(EXPORT thinwall-targets NAMESPACE thinwall:: DESTINATION "${package_folder}")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/thinwall-config.cmake.in" thinwall-config.cmake
   INSTALL_DESTINATION "${package_folder}")

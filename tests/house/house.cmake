@@ -22,6 +22,9 @@ foreach(folder IN ITEMS discrete capsule swept experiments)
   add_library(headers_all_${folder} OBJECT EXCLUDE_FROM_ALL "${all}")
   foreach(target IN ITEMS headers_alone_${folder} headers_all_${folder})
     target_link_libraries(${target} PRIVATE thinwall::${folder} thinwall_options)
+    if(folder STREQUAL "swept")
+      target_link_libraries(${target} PRIVATE thinwall::certified)  # its headers lie there
+    endif()
   endforeach()
   if(NOT THINWALL_HEADERS_ALONE)
     set_target_properties(headers_alone_${folder} PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -39,6 +42,11 @@ add_test(NAME house/unserved_pair_is_named
   COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/swept/unserved_pair.cpp"
           "-DINCLUDES=${PROJECT_BINARY_DIR}/include;$<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>"
           -P "${house}/unserved_pair.cmake")
+add_test(NAME house/uncertified_pair_is_named
+  COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}"
+          "-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/swept/certified/uncertified_pair.cpp"
+          "-DINCLUDES=${PROJECT_BINARY_DIR}/include;$<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>;$<TARGET_PROPERTY:Boost::headers,INTERFACE_INCLUDE_DIRECTORIES>"
+          -P "${house}/uncertified_pair.cmake")
 
 # Installed, then found and used by a project that knows nothing of this tree.
 add_test(NAME house/installed_package

@@ -1,5 +1,6 @@
 # Reads the includes of the tree under ROOT and names, as file:line, each that breaks the rules of the house:
-# discrete <- capsule <- swept <- experiments; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers.
+# discrete <- capsule <- swept <- experiments; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers, and
+# Boost.Multiprecision in swept/certified alone, which nothing but swept/certified.hpp may include.
 # What tests or benchmarks share among themselves they include by its path under tests/ or bench/, in quotes.
 cmake_minimum_required(VERSION 3.25)
 
@@ -31,6 +32,10 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
       set(quote "${CMAKE_MATCH_1}")
       set(path "${CMAKE_MATCH_2}")
       set(fault "")
+      set(certified FALSE)
+      if(file MATCHES "^swept/certified[./]")
+        set(certified TRUE)
+      endif()
       if(path MATCHES "\\.\\.")
         set(fault "a path goes up with '..'; write <thinwall/FOLDER/...>")
       elseif(quote STREQUAL "\"" AND NOT (folder MATCHES "^(tests|bench)$" AND EXISTS "${ROOT}/${folder}/${path}"))
@@ -39,7 +44,11 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
         if(NOT CMAKE_MATCH_1 IN_LIST below_${folder})
           list(JOIN below_${folder} ", " allowed)
           set(fault "${folder} may include only ${allowed}")
+        elseif(path MATCHES "^thinwall/swept/certified[./]" AND folder STREQUAL "swept" AND NOT certified)
+          set(fault "swept is for everyone to link: what is certified needs Boost, and stands above it")
         endif()
+      elseif(path MATCHES "/" AND certified AND path MATCHES "^boost/multiprecision/")
+        continue()
       elseif(path MATCHES "/" AND libraries_${folder} AND NOT path MATCHES "${libraries_${folder}}")
         set(fault "${folder} is for everyone to link: it may use no such library")
       endif()

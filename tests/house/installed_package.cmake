@@ -9,6 +9,7 @@ set(configure "${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${CONSUMER}" "-DCMAKE_CXX
 execute_process(COMMAND ${configure} -B "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${WORK}/build/consumer" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${WORK}/build/prover" COMMAND_ERROR_IS_FATAL ANY)
 
 # A component that does not exist, and a version that is not there, are refused by name.
 function(expect_refusal option message)
@@ -19,5 +20,5 @@ function(expect_refusal option message)
     message(FATAL_ERROR "${option} was not refused with \"${message}\":\n${said}")
   endif()
 endfunction()
-expect_refusal(-DCOMPONENTS=teleport "thinwall has no component 'teleport'; it has discrete, capsule, swept")
+expect_refusal(-DCOMPONENTS=teleport "thinwall has no component 'teleport'; it has discrete, capsule, swept, certified")
 expect_refusal(-DREQUESTED_VERSION=99.0 "requested version \"99.0\"")
