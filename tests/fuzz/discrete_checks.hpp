@@ -70,10 +70,13 @@ template <class A, class B> void check_discrete(const Scene<A, B>& scene) {
           [&] { return text(point.penetration) + " " + text(points[0].penetration); });
     if (ordinary) check(is_finite(point.local_a) && is_finite(point.local_b), "manifold(): a point is not finite");
   }
-  if (touch && !points.empty()) {
-    check(points[0].normal == touch->normal, "manifold() and contact() differ in their normals",
+  if (touch && !points.empty() && is_judged(scene)) {  // the same, but where a face is all but the normal of contact
+    const S rounding = 32 * std::numeric_limits<S>::epsilon() * S(magnitude(a) + magnitude(b));
+    check(largest(Vec3<S>(points[0].normal - touch->normal)) <= 4 * parallel_sine<S>() || gap.distance >= -rounding,
+          "manifold() and contact() differ in their normals",
           [&] { return text(points[0].normal) + " " + text(touch->normal); });
-    check(points[0].penetration == touch->penetration, "manifold() and contact() differ in their penetrations",
+    check(largest(S(points[0].penetration - touch->penetration)) <= rounding,
+          "manifold() and contact() differ in their penetrations",
           [&] { return text(points[0].penetration) + " " + text(touch->penetration); });
   }
   check(touch_back.has_value() == touch.has_value() || std::is_same_v<A, B>, "the other way round contact() differs");
@@ -116,7 +119,8 @@ template <class A, class B> void check_raycast(const Scene<A, B>& scene) {
     check(hit->t >= S(0) && hit->t <= S(1), "raycast(): t out of range", [&] { return text(hit->t); });
     check(inside ? hit->t == S(0) : is_unit(hit->normal), "raycast(): normal is not unit",
           [&] { return text(hit->normal) + " at " + text(hit->t); });
-    check(!inside || hit->point == ray.origin, "raycast(): inside, but the point is not the origin");
+    check(!inside || !is_ordinary(S(magnitude(point) + magnitude(still))) || hit->point == ray.origin,
+          "raycast(): inside, but the point is not the origin");
     if (is_ordinary(S(magnitude(point) + magnitude(still))))
       check(is_finite(hit->point), "raycast(): point is not finite");
     toi = {inside ? ToiStatus::overlapping : ToiStatus::hit, 1, hit->t, hit->normal, hit->point};

@@ -54,4 +54,14 @@ Judgment judge_never_late(const Exhibit& exhibit, ToiStatus status, double time)
 /// Holds a separation and a yes-or-no at the start to a few u of the sum of all coordinates and sizes.
 Judgment judge_separation(const Exhibit& exhibit, double distance, const Vec3<double>& normal, bool overlap);
 
+/// Holds a proven verdict and bracket to the truth, as far as 50 digits tell.
+Judgment judge_bracket(const Exhibit& exhibit, ToiStatus verdict, double lower, double upper);
+
+/// Holds a time to the proven bracket, widened by `allowed` u kappa t.
+Judgment judge_time(const Exhibit& exhibit, double time, double lower, double upper, double allowed);
+
+/// Asks for a certified time of impact, both ways round, and holds it to be whole; where `judged`, holds it to the oracle,
+/// and the plain answer to it: a verdict that differs, or a time outside the bracket, by no more than 4 u.
+Judgment judge_certified(const Exhibit& exhibit, ToiStatus plain, double time, bool judged);
+
 }  // namespace thinwall::fuzz

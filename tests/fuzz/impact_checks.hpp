@@ -102,6 +102,12 @@ template <class A, class B> void check_scale(const Scene<A, B>& scene, int choic
         "overlaps(): scale changes it", [&] { return factor; });
 }
 
+/// The certified answer, and the plain one beside it.
+template <class A, class B> void check_certified(const Scene<A, B>& scene, const Toi<typename A::Scalar>& toi) {
+  Check(scene).no_fault(judge_certified(exhibit(scene.a, scene.b), toi.status, double{toi.time}, is_judged(scene)), "",
+                        [&] { return text(toi) + ";\n  "; });
+}
+
 /// One of the methods: its answer is whole, and one that claims never to be late is not.
 template <class A, class B> void check_methods(const Scene<A, B>& scene, int choice) {
   using S = typename A::Scalar;

@@ -77,7 +77,10 @@ Judgment judge_separation_in(const Exhibit& exhibit, double distance, const Vec3
   const R short_by = truth - referee.separation_along(R(0), oracle::lift<R>(normal));
   if (!(off <= 8 * rounding))
     return Fault{"separation() is off", text(distance) + " for " + text(narrow(truth)) + ": " + in_roundings(off)};
-  if (size_of(core) > 64 * rounding && !(short_by <= 32 * rounding))  // where the cores touch any normal will do
+  // Where the cores touch any normal will do. Where they are near, the closest points are right to rounding, and the normal
+  // to that over the distance: along it the shapes reach farther by their size times as much.
+  const R turned = core > 0 ? R(referee.size_at(R(0)) * 16 * rounding / core) : R(0);
+  if (size_of(core) > 64 * rounding && !(short_by <= 32 * rounding + turned))
     return Fault{"separation(): the normal does not part them that far",
                  text(normal) + " is short by " + in_roundings(short_by)};
   if (size_of(truth) > 8 * rounding && overlap != (truth < 0))
@@ -86,6 +89,35 @@ Judgment judge_separation_in(const Exhibit& exhibit, double distance, const Vec3
 }
 
 }  // namespace
+
+Judgment judge_bracket(const Exhibit& exhibit, ToiStatus verdict, double lower, double upper) {
+  using R = Digits50;
+  const Referee<R> referee(exhibit);
+  const R blur = ldexp(R(1), -80), low = lower, high = upper;  // [1] what the oracle cannot tell from a touch
+  const auto truth = referee.first_contact(verdict == ToiStatus::hit ? R(low * (1 - blur)) : R(0));
+  const auto margin = [&](const typename Referee<R>::State& s) { return s.scale > 0 ? R(s.gap / s.scale) : R(0); };
+  const std::string truly = "truly at " + text(narrow(truth.time));
+  const R start = margin(referee.at(R(0))), deepest = margin(referee.deepest(R(0)));
+  const bool overlaps = verdict == ToiStatus::overlapping, misses = verdict == ToiStatus::apart;
+  if (overlaps ? start > blur : start < -blur) return Fault{"wrong about the start", truly};
+  if (overlaps) return {};
+  if (misses ? deepest < -blur : deepest > blur) return Fault{misses ? "missed" : "a hit that is a miss", truly};
+  if (misses) return {};
+  if (margin(referee.at(low)) < -blur || truth.time < low * (1 - blur)) return Fault{"the lower bound is late", truly};
+  if (margin(referee.at(high)) > blur && truth.time > high) return Fault{"the upper bound is early", truly};
+  return {};
+}
+
+Judgment judge_time(const Exhibit& exhibit, double time, double lower, double upper, double allowed) {
+  if (time >= lower && time <= upper) return {};
+  const Referee<Digits50> referee(exhibit);
+  const auto truth = referee.first_contact(Digits50(lower) * (1 - ldexp(Digits50(1), -80)));
+  const double off = time < lower ? lower - time : time - upper;
+  const double slack = exhibit.u * allowed * narrow(truth.conditioning) + exhibit.least;
+  if (off <= slack) return {};
+  return Fault{"the plain time is outside the proven ones",
+               text(time) + " not in [" + text(lower) + ", " + text(upper) + "], allowed are " + text(slack)};
+}
 
 Judgment judge_impact(const Exhibit& exhibit, ToiStatus status, double time, double allowed) {
   if (!judge_impact_in<long double>(exhibit, status, time, allowed * 0.99)) return {};

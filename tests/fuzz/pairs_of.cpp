@@ -24,6 +24,7 @@ template <class A, class B> void check_pair(Bytes& bytes, Reading reading) {
     check_bad_shapes(scene);
     check_raycast(scene);
     check_methods(scene, choice % 10);
+    check_certified(scene, toi);
     return;
   }
   check_discrete(scene);
@@ -32,6 +33,8 @@ template <class A, class B> void check_pair(Bytes& bytes, Reading reading) {
     case 1: check_raycast(scene); break;
     case 2: check_scale(scene, choice); break;
     case 3: check_methods(scene, choice % 10); break;
+    case 4:
+    case 5: check_certified(scene, toi); break;
     default: judge_closed_form(scene, toi); break;
   }
 }

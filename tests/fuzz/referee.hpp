@@ -32,7 +32,7 @@ template <class R> class Referee {
   State at(const R& time) const {
     const oracle::Gap<R> apart = oracle::gap_at(problem_, time, tolerance());
     const State outside{R(apart.core - problem_.reach), apart.closing, apart.scale};
-    return apart.core > 16 * tolerance() * size_at(time) ? outside : inside(time);  // of less, rounding made it
+    return apart.core > touch() * size_at(time) ? outside : inside(time);
   }
 
   oracle::Impact<R> first_contact(const R& guess) const { return oracle::first_contact(problem_, guess, tolerance()); }
@@ -66,6 +66,8 @@ template <class R> class Referee {
   }
 
   R reach() const { return problem_.reach; }
+  /// [1] Cores this near, beside the numbers involved, meet: what is left of their distance is rounding.
+  static R touch() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -90)) : R(ldexp(R(1), -54)); }
   static R tolerance() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -150)) : R(ldexp(R(1), -58)); }
 
  private:
