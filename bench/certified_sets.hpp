@@ -11,7 +11,7 @@
 
 namespace thinwall::bench {
 
-inline constexpr std::size_t hard_query_count = 20'000;
+inline constexpr std::size_t hard_query_count = 8'000;
 
 inline double decades(Uniform& uniform, double low, double high) { return std::pow(10.0, uniform.between(low, high)); }
 
