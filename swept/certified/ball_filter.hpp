@@ -17,6 +17,9 @@ inline constexpr CertifiedToi undecided{ToiStatus::gave_up, 0, 1, DecidedBy::gua
 
 inline constexpr double roundoff_unit = std::numeric_limits<double>::epsilon() / 2;
 
+/// At least half of the digits of the time are proven. Brackets wider than that go on to the next stage.
+THINWALL_HOT bool is_narrow(double lower, double upper) { return upper - lower <= 0x1p-26 * upper; }
+
 /// Requires relative errors of at most one rounding in each p_i, v_i and R. NaN and infinity are left undecided.
 THINWALL_HOT CertifiedToi ball_filter(const Vec3<double>& p, const Vec3<double>& v, double R) {
   constexpr double u = roundoff_unit, least = 0x1p-400, most = 0x1p400, tiny = std::numeric_limits<double>::min();
@@ -24,11 +27,12 @@ THINWALL_HOT CertifiedToi ball_filter(const Vec3<double>& p, const Vec3<double>&
     return CertifiedToi{verdict, lower, upper, DecidedBy::filter};
   };
   const double pp = p.squaredNorm(), RR = R * R, a = v.squaredNorm(), size = pp + RR;
-  if (!(size >= least && size <= most && a >= least && a <= most)) return undecided;
+  if (!(size >= least && size <= most)) return undecided;
 
   const double c = pp - RR, c_error = 8 * u * size;
   if (c < -c_error) return decided(ToiStatus::overlapping, 0, 0);
   if (!(c > c_error)) return undecided;
+  if (!(a >= least && a <= most)) return v == Vec3<double>::Zero() ? decided(ToiStatus::apart, 1, 1) : undecided;
 
   const double px = p[0] * v[0], py = p[1] * v[1], pz = p[2] * v[2];
   const double b = px + py + pz, b_error = 6 * u * (std::abs(px) + std::abs(py) + std::abs(pz)) + tiny;
@@ -49,7 +53,7 @@ THINWALL_HOT CertifiedToi ball_filter(const Vec3<double>& p, const Vec3<double>&
   const double lower = (c - c_error) / ((b_error - b) + std::sqrt(D + D_error)) * (1 - 8 * u);
   const double upper = (c + c_error) / ((-b - b_error) + std::sqrt(D - D_error)) * (1 + 8 * u);
   if (lower > 1) return decided(ToiStatus::apart, 1, 1);
-  return upper <= 1 ? decided(ToiStatus::hit, lower, upper) : undecided;
+  return upper <= 1 && is_narrow(lower, upper) ? decided(ToiStatus::hit, lower, upper) : undecided;
 }
 
 }  // namespace thinwall

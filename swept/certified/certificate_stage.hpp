@@ -18,7 +18,7 @@ inline CertifiedToi proven(ToiStatus verdict, double lower, double upper) {
 template <class Core> THINWALL_HOT bool sizes_in_range(const Core& core) {
   constexpr double least = 0x1p-150, most = 0x1p150;
   const double size = core.size.sum() + core.R, speed = core.v.cwiseAbs().sum();
-  return size >= least && size <= most && speed >= least && speed <= most;
+  return size >= least && size <= most && (speed == 0 || (speed >= least && speed <= most));
 }
 
 /// The direction in which the middles of the two pass each other.
@@ -37,14 +37,14 @@ template <class Core> THINWALL_HOT double touched_until(const Core& core, const 
       const double time = crossed_by(face.c, face.g, face.h, core.v, core.size);
       return time <= 1 ? time : never;
     }
-    const Vec3<double> size = core.size + core.v.cwiseAbs();
     const Vec3<double> x = nearest_on_parallelogram(face.c + core.v * guess, face.g, face.h);
-    const double distance = std::sqrt(x.squaredNorm()), closing = -x.dot(core.v) / distance;
-    const double slack = 64 * roundoff_unit * (size.sum() + core.R);
-    double later = (std::max(0.0, distance - core.R) + slack) / closing;
+    const double distance = std::sqrt(x.squaredNorm()), closing = -x.dot(core.v);
+    const Vec3<double> size = core.size + core.v.cwiseAbs() * guess;
+    const double slack = roundoff_unit * (36 * size_along(x, size) + 20 * core.R * distance);
+    double later = (std::max(0.0, distance - core.R) * distance + slack) / closing;
     for (int round = 0; round < 3 && later > 0; ++round) {
       const double time = std::min(1.0, guess + later);
-      if (is_within(x + core.v * (time - guess), core.R, size, 48)) return time;
+      if (is_within(x + core.v * (time - guess), core.R, core.size + core.v.cwiseAbs() * time, 32)) return time;
       later *= 4;
     }
   }
@@ -71,7 +71,7 @@ template <class Core> THINWALL_HOT CertifiedToi prove_hit(const Core& core, cons
   if (!(lower > 0)) return undecided;
   double upper = touched_until(core, n, guess);
   if (!(upper <= 1)) upper = touched_soon_after(core, n, guess, plane.closing);
-  return upper <= 1 ? proven(ToiStatus::hit, lower, upper) : undecided;
+  return upper <= 1 && is_narrow(lower, upper) ? proven(ToiStatus::hit, lower, upper) : undecided;
 }
 
 /// The answer in double, if it can be proven there; and a guess for the next stage.

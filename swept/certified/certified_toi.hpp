@@ -36,6 +36,10 @@ template <> inline constexpr bool has_zonotope_core<Aabb<double>> = true;
 template <> inline constexpr bool has_zonotope_core<Obb<double>> = true;
 template <> inline constexpr bool has_zonotope_core<Capsule<double>> = true;
 
+/// Two of these are decided by the same numbers, but for their signs, whichever is passed first.
+template <class A>
+inline constexpr bool has_symmetric_filter = std::same_as<A, Sphere<double>> || std::same_as<A, Aabb<double>>;
+
 /// True if certified_time_of_impact answers for A and B, in either order.
 template <class A, class B>
 inline constexpr bool certifies = (has_zonotope_core<A> && has_zonotope_core<B>) ||

@@ -56,7 +56,8 @@ THINWALL_HOT CertifiedToi slab_filter(const Vec3<double>& p, const Vec3<double>&
   }
   if (starts_inside) return decided(ToiStatus::overlapping, 0, 0);
   if (first.low > last.high || first.low > 1) return decided(ToiStatus::apart, 1, 1);
-  const bool hits = sure && starts_apart && first.high <= last.low && first.high <= 1;
+  const bool hits =
+      sure && starts_apart && first.high <= last.low && first.high <= 1 && is_narrow(first.low, first.high);
   return hits ? decided(ToiStatus::hit, first.low, first.high) : undecided;
 }
 

@@ -11,8 +11,8 @@ namespace thinwall {
 /// True if a point computed as x is within R of the origin, x off by at most `roundings` u times the size of each coordinate.
 THINWALL_HOT bool is_within(const Vec3<double>& x, double R, const Vec3<double>& size, double roundings) {
   constexpr double u = roundoff_unit;
-  const double reach = R * (1 - 4 * u) - roundings * u * size.sum();
-  return reach > 0 && x.squaredNorm() <= reach * reach * (1 - 8 * u);
+  const Vec3<double> farthest = x.cwiseAbs() + size * (roundings * u);
+  return R > 0 && farthest.squaredNorm() <= R * R * (1 - 16 * u);
 }
 
 /// The factor in [-1, 1] for which |x + factor g| is least.

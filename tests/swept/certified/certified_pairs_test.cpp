@@ -1,0 +1,108 @@
+// Every pair, on plain motions and on the worst: verdict, bracket, order, and which stage decided, tallied.
+
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "support/certified_judge.hpp"
+#include "support/certified_queries.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+void print(const char* name, const Tally& tally) {
+  std::printf("%-16s filter %5d, certificate %5d, exact %5d\n", name, tally.decided(DecidedBy::filter),
+              tally.decided(DecidedBy::certificate), tally.decided(DecidedBy::exact));
+}
+
+/// Asks `judge` about `count` motions of every pair; the answers must be the same bits the other way round.
+template <class DrawMotion, class Judge>
+void judge_every_pair(int count, const DrawMotion& draw_motion, const Judge& judge) {
+  for_each_certified_pair([&]<class A, class B>(const char* name, PairOf<A, B> pair) {
+    SCOPED_TRACE(name);
+    Shaker<double> draw(1);
+    Tally tally;
+    for (int i = 0; i < count && !::testing::Test::HasFailure(); ++i) {
+      SCOPED_TRACE(i);
+      const Motion<A, B> motion = draw_motion(draw, pair);
+      const CertifiedToi toi = certified_time_of_impact(motion.a, motion.b);
+      tally.count(toi);
+      EXPECT_TRUE(judge(motion.a, motion.b, toi));
+      EXPECT_EQ(certified_time_of_impact(motion.b, motion.a), toi);
+    }
+    print(name, tally);
+  });
+}
+
+const auto plain = []<class A, class B>(Shaker<double>& draw, PairOf<A, B>) { return plain_motion<A, B>(draw); };
+const auto worst = []<class A, class B>(Shaker<double>& draw, PairOf<A, B>) { return worst_motion<A, B>(draw); };
+const auto close = []<class A, class B>(Shaker<double>& draw, PairOf<A, B>) { return drawn_motion<A, B>(draw); };
+const auto by_integers = [](const auto& a, const auto& b, const CertifiedToi& toi) { return judge_exactly(a, b, toi); };
+const auto by_oracle = [](const auto& a, const auto& b, const CertifiedToi& toi) { return judge_by_oracle(a, b, toi); };
+
+TEST(CertifiedPairs, plain_motions_are_decided_in_double) {
+  for_each_certified_pair([]<class A, class B>(const char* name, PairOf<A, B>) {
+    SCOPED_TRACE(name);
+    Shaker<double> draw(7);
+    Tally tally;
+    std::array<int, 5> verdicts{};
+    for (int i = 0; i < 10000; ++i) {
+      const Motion<A, B> motion = plain_motion<A, B>(draw);
+      const CertifiedToi toi = certified_time_of_impact(motion.a, motion.b);
+      tally.count(toi);
+      ++verdicts[static_cast<std::size_t>(toi.verdict)];
+      EXPECT_TRUE(has_form(toi));
+      if (toi.verdict == ToiStatus::hit) {
+        EXPECT_LE(toi.upper - toi.lower, 0x1p-26 * toi.upper);
+      }
+    }
+    print(name, tally);
+    EXPECT_EQ(tally.decided(DecidedBy::exact), 0);
+    const bool same_kind = std::is_same_v<A, B> && has_symmetric_filter<A>;
+    EXPECT_EQ(tally.decided(same_kind ? DecidedBy::filter : DecidedBy::certificate), 10000);
+    EXPECT_GT(verdicts[0], 500);  // apart
+    EXPECT_GT(verdicts[1], 500);  // hit
+    EXPECT_GT(verdicts[2], 50);   // overlapping
+  });
+}
+
+TEST(CertifiedPairs, plain_motions_agree_with_the_integers) { judge_every_pair(100, plain, by_integers); }
+TEST(CertifiedPairs, plain_motions_agree_with_the_oracle) { judge_every_pair(40, plain, by_oracle); }
+TEST(CertifiedPairs, close_motions_agree_with_the_oracle) { judge_every_pair(60, close, by_oracle); }
+TEST(CertifiedPairs, worst_motions_agree_with_the_integers) { judge_every_pair(400, worst, by_integers); }
+
+TEST(CertifiedPairs, every_stage_is_reached_by_the_worst) {
+  Tally all;
+  for_each_certified_pair([&]<class A, class B>(const char*, PairOf<A, B>) {
+    Shaker<double> draw(3);
+    for (int i = 0; i < 100; ++i) {
+      const Motion<A, B> motion = worst_motion<A, B>(draw);
+      all.count(certified_time_of_impact(motion.a, motion.b));
+    }
+  });
+  print("all", all);
+  EXPECT_GT(all.decided(DecidedBy::filter), 20);
+  EXPECT_GT(all.decided(DecidedBy::certificate), 100);
+  EXPECT_GT(all.decided(DecidedBy::exact), 100);
+}
+
+TEST(CertifiedPairs, verdicts_are_the_same_at_every_scale) {  // and the brackets share the contact
+  for_each_certified_pair([]<class A, class B>(const char* name, PairOf<A, B>) {
+    SCOPED_TRACE(name);
+    Shaker<double> draw(11);
+    for (int i = 0; i < 60; ++i) {
+      const Motion<A, B> motion = drawn_motion<A, B>(draw);
+      const CertifiedToi toi = certified_time_of_impact(motion.a, motion.b);
+      for (const int e : {-600, -300, 300, 600}) {
+        const CertifiedToi there = certified_time_of_impact(scaled(motion.a, e), scaled(motion.b, e));
+        EXPECT_EQ(there.verdict, toi.verdict) << i << " times 2^" << e;
+        if (toi.verdict != ToiStatus::hit) continue;
+        EXPECT_LE(there.lower, toi.upper);
+        EXPECT_LE(toi.lower, there.upper);
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace thinwall::testing
