@@ -92,19 +92,27 @@ Judgment judge_separation_in(const Exhibit& exhibit, double distance, const Vec3
 
 Judgment judge_bracket(const Exhibit& exhibit, ToiStatus verdict, double lower, double upper) {
   using R = Digits50;
+  const auto margin = [](const auto& s) { return s.scale > 0 ? decltype(s.gap)(s.gap / s.scale) : decltype(s.gap)(0); };
+  if (verdict == ToiStatus::apart) {
+    const Referee<long double> rough(exhibit);
+    if (margin(rough.deepest(0.0L)) > 0x1p-50L) return {};
+  }
   const Referee<R> referee(exhibit);
   const R blur = ldexp(R(1), -80), low = lower, high = upper;  // [1] what the oracle cannot tell from a touch
-  const auto truth = referee.first_contact(verdict == ToiStatus::hit ? R(low * (1 - blur)) : R(0));
-  const auto margin = [&](const typename Referee<R>::State& s) { return s.scale > 0 ? R(s.gap / s.scale) : R(0); };
+  const R start = margin(referee.at(R(0)));
+  const auto fault = [&](const char* property) { return Fault{property, "by the oracle"}; };
+  if (verdict == ToiStatus::overlapping) return start > blur ? Judgment(fault("wrong about the start")) : Judgment();
+  if (start < -blur) return fault("wrong about the start");
+  if (verdict == ToiStatus::apart) {
+    return margin(referee.deepest(R(0))) < -blur ? Judgment(fault("missed")) : Judgment();
+  }
+  const auto truth = referee.first_contact(R(low * (1 - blur)));
+  if (truth.verdict == oracle::Verdict::apart) {
+    return margin(referee.deepest(R(0))) > blur ? Judgment(fault("a hit that is a miss")) : Judgment();
+  }
   const std::string truly = "truly at " + text(narrow(truth.time));
-  const R start = margin(referee.at(R(0))), deepest = margin(referee.deepest(R(0)));
-  const bool overlaps = verdict == ToiStatus::overlapping, misses = verdict == ToiStatus::apart;
-  if (overlaps ? start > blur : start < -blur) return Fault{"wrong about the start", truly};
-  if (overlaps) return {};
-  if (misses ? deepest < -blur : deepest > blur) return Fault{misses ? "missed" : "a hit that is a miss", truly};
-  if (misses) return {};
-  if (margin(referee.at(low)) < -blur || truth.time < low * (1 - blur)) return Fault{"the lower bound is late", truly};
-  if (margin(referee.at(high)) > blur && truth.time > high) return Fault{"the upper bound is early", truly};
+  if (truth.time < low * (1 - blur) && margin(referee.at(low)) < -blur) return Fault{"the lower bound is late", truly};
+  if (truth.time > high && margin(referee.at(high)) > blur) return Fault{"the upper bound is early", truly};
   return {};
 }
 
