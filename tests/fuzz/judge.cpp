@@ -58,6 +58,8 @@ template <class R> Judgment judge_never_late_in(const Exhibit& exhibit, ToiStatu
   const std::string truly = "truly at " + text(narrow(truth.time));
   if (status == ToiStatus::apart) {
     const R deepest = referee.deepest(touches ? truth.time : R(0)).gap;
+    const bool rests = exhibit.displacement_a == exhibit.displacement_b;  // then overlaps() decides, to rounding
+    if (rests && deepest >= -8 * R(exhibit.u) * referee.size_at(R(0))) return {};
     if (touches ? deepest < 0 : rough && deepest <= clear) return Fault{"missed", truly};
     return {};
   }
