@@ -32,6 +32,7 @@ template <Shape A> bool can_be_certified(const Moving<A>& moving) {
 template <Shape A, Shape B>
 THINWALL_COLD CertifiedToi decided_exactly(const Moving<A>& a, const Moving<B>& b, double guess) {
   if (!can_be_certified(a) || !can_be_certified(b)) return {};
+  if (valid(a.shape) && valid(b.shape)) guess = time_of_impact(a, b).time;  // at any scale, unlike the certificate's
   return exact_answer(exact_core(a, b), guess);
 }
 

@@ -30,7 +30,7 @@ THINWALL_HOT CertifiedToi ball_filter(const Vec3<double>& p, const Vec3<double>&
   if (!(size >= least && size <= most)) return undecided;
 
   const double c = pp - RR, c_error = 8 * u * size;
-  if (c < -c_error) return decided(ToiStatus::overlapping, 0, 0);
+  if (c < -c_error && a <= most) return decided(ToiStatus::overlapping, 0, 0);
   if (!(c > c_error)) return undecided;
   if (!(a >= least && a <= most)) return v == Vec3<double>::Zero() ? decided(ToiStatus::apart, 1, 1) : undecided;
 

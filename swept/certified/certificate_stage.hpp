@@ -6,6 +6,7 @@
 /// Nothing here takes the guess for true: a wrong one proves nothing, and the integers decide.
 
 #include <thinwall/swept/certified/position_proof.hpp>
+#include <thinwall/swept/certified/shared_point_proof.hpp>
 #include <thinwall/swept/methods/closed_form.hpp>
 
 namespace thinwall {
@@ -74,6 +75,11 @@ template <class Core> THINWALL_HOT CertifiedToi prove_hit(const Core& core, cons
   return upper <= 1 && is_narrow(lower, upper) ? proven(ToiStatus::hit, lower, upper) : undecided;
 }
 
+/// Cores of three half axes each, and no radius around them.
+template <class A, class B>
+inline constexpr bool are_boxes =
+    std::same_as<A, Obb<double>> && (std::same_as<B, Obb<double>> || std::same_as<B, Aabb<double>>);
+
 /// The answer in double, if it can be proven there; and a guess for the next stage.
 template <Shape A, Shape B> CertifiedToi certificate(const Moving<A>& a, const Moving<B>& b, double& guess) {
   const RoundedCore<A, B> core(a, b);
@@ -88,6 +94,9 @@ template <Shape A, Shape B> CertifiedToi certificate(const Moving<A>& a, const M
       }
       return undecided;
     case ToiStatus::overlapping:
+      if constexpr (are_boxes<A, B>) {
+        if (share_point(core, Vec3<double>(toi.point - a.shape.center))) return proven(ToiStatus::overlapping, 0, 0);
+      }
       if (position_proof(core, 0, core.p).position == Position::touching) return proven(ToiStatus::overlapping, 0, 0);
       return undecided;
     default: return undecided;

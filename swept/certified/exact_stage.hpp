@@ -11,13 +11,20 @@
 
 namespace thinwall {
 
-/// True if the shapes share a point at some time in [0, time].
+/// True if the shapes share a point at some time in [0, time]. Where the exponents of the input are too far apart for the
+/// fixed width, coordinates are cut off there first: no corner moves by as much as 64 units, so a reach that much longer or
+/// shorter decides all but a near-touch.
 inline bool touched_by(const ExactCore& query, double time) {
-  constexpr unsigned fixed = 1024;
+  constexpr int fixed = 1024, coordinate_bits = 126, moved = 64;
+  static_assert(SweptCore::bits_for(coordinate_bits) <= fixed);
   const SweptCore core(query, time);
-  if (core.integer_bits() <= static_cast<int>(fixed)) {
-    return touches_origin(IntegerPolytope<FixedInteger<fixed>>(core));
-  }
+  if (core.integer_bits() <= fixed) return touches_origin(IntegerPolytope<FixedInteger<fixed>>(core));
+
+  IntegerPolytope<FixedInteger<fixed>> cut(core, core.low_for(coordinate_bits));
+  cut.reach += moved;
+  if (!touches_origin(cut)) return false;
+  cut.reach -= 2 * moved;
+  if (cut.reach >= 0 && touches_origin(cut)) return true;
   return touches_origin(IntegerPolytope<UnboundedInteger>(core));
 }
 
@@ -30,7 +37,7 @@ inline CertifiedToi exact_bracket(const ExactCore& query, double guess) {
     if (at > lower && at < upper) (touched_by(query, std::bit_cast<double>(at)) ? upper : lower) = at;
   };
   const std::uint64_t center = guess > 0 && guess <= 1 ? number(guess) : number(1.0);
-  for (std::uint64_t step = 1; lower + 1 < upper && step <= center; step *= 16) {
+  for (std::uint64_t step = 1; lower + 1 < upper && step <= center / 16; step *= 16) {  // out from the guess
     probe(center - step);
     probe(center + step);
     if (lower + step >= center && upper <= center + step) break;

@@ -20,11 +20,12 @@ template <class Integer> bool touches_origin(const IntegerPolytope<Integer>& pol
   Simplex<Integer> simplex(polytope.starts[0]);
   const Integer reach_square = polytope.reach * polytope.reach;
   while (true) {
-    const Integer limit = reach_square * dot(simplex.normal, simplex.normal);
-    if (simplex.level * simplex.level <= limit) return true;
+    if (simplex.level == 0) return true;
+    const Integer limit = reach_square == 0 ? Integer(0) : Integer(reach_square * dot(simplex.normal, simplex.normal));
+    const auto is_beyond = [&](const Integer& level) { return level > 0 && (limit == 0 || level * level > limit); };
+    if (!is_beyond(simplex.level)) return true;
     const Triple<Integer> corner = polytope.lowest_along(simplex.normal);
-    const Integer level = dot(simplex.normal, corner);
-    if (level > 0 && level * level > limit) return false;
+    if (is_beyond(dot(simplex.normal, corner))) return false;
     if (!simplex.add(corner)) return true;
   }
 }

@@ -74,16 +74,26 @@ struct SweptCore {
   }
 
   /// Bits of the largest integer in touches_origin(); derived in docs/certified.md.
-  int integer_bits() const { return 8 * span.bits() + 13; }
+  int integer_bits() const { return bits_for(span.bits()); }
+  static constexpr int bits_for(int coordinate_bits) { return 8 * coordinate_bits + 13; }
+
+  /// The power of two below which `low` must not lie for coordinates of so many bits.
+  int low_for(int coordinate_bits) const { return span.high + 5 - coordinate_bits; }
 };
 
+/// The sum in units of 2^low. Of a term with bits below them, those are dropped: each such is off by less than one unit.
 template <class Integer> Integer integer_from(const ExactSum& sum, int low) {
   Integer total = 0;
   for (std::size_t i = 0; i < sum.count; ++i) {
     const ExactTerm& term = sum.terms[i];
     const OddMantissa x(term.x), y(term.y);
     const Integer product = Integer(x.mantissa) * Integer(y.mantissa);
-    total += product << static_cast<unsigned>(x.exponent + y.exponent + term.shift - low);
+    const int shift = x.exponent + y.exponent + term.shift - low;
+    if (shift >= 0) {
+      total += product << static_cast<unsigned>(shift);
+    } else if (shift > -2 * std::numeric_limits<double>::digits) {
+      total += product / (Integer(1) << static_cast<unsigned>(-shift));
+    }
   }
   return total;
 }
@@ -98,8 +108,8 @@ template <class Integer> struct IntegerPolytope {
   std::size_t start_count = 0, edge_count = 0;
   Integer reach;
 
-  explicit IntegerPolytope(const SweptCore& core) : start_count(core.query.start_count) {
-    const int low = core.span.low;
+  explicit IntegerPolytope(const SweptCore& core) : IntegerPolytope(core, core.span.low) {}
+  IntegerPolytope(const SweptCore& core, int low) : start_count(core.query.start_count) {
     for (std::size_t i = 0; i < start_count; ++i) starts[i] = integer_from<Integer>(core.query.starts[i], low);
     for (std::size_t i = 0; i < core.query.edge_count; ++i) add_edge(integer_from<Integer>(core.query.edges[i], low));
     add_edge(integer_from<Integer>(core.sweep, low));

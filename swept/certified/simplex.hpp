@@ -5,7 +5,10 @@
 /// no other corner lies below the face along the way to that foot. One face alone has both.
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <type_traits>
 
 namespace thinwall {
 
@@ -48,11 +51,24 @@ template <class Number> struct Simplex {
   }
 
  private:
+  /// What rounding may make of a tie between two corners along n; in integers, nothing.
+  static Number tie(const Point& n, const Point& a, const Point& b) {
+    if constexpr (std::is_floating_point_v<Number>) {
+      using std::abs;
+      Number sum = 0;
+      for (std::size_t i = 0; i < 3; ++i) sum += abs(n[i]) * (abs(a[i]) + abs(b[i]));
+      return 16 * std::numeric_limits<Number>::epsilon() * sum;
+    } else {
+      return 0;
+    }
+  }
+
   /// The face nearest to the origin is the one on whose inside the point along n lies, with no corner below its level.
   bool keeps(const Point& n, const std::array<std::size_t, 3>& face, std::size_t size) {
     const Number at = dot(n, corners[face[0]]);
     for (std::size_t i = 0; i < count; ++i) {
-      if (i != face[0] && i != face[1] && i != face[2] && dot(n, corners[i]) < at) return false;
+      if (i == face[0] || i == face[1] || i == face[2]) continue;
+      if (dot(n, corners[i]) < at - tie(n, corners[face[0]], corners[i])) return false;
     }
     std::array<Point, 3> kept;
     for (std::size_t i = 0; i < size; ++i) kept[i] = corners[face[i]];

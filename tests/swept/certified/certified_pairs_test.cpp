@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/certified_judge.hpp"
+#include "support/certified_oracle.hpp"
 #include "support/certified_queries.hpp"
 
 namespace thinwall::testing {
