@@ -83,9 +83,10 @@ Judgment judge_separation_in(const Exhibit& exhibit, double distance, const Vec3
   // Where the cores touch any normal will do. Where they are near, the closest points are right to rounding, and the normal
   // to that over the distance: along it the shapes reach farther by their size times as much.
   const R turned = core > 0 ? R(referee.size_at(R(0)) * 16 * rounding / core) : R(0);
-  if (size_of(core) > 64 * rounding && !(short_by <= 32 * rounding + turned))
+  if (size_of(core) > 64 * rounding && !(short_by <= 32 * rounding + turned)) {
     return Fault{"separation(): the normal does not part them that far",
                  text(normal) + " is short by " + in_roundings(short_by)};
+  }
   if (size_of(truth) > 8 * rounding && overlap != (truth < 0))
     return Fault{"overlaps() is wrong", "the gap is " + in_roundings(truth)};
   return {};
