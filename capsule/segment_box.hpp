@@ -113,8 +113,18 @@ template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec
     part.origin = corner - d * s;
   } else if (outside == 2) {
     const Vec3<S> edge = axis_vector<S>(free_axis), swept = cross(edge, d);
-    part.kind = end == 0 && largest(swept) > gap_noise(largest(d)) ? CorePart<S>::face : CorePart<S>::edge;
-    part.direction = part.kind == CorePart<S>::face ? swept : edge;
+    part.kind = CorePart<S>::edge;
+    part.direction = edge;
+    if (end == 0) {
+      const Vec3<S> beside = cross(safe_unit(swept), part.gap);  // zero above the inside of a face
+      const bool sliver = largest(swept) <= gap_noise(largest(d)) || largest(beside) > gap_noise(largest(x, d, h));
+      part.kind = sliver ? CorePart<S>::edge : CorePart<S>::face;
+      if (!sliver) part.direction = swept;
+      if (sliver && largest(d) > 2 * h[free_axis]) {  // edge and segment parallel, to rounding: the longer one is left
+        part.direction = d;
+        part.origin = x - part.gap;
+      }
+    }
   } else if (end == 0 && d != Vec3<S>::Zero()) {
     part.kind = CorePart<S>::edge;
     part.direction = d;

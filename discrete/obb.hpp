@@ -52,7 +52,6 @@ template <Scalar S> Vec3<S> contact_point(const Obb<S>&, const Vec3<S>& core_poi
 template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { return box.axes.transpose() * world; }
 template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
 
-/// The path p + v t from `base_time` on: start + v * (t - base_time), where it comes within about `reach` of the origin.
 /// A gap given in the box's own axes, in the world's.
 template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
   return {gap.distance, out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),

@@ -90,7 +90,9 @@ template <Scalar S, Shape A> std::optional<RayHit<S>> raycast(const Ray<S>& ray,
   if (!is_finite(ray.origin) || !is_finite(ray.direction) || !valid(shape)) return std::nullopt;
   const Ray<S> near{times_power_of_two(ray.origin, -8), times_power_of_two(ray.direction, -8), ray.max_t};
   auto small = raycast(near, scaled(shape, -8));
-  if (small) small->point = times_power_of_two(small->point, 8);
+  if (!small) return small;
+  const bool from_inside = small->normal == Vec3<S>::Zero();
+  small->point = from_inside ? ray.origin : times_power_of_two(small->point, 8);
   return small;
 }
 

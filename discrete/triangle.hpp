@@ -50,7 +50,8 @@ template <Scalar S> Vec3<S> contact_point(const Triangle<S>&, const Vec3<S>& cor
 /// area has edges only. Requires lengths whose products of four are in range.
 /// Error: a few u (|x| + |e1| + |e2|), more for the normal of a sliver. Source: derived here.
 template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3<S>& e1, const Vec3<S>& e2) {
-  const Vec3<S> normal = cross(e1, e2);
+  Vec3<S> normal = cross(e1, e2);
+  if (!products_in_range(largest(normal))) normal = times_power_of_two(normal, -binary_exponent(largest(normal)));
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
   const bool flat = normal != Vec3<S>::Zero();
   std::array<bool, 3> beyond{true, true,
@@ -58,7 +59,8 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
   if (flat) {
     for (std::size_t k = 0; k < 3; ++k) beyond[k] = cross(normal, along[k]).dot(x - from[k]) < S(0);
     if (!beyond[0] && !beyond[1] && !beyond[2]) {
-      return {0, CorePart<S>::face, Vec3<S>::Zero(), normal, normal * (x.dot(normal) / normal.squaredNorm())};
+      const Vec3<S> unit = safe_unit(normal);  // its square may vanish beside a far x
+      return {0, CorePart<S>::face, Vec3<S>::Zero(), normal, unit * x.dot(unit)};
     }
   }
   CorePart<S> part;
@@ -68,7 +70,9 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
     const S length_square = along[k].squaredNorm();
     const Vec3<S> to_x = x - from[k];
     const S projected = along[k].dot(to_x);
-    const bool at_end = projected >= length_square && length_square > S(0), corner = at_end || projected <= S(0);
+    const bool at_end = projected >= length_square && length_square > S(0);
+    const bool corner =
+        at_end || projected <= S(0) || length_square == S(0);  // too short to have a square beside a far x
     const std::size_t start = at_end ? (k + 1) % 3 : k;
     const Vec3<S> gap = corner ? Vec3<S>(x - from[start]) : Vec3<S>(to_x - along[k] * (projected / length_square));
     const S square = gap.squaredNorm();

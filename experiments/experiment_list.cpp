@@ -5,6 +5,7 @@
 #include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
 #include <thinwall/experiments/hitscan.hpp>
+#include <thinwall/experiments/stiff_contact.hpp>
 #include <thinwall/experiments/swept_bounds.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
 #include <thinwall/experiments/work_precision.hpp>
@@ -16,7 +17,7 @@ std::span<const Experiment> experiments() {
   static const std::array list = {
       thin_wall_experiment(),  //
       accuracy_experiment(),         work_precision_experiment(), swept_bounds_experiment(),
-      crossing_bullets_experiment(), hitscan_experiment(),
+      crossing_bullets_experiment(), hitscan_experiment(),        stiff_contact_experiment(),
   };
   return list;
 }

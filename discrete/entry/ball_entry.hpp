@@ -101,8 +101,9 @@ template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, c
 
 /// The first time at which a moving point is in a closed convex body.
 template <Scalar S> struct Entry {
-  bool inside = false;                          ///< already so at time 0, touching included
-  bool gave_up = false;                         ///< out of rounds; `time` is proven free
+  bool inside = false;   ///< already so at time 0, touching included
+  bool gave_up = false;  ///< out of rounds; `time` is proven free
+  bool graze = false;    ///< a few roundings of the coordinates may turn a miss into a hit, or back
   S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
   Vec3<S> normal = Vec3<S>::Zero();             ///< unit, out of the body, where the point is at `time`
   int rounds = 1;                               ///< how many closed forms were solved

@@ -113,18 +113,22 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     return answer;
   };
   const S noise = gap_noise(largest(p, S(R + size))), speed_noise = gap_noise(largest(v));
+  const auto miss = [&](const CorePart<S>& nearest) {
+    answer.graze = nearest.distance() - R <= noise;
+    return answer;
+  };
   int touches = 0;
   bool touched = false;  // in contact at `now`, to rounding
   while (++answer.rounds < round_limit) {
     const S closing = part.closing_speed(v);
     if (touched && largest(closing) <= speed_noise)
-      return hit(now, part.outward());     // along it: no other time is any better
-    if (!(closing > S(0))) return answer;  // convex: what recedes does not come back
+      return hit(now, part.outward());         // along it: no other time is any better
+    if (!(closing > S(0))) return miss(part);  // convex: what recedes does not come back
     const PartEntry<S> entry = part_entry(part, p, v, R);
     const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
     if (!is_finite(target)) return answer;
     const CorePart<S> there = closest(p + v * target);
-    if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : answer;
+    if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : miss(there);
     const S ahead = there.distance() - R;
     if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
     const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;

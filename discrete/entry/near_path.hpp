@@ -16,12 +16,32 @@ template <Scalar S> struct NearPath {
   S base_time = 0;  ///< [1] >= 0: there is no contact before
 
   NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach) : start(p) {
-    const S near = 2 * reach;  // more than the diagonal of a cube of that half width
-    if (largest(p) < 2 * near || !products_in_range(largest(p)) || !products_in_range(largest(v))) return;
+    if (largest(p) < 4 * reach) return;
+    if (products_in_range(largest(p)) && products_in_range(largest(v))) {
+      begin_later(p, v, reach);
+    } else {
+      rescaled(p, v, reach);
+    }
+  }
+
+ private:
+  /// Two reaches, more than the diagonal of a cube of that half width, before closest approach; and as far before that as
+  /// rounding may have moved it along the path.
+  void begin_later(const Vec3<S>& p, const Vec3<S>& v, const S& reach) {
+    const S near = 2 * reach + gap_noise(largest(p));
     const S earlier = -p.dot(v) / v.squaredNorm() - near / safe_norm(v);
     if (!(earlier > S(0)) || !is_finite(earlier)) return;
     base_time = earlier;
     for (int i = 0; i < 3; ++i) start[i] = (exact_product(v[i], earlier) + DoubleWord<S>{p[i], S(0)}).high;
+  }
+  THINWALL_COLD void rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& reach) {
+    const int length_exponent = binary_exponent(largest(p)), speed_exponent = binary_exponent(largest(v));
+    if (largest(v) == S(0) || (length_exponent == 0 && speed_exponent == 0)) return;
+    const NearPath path(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+                        times_power_of_two(reach, -length_exponent));
+    if (path.base_time == S(0)) return;
+    start = times_power_of_two(path.start, length_exponent);
+    base_time = times_power_of_two(path.base_time, length_exponent - speed_exponent);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/program/command_line.hpp>
+#include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/json_reply.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
 #include <thinwall/experiments/program/validate_command.hpp>
@@ -14,8 +15,6 @@
 
 namespace thinwall {
 namespace {
-
-constexpr int exit_done = 0, exit_failed = 1, exit_bad_input = 2;
 
 std::string list_text(std::span<const Experiment> experiments) {
   std::size_t longest = 0;

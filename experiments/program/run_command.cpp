@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/program/configured_run.hpp>
+#include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/json_reply.hpp>
 #include <thinwall/experiments/program/progress_bar.hpp>
 #include <thinwall/experiments/results/results.hpp>
@@ -19,8 +20,6 @@ namespace thinwall {
 namespace {
 
 using Clock = std::chrono::system_clock;
-
-constexpr int exit_done = 0, exit_failed = 1, exit_interrupted = 130;
 
 std::string plural(std::int64_t count, const std::string& noun) {
   return grouped_text(count) + " " + noun + (count == 1 ? "" : "s");

@@ -6,13 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall/experiments/validate/validate.hpp>
 
 namespace thinwall {
 namespace {
-
-constexpr int exit_done = 0, exit_wrong = 1;
 
 std::string row_text(std::size_t width, std::string_view family, std::string_view primitives,
                      const QueryCounts& counts) {
@@ -90,7 +89,7 @@ int validate_command(const CommandLine& line, std::ostream& out, std::ostream& e
   out << (line.json ? json_reply(validation) : text_reply(validation));
   out.flush();
   for (const std::string& wrong : validation.wrongs) err << wrong << "\n";
-  return validation.total.wrong() == 0 ? exit_done : exit_wrong;
+  return validation.total.wrong() == 0 ? exit_done : exit_failed;
 }
 
 }  // namespace thinwall

@@ -4,6 +4,7 @@
 
 #include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/results/report_style.hpp>
+#include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/tables/shown_table.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
@@ -72,6 +73,12 @@ std::string reproduction(const RunRecord& run) {
       where, html_escaped(reproduce_line(run)));
 }
 
+std::string configuration(const RunRecord& run) {
+  return fmt::format(
+      "<p>Every setting, as <a href=\"resolved.toml\">resolved.toml</a> holds it.</p>\n<pre><code>{}</code></pre>\n",
+      html_escaped(resolved_toml(run)));
+}
+
 std::string section(std::string_view heading, const std::string& html) {
   return html.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", html_escaped(heading), html);
 }
@@ -101,7 +108,8 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
          paragraphs(outcome.answer, " class=\"answer\"") + verdict(outcome.self_test_passed) +
          (outcome.figures.empty() ? "" : figure_html(outcome.figures.front(), parts)) + section("Tables", tables) +
          section("More figures", figures) + sections + section("How to reproduce", reproduction(run)) +
-         section("Provenance", provenance(run)) + section("Files", file_links(parts.files)) +
+         section("Configuration", configuration(run)) + section("Provenance", provenance(run)) +
+         section("Files", file_links(parts.files)) +
          section("How to cite", fmt::format("<pre><code>{}</code></pre>\n", html_escaped(parts.citation))) +
          "</main>\n</body>\n</html>\n";
 }

@@ -15,7 +15,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const NearPath<T> path(sphere.shape.center - capsule.shape.a, motion, reach + largest(core));
   Entry<T> entry = rounded_segment_entry<T>(path.start, motion, core, reach);
   entry.time += path.base_time;
-  return toi_of(capsule, sphere, entry,
+  return toi_of(capsule, sphere, gap, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
@@ -32,7 +32,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Mo
     entry = core_entry_at_any_scale(&closest_on_parallelogram<T>, path.start, motion, reach, core_a, core_b);
     entry.time += path.base_time;
   }
-  return toi_of(a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+  return toi_of(a, b, T(method.min_separation), entry, [&](const T& time) { return middle_point(a, b, time); });
 }
 
 template <Scalar S, Scalar T>
@@ -45,7 +45,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
   Entry<T> entry = flipped(own);
   entry.time += path.base_time;
-  return toi_of(capsule, box, entry, [&](const T& time) -> Vec3<T> {
+  return toi_of(capsule, box, gap, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            (point_on_box<T>(path.start + motion * own.time, core, h) + own.normal * (gap / 2));
   });
@@ -62,7 +62,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   Entry<T> entry = own;
   entry.time += path.base_time;
   entry.normal = -out_of(box.shape, own.normal);
-  return toi_of(capsule, box, entry, [&](const T& time) -> Vec3<T> {
+  return toi_of_turned(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            out_of<T>(box.shape, point_on_box<T>(start + own_motion * own.time, core, h) + own.normal * (gap / 2));
   });
@@ -80,7 +80,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const NearPath<T> path(capsule.shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
   Entry<T> entry = core_entry_at_any_scale<T>(closest, path.start, motion, reach, core, e1, e2);
   entry.time += path.base_time;
-  return toi_of(capsule, triangle, flipped(entry),
+  return toi_of(capsule, triangle, T(method.min_separation), flipped(entry),
                 [&](const T& time) { return middle_point(capsule, triangle, time); });
 }
 

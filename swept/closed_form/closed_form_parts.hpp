@@ -5,6 +5,7 @@
 
 #include <thinwall/discrete/entry/ball_entry.hpp>
 #include <thinwall/discrete/sphere.hpp>
+#include <thinwall/swept/closed_form/settled.hpp>
 #include <thinwall/swept/serves.hpp>
 
 namespace thinwall {
@@ -17,13 +18,48 @@ template <Scalar S> struct ClosedForm {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
-/// Turns an entry (its normal from A to B) into the answer; point(time) says where they touch.
+/// settled(), out of the way of what does not need it.
+template <class A, class B, Scalar T>
+THINWALL_COLD Entry<T> settled_near_end(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
+  const Entry<T> last_word = settled(a, b, gap, entry);
+  return last_word.graze ? entry : last_word;
+}
+
+/// Turns an entry (its normal from A to B, `gap` the minimal separation) into the answer; point(time) says where they touch.
 template <class A, class B, Scalar T, class Point>
-THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const Entry<T>& entry, const Point& point) {
-  if (entry.inside) return overlapping_at_start(a, b, entry.rounds);
-  if (entry.gave_up) return {ToiStatus::gave_up, entry.rounds, std::min(T(1), entry.time)};
+THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& found,
+                           const Point& point) {
+  if (found.inside) return overlapping_at_start(a, b, found.rounds);
+  if (found.gave_up) return {ToiStatus::gave_up, found.rounds, std::min(T(1), found.time)};
+  Entry<T> entry = found;
+  if constexpr (has_wider<T>) {  // whether it comes in time must not be decided by roundings
+    if (largest(T(entry.time - T(1))) <= constant_power_of_two<T, -10>()) entry = settled_near_end(a, b, gap, entry);
+  }
   if (!(entry.time <= T(1))) return {ToiStatus::apart, entry.rounds};
   return {ToiStatus::hit, entry.rounds, entry.time, entry.normal, point(entry.time)};
+}
+
+/// The whole question in the wider scalar.
+template <class Method, class A, class B, Scalar T>
+THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  using W = Wider<T>;
+  const auto toi = impact(ClosedForm<W>{W(method.min_separation)}, cast<W>(a), cast<W>(b));
+  return {toi.status, toi.evaluations, static_cast<T>(toi.time), toi.normal.template cast<T>(),
+          toi.point.template cast<T>()};
+}
+
+/// The same for a pair whose coordinates were turned into a box's axes: three roundings more each, and axes that are
+/// orthonormal to rounding only. A hit is settled, and what may be a graze is asked in the wider scalar.
+template <class Method, class A, class B, Scalar T, class Point>
+Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
+                     const Point& point) {
+  Entry<T> entry = found;
+  if constexpr (has_wider<T>) {
+    const bool hit = !entry.inside && !entry.gave_up && entry.time <= T(1) + constant_power_of_two<T, -10>();
+    if (hit && !entry.graze) entry = settled(a, b, T(method.min_separation), entry);
+    if (entry.graze && !entry.inside) return toi_by_wider<Method, A, B, T>(method, a, b);
+  }
+  return toi_of(a, b, T(method.min_separation), entry, point);
 }
 
 /// Where a moving sphere touches something that lies along `outward` at `time`; the middle of the gap if there is one.

@@ -30,6 +30,7 @@ template <Scalar S> struct SlabTimes {
   S first = 0;           ///< [1] >= 0: when the point is in all slabs widened by R
   S last = std::numeric_limits<S>::infinity();  ///< [1] until when; before `first`: never
   int axis = -1;                                ///< the axis that decided `first`; -1 where `first` is the start
+  bool close = false;                           ///< `first` and `last` are equal to rounding
 
   /// `over_speed(length, axis)` divides by v[axis].
   template <class OverSpeed>
@@ -71,7 +72,9 @@ template <Scalar S> struct SlabTimes {
 
 template <Scalar S>
 THINWALL_COLD SlabTimes<S> divided_slab_times(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
-  return {p, v, h, R, [&](const S& length, int i) -> S { return length / v[i]; }};
+  SlabTimes<S> times(p, v, h, R, [&](const S& length, int i) -> S { return length / v[i]; });
+  times.close = true;
+  return times;
 }
 
 /// Three reciprocals in place of twelve divisions, unless that could decide which of two times comes first.
@@ -90,6 +93,8 @@ Entry<S> rounded_box_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Ve
 template <Scalar S>
 Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   Entry<S> entry;
+  entry.graze = slabs.close;
+  const S noise = gap_noise(largest(p, slabs.near, R));
   S now = slabs.first;
   while (now <= slabs.last) {
     Vec3<S> q = Vec3<S>::Zero(), u = Vec3<S>::Zero();  // the axes outside their slabs, from the nearest corner
@@ -116,6 +121,7 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
     if (u == Vec3<S>::Zero()) return entry;  // at constant distance until it grows
     const Chord<S> chord = chord_through_ball(q, u, R);
     ++entry.rounds;
+    entry.graze = entry.graze || chord.half * chord.half <= 4 * noise * R * chord.speed_square;
     if (chord.exists && chord.approach > S(0)) {
       const S root = chord.entry_time();
       if (root <= next && chord.approach + chord.half >= now * chord.speed_square) {
@@ -147,6 +153,7 @@ THINWALL_HOT Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, cons
     return rescaled;
   }
   const SlabTimes<S> slabs = slab_times(p, v, h, R);
+  entry.graze = slabs.close;
   if (!(slabs.first <= slabs.last)) return entry;
   bool on_face = slabs.axis >= 0;  // beside the face, not beyond its edges
   for (int i = 0; i < 3; ++i) {

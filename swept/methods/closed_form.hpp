@@ -14,7 +14,7 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>&
   const T gap(method.min_separation);
   const Entry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                        a.shape.radius + b.shape.radius + gap);
-  return toi_of(a, b, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
+  return toi_of(a, b, gap, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
 }
 
 template <Scalar S, Scalar T>
@@ -23,14 +23,15 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& b
   const Entry<T> entry =
       rounded_box_entry<T>(sphere.shape.center - box.shape.center, relative_displacement(sphere, box),
                            box.shape.half_extents, sphere.shape.radius + gap);
-  return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_of(box, sphere, gap, entry,
+                [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 template <Scalar S, Scalar T>
 THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
   const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                               a.shape.half_extents + b.shape.half_extents, T(method.min_separation));
-  return toi_of(a, b, entry,
+  return toi_of(a, b, T(method.min_separation), entry,
                 [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
                   const Vec3<T> middle_a = a.shape.center + a.displacement * time,
                                 middle_b = b.shape.center + b.displacement * time;
@@ -50,7 +51,8 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& bo
   Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
   entry.time += path.base_time;
   entry.normal = out_of(frame, entry.normal);
-  return toi_of(box, sphere, entry, [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_of_turned(method, box, sphere, entry,
+                       [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 /// When two moving boxes come within `gap` of each other; the normal in A's axes.
@@ -59,6 +61,17 @@ template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap)
   entry.inside = boxes_within(moving.pair, gap);
   if (entry.inside) return entry;
   return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
+}
+
+/// The normal of an entry that is in A's axes, in the world's: from the axes of contact as given, where there are any,
+/// because a face's normal that is turned twice tilts the face.
+template <Scalar T>
+Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& moving, const Entry<T>& entry) {
+  const Vec3<T> turned = out_of(a, entry.normal);
+  if (moving.axis_b < 0) return turned;  // A's own axis, which this turns back, or neither's
+  const Vec3<T> edge_or_normal = b.axes.col(moving.axis_b);
+  const Vec3<T> n = moving.axis_a < 0 ? edge_or_normal : accurate_cross<T>(a.axes.col(moving.axis_a), edge_or_normal);
+  return safe_unit(n.dot(turned) < T(0) ? Vec3<T>(-n) : n);
 }
 
 template <Scalar S, Scalar T>
@@ -72,8 +85,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   Entry<T> entry = boxes_entry(moving, gap);
   const Vec3<T> touching = moving.touching_point(entry, gap);
   entry.time += path.base_time;
-  entry.normal = out_of(a.shape, entry.normal);
-  return toi_of(a, b, entry, [&](const T& time) -> Vec3<T> {
+  entry.normal = world_normal(a.shape, b.shape, moving, entry);
+  return toi_of_turned(method, a, b, entry, [&](const T& time) -> Vec3<T> {
     return (a.shape.center + a.displacement * time) + out_of(a.shape, touching);
   });
 }
@@ -89,8 +102,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   Entry<T> entry = boxes_entry(moving, gap);
   const Vec3<T> touching = moving.touching_point(entry, gap);
   entry.time += path.base_time;
-  return toi_of(a, b, flipped(entry),
-                [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
+  return toi_of_turned(method, a, b, flipped(entry),
+                       [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
 }
 
 template <Scalar S, Scalar T>
@@ -107,7 +120,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, 
     entry = sphere_triangle_entry<T>(path.start, motion, reach, e1, e2);
     entry.time += path.base_time;
   }
-  return toi_of(triangle, sphere, entry,
+  return toi_of(triangle, sphere, gap, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 

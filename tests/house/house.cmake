@@ -31,6 +31,23 @@ foreach(folder IN ITEMS discrete capsule swept experiments)
   endif()
 endforeach()
 
+# The sources of each folder of the program in one file, for clang-tidy to read every header they share once; never built.
+file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/experiments/*.cpp")
+foreach(source IN LISTS sources)
+  cmake_path(GET source PARENT_PATH folder)
+  cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  string(REPLACE "/" "_" unit "${folder}")
+  list(APPEND source_units "${unit}")
+  string(APPEND includes_of_${unit} "#include \"${source}\"\n")
+endforeach()
+list(REMOVE_DUPLICATES source_units)
+add_library(sources_together OBJECT EXCLUDE_FROM_ALL)
+target_link_libraries(sources_together PRIVATE thinwall::experiments thinwall_options)
+foreach(unit IN LISTS source_units)
+  file(CONFIGURE OUTPUT "headers/all_sources_of_${unit}.cpp" CONTENT "${includes_of_${unit}}" @ONLY)
+  target_sources(sources_together PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/headers/all_sources_of_${unit}.cpp")
+endforeach()
+
 # Dependencies point one way, and the check itself is checked on trees that break each rule.
 add_test(NAME house/include_direction
   COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" -P "${house}/include_direction.cmake")
