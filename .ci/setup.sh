@@ -13,8 +13,8 @@ program_commands=(c++ cmake ninja git gnuplot)
 test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev)
 
 # To check everything else. clang-format 16 is the first to lay out `requires` clauses well; the compiler is the oldest
-# we support.
-check_packages=(clang-14 clang-format-16 clang-tidy-14)
+# we support; libclang-rt holds its sanitizers and libFuzzer.
+check_packages=(clang-14 libclang-rt-14-dev clang-format-16 clang-tidy-14)
 check_commands=(clang++-14 clang-format-16 clang-tidy-14)
 
 say() { printf '\n==> %s\n' "$*"; }

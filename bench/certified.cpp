@@ -1,0 +1,153 @@
+/// What does a proven answer cost, which stage gives it, and what would other ways to be sure cost?
+/// On random, mixed and adversarial queries of each pair: the plain closed form, the certified answer, the queries that each
+/// stage decided by themselves (what the stages before them tried in vain included), the closed form's kernel at 50 digits,
+/// and Boost.Interval for spheres. The table at the end is of one run; its ratios carry from machine to machine.
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
+#include <thinwall/swept/certified.hpp>
+
+#include "certified_sets.hpp"
+#include "interval_ball.hpp"
+
+namespace {
+
+using namespace thinwall;
+using namespace thinwall::bench;
+using D = double;
+using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+constexpr std::array<const char*, 4> stages{"guard", "filter", "certificate", "exact"};
+
+std::vector<std::string> rows;        ///< pair/set, in order of registration
+std::map<std::string, double> share;  ///< [1] by row and stage: how much of the set the stage decided
+
+template <class Set, class Ask> void time_queries(benchmark::State& state, const Set& queries, const Ask& ask) {
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ask(queries[i]));
+    i = i + 1 == queries.size() ? 0 : i + 1;
+  }
+}
+
+template <class Run> void add(const std::string& name, const Run& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run);
+}
+
+/// One pair on one set.
+template <class A, class B> void add_row(const std::string& row, const Queries<A, B>& (*set)()) {
+  using Query = Shot<A, B>;
+  rows.push_back(row);
+  const auto certified = [](const Query& q) { return certified_time_of_impact(q.a, q.b); };
+  add(row + "/plain", [set](benchmark::State& state) {
+    time_queries(state, set(), [](const Query& q) { return time_of_impact(q.a, q.b); });
+  });
+  add(row + "/certified", [set, certified](benchmark::State& state) { time_queries(state, set(), certified); });
+  for (const DecidedBy stage : {DecidedBy::filter, DecidedBy::certificate, DecidedBy::exact}) {
+    const std::string name = row + "/" + stages[static_cast<std::size_t>(stage)];
+    add(name, [set, stage, name, certified](benchmark::State& state) {
+      Queries<A, B> decided;
+      for (const Query& query : set()) {
+        if (certified(query).decided_by == stage) decided.push_back(query);
+      }
+      share[name] = static_cast<double>(decided.size()) / static_cast<double>(set().size());
+      state.counters["share"] = share[name];
+      if (decided.empty()) {
+        for (auto _ : state) benchmark::DoNotOptimize(decided.size());
+        return;
+      }
+      time_queries(state, decided, certified);
+    });
+  }
+  add(row + "/50_digits", [set](benchmark::State& state) {
+    time_queries(state, set(),
+                 [](const Query& q) { return time_of_impact(cast<Digits50>(q.a), cast<Digits50>(q.b)).time; });
+  });
+  if constexpr (std::is_same_v<A, Sphere<D>> && std::is_same_v<B, Sphere<D>>) {
+    add(row + "/interval", [set](benchmark::State& state) {
+      time_queries(state, set(), [](const Query& q) { return interval_ball<Interval>(q.a, q.b); });
+    });
+    add(row + "/interval_unprotected", [set](benchmark::State& state) {
+      const Interval::traits_type::rounding rounding;  // set once, not at every operation
+      time_queries(state, set(), [](const Query& q) { return interval_ball<UnprotectedInterval>(q.a, q.b); });
+    });
+  }
+}
+
+template <class A, class B> void add_pair(const std::string& pair) {
+  add_row<A, B>(pair + "/random", &random_queries<A, B>);
+  add_row<A, B>(pair + "/mixed", &mixed_queries<A, B>);
+  add_row<A, B>(pair + "/adversarial", &adversarial_queries<A, B>);
+}
+
+const bool added = [] {
+  add_pair<Sphere<D>, Sphere<D>>("sphere_sphere");
+  add_pair<Aabb<D>, Aabb<D>>("aabb_aabb");
+  add_pair<Sphere<D>, Aabb<D>>("sphere_aabb");
+  add_pair<Capsule<D>, Aabb<D>>("capsule_aabb");
+  add_pair<Obb<D>, Obb<D>>("obb_obb");
+  add_pair<Sphere<D>, Triangle<D>>("sphere_triangle");
+  return true;
+}();
+
+/// Prints as usual, and keeps each time (the median, if repeated) for the closing table.
+class TableReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Aggregate && run.aggregate_name != "median") continue;
+      times_[run.run_name.function_name] = run.GetAdjustedCPUTime();
+    }
+  }
+
+  void Finalize() override {
+    std::printf("\n%-28s%9s%10s%8s |%-20s %-20s %-20s |%11s%11s%11s\n", "", "plain", "certified", "", " filter",
+                " certificate", " exact", "interval,", "interval", "50 digits");
+    std::printf("%-28s%9s%10s%8s |%8s%12s %8s%12s %8s%12s |%11s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "share",
+                "x plain", "share", "x plain", "share", "x plain", "unprotected", "x plain", "x plain");
+    for (const std::string& row : rows) {
+      const double plain = time(row + "/plain");
+      if (plain == 0) continue;
+      const auto ratio = [&](const std::string& name) { return time(row + name) / plain; };
+      std::printf("%-28s%9.1f%10.1f%8.1f |", row.c_str(), plain, time(row + "/certified"), ratio("/certified"));
+      for (const char* stage : {"filter", "certificate", "exact"}) {
+        const std::string name = std::string("/") + stage;
+        const double part = share[row + name];
+        std::printf("%7.2f%%%12s ", 100 * part, part > 0 ? number(ratio(name)).c_str() : "-");
+      }
+      std::printf("|%11s%11s%11s\n", number(ratio("/interval_unprotected")).c_str(), number(ratio("/interval")).c_str(),
+                  number(ratio("/50_digits")).c_str());
+    }
+    std::printf("A stage's cost is that of the queries it decided, what earlier stages tried included. -: none.\n");
+  }
+
+ private:
+  double time(const std::string& name) const {
+    const auto found = times_.find(name);
+    return found == times_.end() ? 0 : found->second;
+  }
+  static std::string number(double ratio) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), ratio < 100 ? "%.1f" : "%.0f", ratio);
+    return ratio > 0 ? text.data() : "-";
+  }
+  std::map<std::string, double> times_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  TableReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+}

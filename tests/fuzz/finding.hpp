@@ -1,0 +1,93 @@
+#pragma once
+/// What the fuzz target does when a property fails: says which, prints the input as C++ and stops, so that the fuzzer keeps
+/// the bytes. With THINWALL_FUZZ_KEEP_GOING set it goes on: it prints the first few of each kind and counts the rest.
+
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include <thinwall/swept/shapes.hpp>
+
+#include "fuzz/exhibit.hpp"
+#include "fuzz/scene.hpp"
+
+namespace thinwall::fuzz {
+
+template <Scalar S> constexpr std::string_view scalar_name = std::is_same_v<S, float> ? "float" : "double";
+
+template <Scalar S> std::string text(const S& x) {
+  std::ostringstream out;
+  if (!is_finite(x)) {
+    out << (x != x ? "nan" : x > 0 ? "inf" : "-inf");
+  } else {
+    out << std::hexfloat << x;
+  }
+  return out.str();
+}
+template <Scalar S> std::string text(const Vec3<S>& v) {
+  return "{" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + "}";
+}
+template <Scalar S> std::string text(const Sphere<S>& s) {
+  return "Sphere{" + text(s.center) + ", " + text(s.radius) + "}";
+}
+template <Scalar S> std::string text(const Aabb<S>& b) {
+  return "Aabb{" + text(b.center) + ", " + text(b.half_extents) + "}";
+}
+template <Scalar S> std::string text(const Obb<S>& b) {
+  return "Obb{" + text(b.center) + ", " + text(b.half_extents) + ", columns " + text<S>(Vec3<S>(b.axes.col(0))) + ", " +
+         text<S>(Vec3<S>(b.axes.col(1))) + ", " + text<S>(Vec3<S>(b.axes.col(2))) + "}";
+}
+template <Scalar S> std::string text(const Triangle<S>& t) {
+  return "Triangle{" + text(t.a) + ", " + text(t.b) + ", " + text(t.c) + "}";
+}
+template <Scalar S> std::string text(const Capsule<S>& c) {
+  return "Capsule{" + text(c.a) + ", " + text(c.b) + ", " + text(c.radius) + "}";
+}
+template <class A> std::string text(const Moving<A>& m) {
+  return "Moving{" + text(m.shape) + ", " + text(m.displacement) + "}";
+}
+template <Scalar S> std::string text(const Toi<S>& toi) {
+  constexpr std::string_view names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
+  return std::string(names[static_cast<int>(toi.status)]) + " at " + text(toi.time) + ", normal " + text(toi.normal) +
+         ", point " + text(toi.point);
+}
+
+/// `kind` names the property and the pair; `detail` is the input and what came out.
+void report(const std::string& kind, const std::string& detail);
+
+template <class A> constexpr std::string_view shape_name = A::has_no_name_in_the_fuzz_target;
+template <Scalar S> constexpr std::string_view shape_name<Sphere<S>> = "Sphere";
+template <Scalar S> constexpr std::string_view shape_name<Aabb<S>> = "Aabb";
+template <Scalar S> constexpr std::string_view shape_name<Obb<S>> = "Obb";
+template <Scalar S> constexpr std::string_view shape_name<Triangle<S>> = "Triangle";
+template <Scalar S> constexpr std::string_view shape_name<Capsule<S>> = "Capsule";
+
+/// Reports what does not hold of one scene.
+template <class A, class B> class Check {
+ public:
+  using S = typename A::Scalar;
+  explicit Check(const Scene<A, B>& scene) : scene_(scene) {}
+
+  /// details() says what came out; it is asked only where the property fails.
+  template <class Details> bool operator()(bool holds, std::string_view property, const Details& details) const {
+    if (holds) return true;
+    const std::string kind = std::string(property) + " [" + std::string(shape_name<A>) + ", " +
+                             std::string(shape_name<B>) + ", " + std::string(scalar_name<S>) + "]";
+    report(kind, "  a = " + text(scene_.a) + "\n  b = " + text(scene_.b) + "\n  " + details() + "\n");
+    return false;
+  }
+  bool operator()(bool holds, std::string_view property) const {
+    return (*this)(holds, property, [] { return std::string(); });
+  }
+  /// The same for what a judge found; `about` names the query in front of the fault.
+  template <class Details>
+  void no_fault(const Judgment& judgment, std::string_view about, const Details& details) const {
+    if (!judgment) return;
+    (*this)(false, std::string(about) + judgment->property, [&] { return details() + judgment->details; });
+  }
+
+ private:
+  const Scene<A, B>& scene_;
+};
+
+}  // namespace thinwall::fuzz

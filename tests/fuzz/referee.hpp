@@ -1,0 +1,129 @@
+#pragma once
+/// What the experiments' oracle, which shares no code with the library, says of two moving shapes at any time and precision.
+
+#include <limits>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <thinwall/experiments/accuracy/oracle.hpp>
+#include "fuzz/exhibit.hpp"
+
+namespace thinwall::fuzz {
+
+using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+template <class R> class Referee {
+ public:
+  using Vec = oracle::Vec<R>;
+
+  explicit Referee(const Exhibit& exhibit)
+      : problem_(std::visit(
+            [&](const auto& a, const auto& b) {
+              return oracle::pose<R>(Moving{a, exhibit.displacement_a}, Moving{b, exhibit.displacement_b});
+            },
+            exhibit.a, exhibit.b)) {}
+
+  struct State {
+    R gap = 0;      ///< [length] < 0: the least translation that parts the two
+    R closing = 0;  ///< [length] per step
+    R scale = 0;    ///< [length] what one round-off is measured by
+  };
+
+  State at(const R& time) const {
+    const oracle::Gap<R> apart = oracle::gap_at(problem_, time, tolerance());
+    const State outside{R(apart.core - problem_.reach), apart.closing, apart.scale};
+    return apart.core > touch() * size_at(time) ? outside : inside(time);
+  }
+
+  oracle::Impact<R> first_contact(const R& guess) const { return oracle::first_contact(problem_, guess, tolerance()); }
+
+  /// The state at the first time in [from, 1] at which the two are nearest or deepest.
+  State deepest(const R& from) const {
+    R low = from, high = 1;
+    if (at(high).closing > 0) return at(high);
+    for (int round = 0; round < 4000 && high - low > tolerance() * high; ++round) {
+      using std::sqrt;
+      const R middle = low > 0 && high > 4 * low ? R(sqrt(low * high))
+                       : low == 0 && round < 40  ? R(high / 1048576)
+                                                 : R((low + high) / 2);
+      if (middle == low || middle == high) break;
+      (at(middle).closing > 0 ? low : high) = middle;
+    }
+    return at(high);
+  }
+
+  /// The separation along a direction: at most at().gap, and equal to it along the right one.
+  R separation_along(const R& time, const Vec& normal) const {
+    const Vec offset = oracle::combination(R(1), problem_.offset, time, problem_.motion);
+    return oracle::dot(normal, offset) - support(normal) - problem_.reach * oracle::dot(normal, normal);
+  }
+
+  /// [length] the sum of all numbers that a computation at `time` adds up: bounds the rounding of a point in space.
+  R size_at(const R& time) const {
+    R size = problem_.reach;
+    for (std::size_t i = 0; i < 3; ++i) size += problem_.start_size[i] + time * problem_.speed_size[i];
+    return size;
+  }
+
+  R reach() const { return problem_.reach; }
+  /// [1] Cores this near, beside the numbers involved, meet: what is left of their distance is rounding.
+  static R touch() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -90)) : R(ldexp(R(1), -54)); }
+  static R tolerance() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -150)) : R(ldexp(R(1), -58)); }
+
+ private:
+  R support(const Vec& n) const {
+    R reach = 0;
+    for (const Vec& g : problem_.generators) reach += size(oracle::dot(g, n));
+    R farthest = 0;
+    for (std::size_t i = 0; i < problem_.corners.size(); ++i) {
+      const R here = oracle::dot(problem_.corners[i], n);
+      farthest = i == 0 || here > farthest ? here : farthest;
+    }
+    return reach + farthest;
+  }
+
+  /// The cores meet: out along the normal of least depth, over all pairs of edges.
+  State inside(const R& time) const {
+    using std::sqrt;
+    std::vector<Vec> edges = problem_.generators;
+    for (std::size_t i = 0; i < problem_.corners.size(); ++i) {
+      edges.push_back(
+          oracle::combination(R(1), problem_.corners[(i + 1) % problem_.corners.size()], R(-1), problem_.corners[i]));
+    }
+    const Vec offset = oracle::combination(R(1), problem_.offset, time, problem_.motion);
+    State best;
+    bool found = false;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = i + 1; j < edges.size(); ++j) {
+        const Vec& a = edges[i];
+        const Vec& b = edges[j];
+        const Vec across{R(a[1] * b[2] - a[2] * b[1]), R(a[2] * b[0] - a[0] * b[2]), R(a[0] * b[1] - a[1] * b[0])};
+        const R length = sqrt(oracle::dot(across, across));
+        if (!(length > tolerance() * sqrt(oracle::dot(a, a) * oracle::dot(b, b)))) continue;
+        for (const int side : {1, -1}) {
+          const Vec n = oracle::combination(R(side / length), across, R(0), across);
+          const R distance = oracle::dot(n, offset) - support(n);
+          if (found && distance <= best.gap) continue;
+          found = true;
+          best = {distance, R(-oracle::dot(n, problem_.motion)), scale_along(time, n)};
+        }
+      }
+    }
+    best.gap = (best.gap < 0 ? best.gap : R(0)) - problem_.reach;
+    if (!found) best.scale = size_at(time);
+    return best;
+  }
+
+  R scale_along(const R& time, const Vec& n) const {
+    R scale = problem_.reach;
+    for (std::size_t i = 0; i < 3; ++i) {
+      scale += size(n[i]) * (problem_.start_size[i] + time * problem_.speed_size[i]);
+    }
+    return scale;
+  }
+  static R size(const R& x) { return x < 0 ? R(-x) : x; }
+
+  oracle::Problem<R> problem_;
+};
+
+}  // namespace thinwall::fuzz

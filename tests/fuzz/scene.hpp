@@ -1,0 +1,130 @@
+#pragma once
+/// Two moving shapes made of the fuzzer's numbers, as they come or moved until they all but touch.
+
+#include <thinwall/swept/shapes.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+#include "fuzz/numbers.hpp"
+
+namespace thinwall::fuzz {
+
+/// Fits the rotation of the quaternion (w, x, y, z); the identity if that has no length.
+inline Mat3<double> rotation(double w, double x, double y, double z) {
+  const double s = w * w + x * x + y * y + z * z;
+  if (!(s > 0) || !is_finite(1 / s) || !is_finite(s)) return Mat3<double>::Identity();
+  Mat3<double> m;
+  m << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),  //
+      2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),   //
+      2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z;
+  return m / s;
+}
+
+/// Axes: upright, turned by right angles, next to upright, by 3-4-5, or anyhow.
+template <Scalar S> Mat3<S> draw_axes(Numbers<S>& numbers) {
+  const int kind = numbers.below(numbers.reading() == Reading::nasty ? 5 : 6);
+  const auto small = [&] { return static_cast<double>(numbers.below(9) - 4); };
+  Mat3<S> axes = Mat3<S>::Identity();
+  if (kind == 1) {
+    const int first = numbers.below(3), signs = numbers.below(8);
+    axes.setZero();
+    for (int i = 0; i < 3; ++i) axes((first + i) % 3, i) = (signs >> i & 1) != 0 ? S(-1) : S(1);
+  } else if (kind == 2) {
+    const double tilt = std::ldexp(1.0, -1 - numbers.below(60));
+    axes = rotation(1, numbers.below(2) == 0 ? tilt : 0, 0, tilt).template cast<S>();
+  } else if (kind == 3) {
+    const int axis = numbers.below(3), i = (axis + 1) % 3, j = (axis + 2) % 3;
+    axes(i, i) = axes(j, j) = S(3) / S(5);
+    axes(j, i) = S(4) / S(5);
+    axes(i, j) = -axes(j, i);
+  } else if (kind == 4) {
+    const double w = small(), x = small(), y = small(), z = small();
+    axes = rotation(w, x, y, z).template cast<S>();
+  } else if (kind == 5) {
+    for (int i = 0; i < 3; ++i) axes.col(i) = numbers.vector();
+  }
+  return axes;
+}
+
+template <class A> struct Draw;
+template <Scalar S> struct Draw<Sphere<S>> {
+  static Sphere<S> shape(Numbers<S>& numbers) {
+    const Vec3<S> center = numbers.vector();
+    return {center, numbers.size()};
+  }
+};
+template <Scalar S> struct Draw<Aabb<S>> {
+  static Aabb<S> shape(Numbers<S>& numbers) {
+    const Vec3<S> center = numbers.vector();
+    return {center, numbers.sizes()};
+  }
+};
+template <Scalar S> struct Draw<Obb<S>> {
+  static Obb<S> shape(Numbers<S>& numbers) {
+    const Vec3<S> center = numbers.vector();
+    const Vec3<S> half = numbers.sizes();
+    return {center, half, draw_axes(numbers)};
+  }
+};
+template <Scalar S> struct Draw<Triangle<S>> {
+  static Triangle<S> shape(Numbers<S>& numbers) {
+    const Vec3<S> a = numbers.vector();
+    const Vec3<S> b = numbers.vector();
+    return {a, b, numbers.vector()};
+  }
+};
+template <Scalar S> struct Draw<Capsule<S>> {
+  static Capsule<S> shape(Numbers<S>& numbers) {
+    const Vec3<S> a = numbers.vector();
+    const Vec3<S> b = numbers.vector();
+    return {a, b, numbers.size()};
+  }
+};
+
+template <class A, class B> struct Scene {
+  using S = typename A::Scalar;
+  Moving<A> a;
+  Moving<B> b;
+
+  bool is_valid() const { return valid(a) && valid(b); }
+  S size() const { return magnitude(a) + magnitude(b); }
+};
+
+/// When the two are nearest, about: the separation is convex in time.
+template <class A, class B> typename A::Scalar nearest_time(const Moving<A>& a, const Moving<B>& b) {
+  using S = typename A::Scalar;
+  S low = 0, high = 1;
+  const Vec3<S> path = relative_displacement(a, b);
+  for (int i = 0; i < 2 * std::numeric_limits<S>::digits && low < high; ++i) {
+    const S middle = (low + high) / 2;
+    const Separation<S> there = separation(pose_at(a, middle), pose_at(b, middle));
+    (there.normal.dot(path) > 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Moves B along the normal until the two all but touch at `time`.
+template <class A, class B> void bring_together(Scene<A, B>& scene, const typename A::Scalar& time) {
+  using S = typename A::Scalar;
+  const Separation<S> there = separation(pose_at(scene.a, time), pose_at(scene.b, time));
+  const Vec3<S> by = there.normal * -there.distance;
+  if (is_finite(by)) scene.b.shape = moved(scene.b.shape, by);
+}
+
+template <class A, class B> Scene<A, B> draw_scene(Numbers<typename A::Scalar>& numbers) {
+  using S = typename A::Scalar;
+  const A first = Draw<A>::shape(numbers);
+  const B second = Draw<B>::shape(numbers);
+  Scene<A, B> scene{at_rest(first), at_rest(second)};
+  const int motion = numbers.below(4);
+  if (motion != 0) scene.a.displacement = numbers.vector();
+  if (motion > 1) scene.b.displacement = numbers.vector();
+  const int together = numbers.below(8);
+  if (!scene.is_valid() || !is_ordinary(scene.size())) return scene;
+  if (together == 1) scene.a.displacement = scene.b.displacement + (center(scene.b.shape) - center(scene.a.shape));
+  if (together == 2) bring_together(scene, S(0));
+  if (together == 3) bring_together(scene, S(1));
+  if (together == 4) bring_together(scene, nearest_time(scene.a, scene.b));
+  return scene;
+}
+
+}  // namespace thinwall::fuzz
