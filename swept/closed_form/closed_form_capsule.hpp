@@ -7,12 +7,21 @@
 
 namespace thinwall {
 
+/// The capsule with its nearer end first where its core is so long, beside what it meets at x, that a place seen from the
+/// farther end would lose digits that count.
+template <Scalar T> Capsule<T> nearer_end_first(const Capsule<T>& capsule, const Vec3<T>& x, const T& reach) {
+  const bool is_long = largest(Vec3<T>(capsule.b - capsule.a)) > 1024 * reach;
+  const bool swaps = is_long && largest(Vec3<T>(capsule.b - x)) < largest(Vec3<T>(capsule.a - x));
+  return swaps ? Capsule<T>{capsule.b, capsule.a, capsule.radius} : capsule;
+}
+
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const T reach = capsule.shape.radius + sphere.shape.radius + gap;
-  const Vec3<T> core = capsule.shape.b - capsule.shape.a, motion = relative_displacement(sphere, capsule);
-  const NearPath<T> path(sphere.shape.center - capsule.shape.a, motion, reach + largest(core));
+  const Capsule<T> shape = nearer_end_first(capsule.shape, sphere.shape.center, reach);
+  const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(sphere, capsule);
+  const NearPath<T> path(sphere.shape.center - shape.a, motion, reach + largest(core));
   Entry<T> entry = rounded_segment_entry<T>(path.start, motion, core, reach);
   entry.time += path.base_time;
   return toi_of(capsule, sphere, gap, entry,
@@ -22,8 +31,10 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Moving<Capsule<T>>& b) {
   const T reach = a.shape.radius + b.shape.radius + T(method.min_separation);
-  const Vec3<T> start = b.shape.a - a.shape.a, motion = relative_displacement(b, a);
-  const Vec3<T> core_a = a.shape.b - a.shape.a, core_b = b.shape.b - b.shape.a;
+  const Capsule<T> first = nearer_end_first<T>(a.shape, b.shape.a, reach);
+  const Capsule<T> second = nearer_end_first<T>(b.shape, first.a, reach);
+  const Vec3<T> start = second.a - first.a, motion = relative_displacement(b, a);
+  const Vec3<T> core_a = first.b - first.a, core_b = second.b - second.a;
   const NearPath<T> path(start, motion, reach + largest(core_a) + largest(core_b));
   Entry<T> entry;
   if (reach == T(0)) {
@@ -38,10 +49,11 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Mo
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Aabb<T>>& box) {
   const T gap(method.min_separation);
-  const Vec3<T> core = capsule.shape.b - capsule.shape.a, &h = box.shape.half_extents;
-  const Vec3<T> motion = relative_displacement(capsule, box);
+  const Vec3<T>& h = box.shape.half_extents;
   const T reach = capsule.shape.radius + gap;
-  const NearPath<T> path(capsule.shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
+  const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
+  const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(capsule, box);
+  const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
   Entry<T> entry = flipped(own);
   entry.time += path.base_time;
@@ -54,9 +66,10 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
   const T gap(method.min_separation), reach = capsule.shape.radius + gap;
-  const Vec3<T> core = into<T>(box.shape, capsule.shape.b - capsule.shape.a), &h = box.shape.half_extents;
-  const Vec3<T> motion = relative_displacement(capsule, box);
-  const NearPath<T> path(capsule.shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
+  const Vec3<T>& h = box.shape.half_extents;
+  const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
+  const Vec3<T> core = into<T>(box.shape, shape.b - shape.a), motion = relative_displacement(capsule, box);
+  const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
   const Vec3<T> start = into(box.shape, path.start), own_motion = into(box.shape, motion);
   const Entry<T> own = capsule_box_entry<T>(start, own_motion, reach, core, h);
   Entry<T> entry = own;
@@ -74,10 +87,11 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const auto closest = [](const Vec3<T>& x, const Vec3<T>& d, const Vec3<T>& e1, const Vec3<T>& e2) {
     return closest_on_swept_triangle(x, d, e1, e2).part;
   };
-  const Vec3<T> core = capsule.shape.b - capsule.shape.a, e1 = t.b - t.a, e2 = t.c - t.a;
-  const Vec3<T> motion = relative_displacement(capsule, triangle);
+  const Vec3<T> e1 = t.b - t.a, e2 = t.c - t.a, motion = relative_displacement(capsule, triangle);
   const T reach = capsule.shape.radius + T(method.min_separation);
-  const NearPath<T> path(capsule.shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
+  const Capsule<T> shape = nearer_end_first<T>(capsule.shape, t.a, reach + largest(e1, e2));
+  const Vec3<T> core = shape.b - shape.a;
+  const NearPath<T> path(shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
   Entry<T> entry = core_entry_at_any_scale<T>(closest, path.start, motion, reach, core, e1, e2);
   entry.time += path.base_time;
   return toi_of(capsule, triangle, T(method.min_separation), flipped(entry),

@@ -106,10 +106,19 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
                        [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
 }
 
+/// The triangle with the corner that is nearest to x first where it is so large, beside what it meets there, that a place
+/// seen from a far corner would lose digits that count.
+template <Scalar T> Triangle<T> nearest_corner_first(const Triangle<T>& t, const Vec3<T>& x, const T& reach) {
+  const T from_a = largest(Vec3<T>(t.a - x)), from_b = largest(Vec3<T>(t.b - x)), from_c = largest(Vec3<T>(t.c - x));
+  const bool is_large = std::max({from_a, from_b, from_c}) > 1024 * reach;
+  if (!is_large || (from_a <= from_b && from_a <= from_c)) return t;
+  return from_b <= from_c ? Triangle<T>{t.b, t.c, t.a} : Triangle<T>{t.c, t.a, t.b};
+}
+
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
-  const Triangle<T>& t = triangle.shape;
+  const Triangle<T> t = nearest_corner_first<T>(triangle.shape, sphere.shape.center, sphere.shape.radius + gap);
   const Vec3<T> e1 = t.b - t.a, e2 = t.c - t.a, motion = relative_displacement(sphere, triangle);
   const T reach = sphere.shape.radius + gap;
   const NearPath<T> path(sphere.shape.center - t.a, motion, reach + largest(e1, e2));
