@@ -49,9 +49,15 @@ std::vector<Place> make_places(const Settings& settings) {
       {.lower = 1e-15, .upper = 1, .upper_open = true},  // grazing
       {.lower = 1e-15, .upper = 1},                      // ratio
   }};
+  std::vector<std::string_view> allowed;
+  for (const AxisInfo& axis : all_axes()) allowed.push_back(axis.name);
+  allowed.emplace_back("all");
+  const std::vector<std::string> chosen = settings.choices("axis", allowed);
+  const auto has = [&](std::string_view name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); };
   std::vector<Place> places;
   for (const AxisInfo& axis : all_axes()) {
     std::vector<double> values = settings.numbers(axis.name, ranges[static_cast<std::size_t>(axis.axis)]);
+    if (!has(axis.name) && !has("all")) continue;  // its values are checked all the same
     std::sort(values.begin(), values.end());
     for (const double value : values) places.push_back({axis.axis, value});
   }

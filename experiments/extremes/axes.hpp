@@ -44,7 +44,7 @@ struct Place {
 std::string key(const Place& place);  ///< "scale 1e-150"
 Extreme extreme_at(const Place& place);
 
-/// Every value of every axis that the settings name, axis by axis, from the least to the greatest. Throws UsageError.
+/// Every value of every axis that the settings choose, axis by axis, from the least to the greatest. Throws UsageError.
 std::vector<Place> make_places(const Settings& settings);
 
 /// An axis from its usual value outward, to one side: along these a method survives, and then breaks.
