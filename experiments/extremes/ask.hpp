@@ -30,6 +30,18 @@ template <class S> Obb<S> rounded_to(const Obb<double>& shape) {
   return box;
 }
 
+/// The moving shape in S. A double in a wider S has many bits of zeros, and products without rounding: there all lengths are
+/// multiplied by 4/3, which changes no answer and fills them.
+template <class S, class A> auto rounded_to(const Moving<A>& m) {
+  Moving<decltype(rounded_to<S>(m.shape))> rounded = {rounded_to<S>(m.shape), m.displacement.template cast<S>()};
+  if constexpr (std::numeric_limits<S>::digits > std::numeric_limits<double>::digits) {
+    const S filling = S(4) / S(3);
+    rounded.shape = stretched(rounded.shape, filling);
+    rounded.displacement *= filling;
+  }
+  return rounded;
+}
+
 /// True if no number of the query is lost, neither to zero nor to infinity, nor loses digits below the least normal number.
 template <class S> bool holds(const Vec3<double>& v) {
   constexpr int least = std::numeric_limits<S>::min_exponent, most = std::numeric_limits<S>::max_exponent - 10;
@@ -78,9 +90,7 @@ template <class A, class B, class S> auto rounded_queries(const ExtremeInquiry& 
     if (!holds<S>(q.a.shape) || !holds<S>(q.b.shape) || !holds<S>(q.a.displacement) || !holds<S>(q.b.displacement)) {
       continue;
     }
-    queries.push_back({{rounded_to<S>(q.a.shape), q.a.displacement.template cast<S>()},
-                       {rounded_to<S>(q.b.shape), q.b.displacement.template cast<S>()},
-                       q.meant_to_touch});
+    queries.push_back({rounded_to<S>(q.a), rounded_to<S>(q.b), q.meant_to_touch});
   }
   return queries;
 }

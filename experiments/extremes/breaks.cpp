@@ -20,14 +20,15 @@ std::optional<Flaw> flaw_of(const ExtremeTally& tally) {
   return {};
 }
 
-Survival survival(const std::vector<ExtremeLine>& lines, const Arm& arm, std::string_view method,
-                  std::size_t precision) {
+Survival survival(const std::vector<ExtremeLine>& lines, const Arm& arm, std::string_view method, std::size_t precision,
+                  PairSet pairs) {
   Survival result;
   for (const double value : values_along(arm, places_of(lines))) {
     const Place place = {arm.axis, value};
     bool asked = false;
     for (const ExtremeLine& line : lines) {
-      if (!matches(line, {.method = method, .precision = precision, .place = &place}) || line.tally.queries == 0) {
+      if (!matches(line, {.method = method, .precision = precision, .place = &place, .pairs = pairs}) ||
+          line.tally.queries == 0) {
         continue;
       }
       asked = true;
@@ -43,10 +44,21 @@ Survival survival(const std::vector<ExtremeLine>& lines, const Arm& arm, std::st
   return result;
 }
 
-std::string short_text(const Survival& s, const Arm& arm) {
+bool breaks_at_once(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision,
+                    PairSet pairs) {
+  std::size_t asked = 0, at_once = 0;
+  for (const Arm& arm : all_arms()) {
+    const Survival s = survival(lines, arm, method, precision, pairs);
+    if (s.survived || s.broken) ++asked;
+    if (s.broken && !s.survived) ++at_once;
+  }
+  return 2 * at_once > asked;
+}
+
+std::string short_text(const Survival& s) {
   if (!s.broken) return s.survived ? "-" : "";
   const char letter = name(s.flaw)[0];
-  if (!s.survived && *s.broken == info(arm.axis).usual) return fmt::format("all{}", letter);
+  if (!s.survived) return fmt::format("all{}", letter);
   return fmt::format("{:.3g}{}", std::log10(*s.broken), letter);
 }
 

@@ -23,7 +23,7 @@ inline constexpr double break_error = 100;  ///< [u kappa t] two decimals lost
 
 std::optional<Flaw> flaw_of(const ExtremeTally& tally);
 
-/// How far a method gets along an arm, on the four pairs together.
+/// How far a method gets along an arm, on some pairs together.
 struct Survival {
   std::optional<double>
       survived;                  ///< the last value at which nothing was wrong, before the first at which something was
@@ -31,11 +31,15 @@ struct Survival {
   Flaw flaw = Flaw::verdict;     ///< the worst there
   std::string_view pair{};       ///< whose
 };
-Survival survival(const std::vector<ExtremeLine>& lines, const Arm& arm, std::string_view method,
-                  std::size_t precision);
+Survival survival(const std::vector<ExtremeLine>& lines, const Arm& arm, std::string_view method, std::size_t precision,
+                  PairSet pairs = PairSet::four);
 
-/// The power of ten, and what is wrong: "4v", "-10e"; "-" where it survives, "all" where it breaks at the usual value, empty
+/// True if it breaks on most arms at their first value, where little or nothing is extreme.
+bool breaks_at_once(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision,
+                    PairSet pairs);
+
+/// The power of ten, and what is wrong: "4v", "-10e"; "-" where it survives, "all" where it breaks at the first value, empty
 /// where it was not asked.
-std::string short_text(const Survival& s, const Arm& arm);
+std::string short_text(const Survival& s);
 
 }  // namespace thinwall

@@ -48,11 +48,11 @@ template <> struct PlainDraw<Triangle<double>> {
 };
 
 /// The shape with every length multiplied by `factor`.
-inline Sphere<double> stretched(const Sphere<double>& s, double f) { return {s.center * f, s.radius * f}; }
-inline Aabb<double> stretched(const Aabb<double>& b, double f) { return {b.center * f, b.half_extents * f}; }
-inline Obb<double> stretched(const Obb<double>& b, double f) { return {b.center * f, b.half_extents * f, b.axes}; }
-inline Capsule<double> stretched(const Capsule<double>& c, double f) { return {c.a * f, c.b * f, c.radius * f}; }
-inline Triangle<double> stretched(const Triangle<double>& t, double f) { return {t.a * f, t.b * f, t.c * f}; }
+template <class S> Sphere<S> stretched(const Sphere<S>& s, const S& f) { return {s.center * f, s.radius * f}; }
+template <class S> Aabb<S> stretched(const Aabb<S>& b, const S& f) { return {b.center * f, b.half_extents * f}; }
+template <class S> Obb<S> stretched(const Obb<S>& b, const S& f) { return {b.center * f, b.half_extents * f, b.axes}; }
+template <class S> Capsule<S> stretched(const Capsule<S>& c, const S& f) { return {c.a * f, c.b * f, c.radius * f}; }
+template <class S> Triangle<S> stretched(const Triangle<S>& t, const S& f) { return {t.a * f, t.b * f, t.c * f}; }
 
 /// The radius of a ball around the shape.
 inline double size_of(const Sphere<double>& s) { return s.radius; }

@@ -36,21 +36,21 @@ std::optional<std::size_t> error_bin(double error, const CellSum& sum) {
 
 std::string label_of(std::string_view method) { return method == "textbook" ? "textbook (foil)" : std::string(method); }
 
-/// A panel a precision, a row a method, on the four pairs.
-Figure by_method(const std::vector<ExtremeLine>& lines, std::string name, std::string title, std::string caption,
-                 const std::vector<HeatBin>& bins, const BinOfSum& bin_of_sum) {
+/// A panel a precision, a row a method.
+Figure by_method(const std::vector<ExtremeLine>& lines, PairSet pairs, std::string name, std::string title,
+                 std::string caption, const std::vector<HeatBin>& bins, const BinOfSum& bin_of_sum) {
   Figure figure{std::move(name), std::move(title), std::move(caption), {}};
   const std::vector<Place> places = places_of(lines);
   for (const std::size_t p : precisions_of(lines)) {
-    const std::vector<std::string_view> methods = methods_of(lines, p);
+    const std::vector<std::string_view> methods = methods_of(lines, p, pairs);
     std::vector<std::string> rows;
     for (const std::string_view method : methods) rows.push_back(label_of(method));
     if (rows.empty()) continue;
-    figure.panels.push_back(heat_panel(std::string(all_precisions()[p].title), places, rows, bins,
-                                       figure.panels.empty(), [&](std::size_t row, const Place& place) {
-                                         return bin_of_sum(
-                                             sum_of(lines, {.method = methods[row], .precision = p, .place = &place}));
-                                       }));
+    figure.panels.push_back(heat_panel(
+        std::string(all_precisions()[p].title), places, rows, bins, figure.panels.empty(),
+        [&](std::size_t row, const Place& place) {
+          return bin_of_sum(sum_of(lines, {.method = methods[row], .precision = p, .place = &place, .pairs = pairs}));
+        }));
   }
   return figure;
 }
@@ -104,7 +104,7 @@ Figure changed_by_rounding(const std::vector<ExtremeLine>& lines) {
       "method is at fault: every method is judged by the answer to the rounded query.",
       {heat_panel("precision", places_of(lines), rows, share_bins(), true, [&](std::size_t row, const Place& place) {
         const CellSum sum =
-            sum_of(lines, {.method = {}, .precision = precisions[row], .place = &place, .four_pairs = false});
+            sum_of(lines, {.method = {}, .precision = precisions[row], .place = &place, .pairs = PairSet::all});
         return share_bin(sum.changed, sum.queries);
       })}};
 }
@@ -151,34 +151,44 @@ Figure loss_figure(const std::vector<ExtremeLine>& lines) {
 }  // namespace
 
 std::vector<Figure> extreme_figures(const std::vector<ExtremeLine>& lines) {
-  const std::string where =
-      " Columns are the values of seven axes, one extreme at a time; rows are methods, on four pairs of shapes together. White: "
-      "not asked, as the precision cannot hold the query.";
-  std::vector<Figure> figures;
-  const auto add = [&](Figure figure) {
-    if (!figure.panels.empty()) figures.push_back(std::move(figure));
+  const std::string columns =
+      " Columns are the values of seven axes, one extreme at a time; rows are methods. White: not asked, as the precision cannot "
+      "hold the query or the axis does not concern the pair.";
+  const std::string timed = " White, too: no hit to time.", balls = " Three pairs with a ball, together.",
+                    boxes = " Two boxes, which have no radius to give them a normal where they touch.";
+  const BinOfSum verdict = [](const CellSum& s) { return share_bin(s.far_wrong, s.queries); };
+  const BinOfSum forward = [](const CellSum& s) { return error_bin(s.forward_max, s); };
+  const BinOfSum backward = [](const CellSum& s) { return error_bin(s.backward_max, s); };
+  const BinOfSum silence = [](const CellSum& s) -> std::optional<std::size_t> {
+    if (s.queries == 0) return {};
+    if (s.invalid > 0) return 10 * s.invalid > s.queries ? 4 : 3;
+    if (s.gave_up > 0) return 10 * s.gave_up > s.queries ? 2 : 1;
+    return 0;
   };
-  add(by_method(lines, "verdicts", "Wrong verdicts, by more than 4 u",
-                "Share of the queries whose verdict is wrong by more than 4 u of its input." + where, share_bins(),
-                [](const CellSum& s) { return share_bin(s.far_wrong, s.queries); }));
-  add(by_method(lines, "forward", "Largest forward error of the time of a hit [u kappa t]",
-                "The contract of the closed form is 4." + where + " White, too: no hit to time.", error_bins(),
-                [](const CellSum& s) { return error_bin(s.forward_max, s); }));
-  add(by_method(lines, "backward", "Largest backward error of a hit [u]",
-                "The contract of the closed form is 4." + where + " White, too: no hit to time.", error_bins(),
-                [](const CellSum& s) { return error_bin(s.backward_max, s); }));
   const std::vector<HeatBin> silences = {{"all answered", "#dfe8f0"},
                                          {"gave up, up to 10 %", "#9e9ac8"},
                                          {"gave up, more", "#54278f"},
                                          {"NaN or invalid, up to 10 %", "#fc8d59"},
                                          {"NaN or invalid, more", "#b30000"}};
-  add(by_method(lines, "no_answer", "NaN, invalid, and gave up", "Where both occur, the NaN is shown." + where,
-                silences, [](const CellSum& s) -> std::optional<std::size_t> {
-                  if (s.queries == 0) return {};
-                  if (s.invalid > 0) return 10 * s.invalid > s.queries ? 4 : 3;
-                  if (s.gave_up > 0) return 10 * s.gave_up > s.queries ? 2 : 1;
-                  return 0;
-                }));
+  std::vector<Figure> figures;
+  const auto add = [&](Figure figure) {
+    if (!figure.panels.empty()) figures.push_back(std::move(figure));
+  };
+  add(by_method(lines, PairSet::rounded, "verdicts", "Wrong verdicts, by more than 4 u",
+                "Share of the queries whose verdict is wrong by more than 4 u of its input." + balls + columns,
+                share_bins(), verdict));
+  add(by_method(lines, PairSet::rounded, "forward", "Largest forward error of the time of a hit [u kappa t]",
+                "The contract of the closed form is 4." + balls + columns + timed, error_bins(), forward));
+  add(by_method(lines, PairSet::rounded, "backward", "Largest backward error of a hit [u]",
+                "The contract of the closed form is 4." + balls + columns + timed, error_bins(), backward));
+  add(by_method(lines, PairSet::four, "no_answer", "NaN, invalid, and gave up",
+                "Of all four pairs. Where both occur, the NaN is shown." + columns, silences, silence));
+  add(by_method(lines, PairSet::boxes, "verdicts_boxes", "Two boxes: wrong verdicts, by more than 4 u",
+                "Share of the queries whose verdict is wrong by more than 4 u of its input." + boxes + columns,
+                share_bins(), verdict));
+  add(by_method(lines, PairSet::boxes, "forward_boxes",
+                "Two boxes: largest forward error of the time of a hit [u kappa t]",
+                "The contract of the closed form is 4." + boxes + columns + timed, error_bins(), forward));
   add(by_pair(lines));
   if (!lines.empty()) figures.push_back(changed_by_rounding(lines));
   const Figure loss = loss_figure(lines);

@@ -12,9 +12,20 @@ double contact_share(const Place& place) {
   return 1;
 }
 
+double grazing_share(const Place& place) { return place.axis == ExtremeAxis::grazing ? place.value : 1; }
+
+namespace {
+
+bool in(const ExtremeLine& line, PairSet pairs) {
+  if (pairs == PairSet::all) return true;
+  return line.pair->every_method && (pairs == PairSet::four || line.pair->rounded == (pairs == PairSet::rounded));
+}
+
+}  // namespace
+
 bool matches(const ExtremeLine& line, const LineFilter& f) {
-  return line.precision == f.precision && (f.place == nullptr || line.place == *f.place) &&
-         (!f.four_pairs || line.pair->every_method) && (f.method.empty() || line.tally.method == f.method);
+  return line.precision == f.precision && (f.place == nullptr || line.place == *f.place) && in(line, f.pairs) &&
+         (f.method.empty() || line.tally.method == f.method);
 }
 
 CellSum sum_of(const std::vector<ExtremeLine>& lines, const LineFilter& filter) {
@@ -46,10 +57,10 @@ std::vector<std::size_t> precisions_of(const std::vector<ExtremeLine>& lines) {
   return found;
 }
 
-std::vector<std::string_view> methods_of(const std::vector<ExtremeLine>& lines, std::size_t precision) {
+std::vector<std::string_view> methods_of(const std::vector<ExtremeLine>& lines, std::size_t precision, PairSet pairs) {
   std::vector<std::string_view> found;
   for (const std::string_view name : extreme_method_names()) {
-    const LineFilter filter = {.method = name, .precision = precision};
+    const LineFilter filter = {.method = name, .precision = precision, .pairs = pairs};
     if (std::any_of(lines.begin(), lines.end(), [&](const ExtremeLine& l) { return matches(l, filter); })) {
       found.push_back(name);
     }
@@ -68,21 +79,15 @@ std::vector<Place> places_of(const std::vector<ExtremeLine>& lines) {
   return places;
 }
 
-double nanoseconds_of(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision) {
-  constexpr std::string_view served_by_all = "sphere_aabb";
-  const LineFilter filter = {.method = method, .precision = precision};
-  for (const bool any_pair : {false, true}) {
-    const ExtremePair* pair = nullptr;
-    std::vector<double> times;
-    for (const ExtremeLine& line : lines) {
-      if (!matches(line, filter) || line.tally.queries == 0) continue;
-      if (!any_pair && line.pair->name != served_by_all) continue;
-      if (pair == nullptr) pair = line.pair;
-      if (line.pair == pair) times.push_back(line.tally.nanoseconds);
-    }
-    if (!times.empty()) return median(times);
+double nanoseconds_of(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision,
+                      PairSet pairs) {
+  std::vector<double> times;
+  for (const ExtremeLine& line : lines) {
+    if (line.tally.queries == 0) continue;
+    if (matches(line, {.method = method, .precision = precision, .pairs = pairs}))
+      times.push_back(line.tally.nanoseconds);
   }
-  return 0;
+  return times.empty() ? 0 : median(times);
 }
 
 }  // namespace thinwall

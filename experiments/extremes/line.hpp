@@ -22,12 +22,23 @@ struct ExtremeLine {
 /// that there is one.
 double contact_share(const Place& place);
 
+/// How far the path is from the last that touches, over R: below some u rounding decides, and time is not linear in it.
+double grazing_share(const Place& place);
+
+/// Some of the pairs. Boxes have no radius to give them a normal where they touch.
+enum class PairSet {
+  rounded,  ///< of the four that every method is asked, those with a ball
+  boxes,    ///< of the same, the two boxes
+  four,     ///< both
+  all,      ///< the closed form's, too
+};
+
 /// Whom and where: an empty name or a missing place is any.
 struct LineFilter {
   std::string_view method{};
   std::size_t precision = 0;
   const Place* place = nullptr;
-  bool four_pairs = true;  ///< of those that every method is asked, alone
+  PairSet pairs = PairSet::four;
 };
 bool matches(const ExtremeLine& line, const LineFilter& filter);
 
@@ -40,10 +51,12 @@ CellSum sum_of(const std::vector<ExtremeLine>& lines, const LineFilter& filter);
 
 /// The precisions and methods that occur, in the order of their lists.
 std::vector<std::size_t> precisions_of(const std::vector<ExtremeLine>& lines);
-std::vector<std::string_view> methods_of(const std::vector<ExtremeLine>& lines, std::size_t precision);
+std::vector<std::string_view> methods_of(const std::vector<ExtremeLine>& lines, std::size_t precision,
+                                         PairSet pairs = PairSet::four);
 std::vector<Place> places_of(const std::vector<ExtremeLine>& lines);  ///< axis by axis, ascending
 
-/// [ns] a query: the median over the places, of a pair that every method serves, or of the first there is. 0: not asked.
-double nanoseconds_of(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision);
+/// [ns] a query: the median over pairs and places. 0: not asked.
+double nanoseconds_of(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision,
+                      PairSet pairs);
 
 }  // namespace thinwall

@@ -37,18 +37,18 @@ std::span<const ExtremePair> extreme_pairs() {
     return std::array<AskExtreme, precision_count>{in_float[i], in_double[i], in_long[i], in_wide[i]};
   };
   static const std::array list = {
-      ExtremePair{"sphere_sphere", true, false, every(0)},
-      ExtremePair{"sphere_aabb", true, true, every(1)},
-      ExtremePair{"sphere_capsule", true, false, every(2)},
-      ExtremePair{"obb_obb", true, true, every(3)},
-      ExtremePair{"aabb_aabb", false, true, closed_form_alone<Upright, Upright>()},
-      ExtremePair{"sphere_obb", false, true, closed_form_alone<Ball, Turned>()},
-      ExtremePair{"aabb_obb", false, true, closed_form_alone<Upright, Turned>()},
-      ExtremePair{"sphere_triangle", false, false, closed_form_alone<Ball, Flat>()},
-      ExtremePair{"capsule_capsule", false, false, closed_form_alone<Rod, Rod>()},
-      ExtremePair{"capsule_aabb", false, true, closed_form_alone<Rod, Upright>()},
-      ExtremePair{"capsule_obb", false, true, closed_form_alone<Rod, Turned>()},
-      ExtremePair{"capsule_triangle", false, false, closed_form_alone<Rod, Flat>()},
+      ExtremePair{"sphere_sphere", true, true, false, every(0)},
+      ExtremePair{"sphere_aabb", true, true, true, every(1)},
+      ExtremePair{"sphere_capsule", true, true, false, every(2)},
+      ExtremePair{"obb_obb", false, true, true, every(3)},
+      ExtremePair{"aabb_aabb", false, false, true, closed_form_alone<Upright, Upright>()},
+      ExtremePair{"sphere_obb", true, false, true, closed_form_alone<Ball, Turned>()},
+      ExtremePair{"aabb_obb", false, false, true, closed_form_alone<Upright, Turned>()},
+      ExtremePair{"sphere_triangle", true, false, false, closed_form_alone<Ball, Flat>()},
+      ExtremePair{"capsule_capsule", true, false, false, closed_form_alone<Rod, Rod>()},
+      ExtremePair{"capsule_aabb", true, false, true, closed_form_alone<Rod, Upright>()},
+      ExtremePair{"capsule_obb", true, false, true, closed_form_alone<Rod, Turned>()},
+      ExtremePair{"capsule_triangle", true, false, false, closed_form_alone<Rod, Flat>()},
   };
   return list;
 }

@@ -34,6 +34,7 @@ const std::array<Precision, precision_count>& all_precisions();
 
 struct ExtremePair {
   std::string_view name;
+  bool rounded;                                 ///< at least one shape has a radius
   bool every_method;                            ///< or the closed form alone, in float and double
   bool has_box;                                 ///< that can be thin
   std::array<AskExtreme, precision_count> ask;  ///< null: not in that precision

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -21,10 +22,11 @@ std::string place_text(const Arm& arm, double value) {
 }
 
 /// "distance / R 1000 (verdict), scale 1e+20 (nan)"; empty where it survives everything.
-std::string breaks_text(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision) {
+std::string breaks_text(const std::vector<ExtremeLine>& lines, std::string_view method, std::size_t precision,
+                        PairSet pairs) {
   std::string text;
   for (const Arm& arm : all_arms()) {
-    const Survival s = survival(lines, arm, method, precision);
+    const Survival s = survival(lines, arm, method, precision, pairs);
     if (!s.broken) continue;
     text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", place_text(arm, *s.broken), name(s.flaw));
   }
@@ -41,49 +43,84 @@ std::string closed_form_text(const std::vector<ExtremeLine>& lines, const std::v
   }
   if (cells == 0) return "";
   std::string text = fmt::format(
-      "Where contact lasts longer than {} u of the path until it, the closed form's time is off by at most {:.2f} u kappa t in "
-      "all {} cells. ",
+      "The closed form's time is off by at most {1:.2f} u kappa t in all {2} cells in which contact lasts longer than {0} u of "
+      "the path until it. ",
       least_contact, forward, grouped_text(cells));
   for (const std::size_t p : precisions_of(lines)) {
-    const std::string breaks = breaks_text(lines, "closed_form", p);
+    const std::string breaks = breaks_text(lines, "closed_form", p, PairSet::four);
     if (!breaks.empty()) text += fmt::format("In {} it breaks at {}. ", all_precisions()[p].title, breaks);
   }
   return text;
 }
 
+/// Between two balls, along the distance: where the foil's verdicts first go wrong.
 std::string foil_text(const std::vector<ExtremeLine>& lines) {
   std::string text;
-  const Arm& far = *std::find_if(all_arms().begin(), all_arms().end(),
-                                 [](const Arm& arm) { return arm.axis == ExtremeAxis::distance; });
   for (const std::size_t p : precisions_of(lines)) {
-    const Survival s = survival(lines, far, "textbook", p);
-    if (!s.survived && !s.broken) continue;
-    text +=
-        fmt::format("{}{} in {}", text.empty() ? "" : ", ",
-                    s.broken ? "from " + rounded_text(*s.broken, 2) : std::string("never"), all_precisions()[p].title);
+    double first = std::numeric_limits<double>::infinity();
+    bool asked = false;
+    for (const ExtremeLine& line : lines) {
+      if (!matches(line, {.method = "textbook", .precision = p}) || line.pair->name != "sphere_sphere") continue;
+      if (line.place.axis != ExtremeAxis::distance || line.tally.queries == 0) continue;
+      asked = true;
+      if (line.tally.far_wrong > 0) first = std::min(first, line.place.value);
+    }
+    if (!asked) continue;
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ",
+                        std::isfinite(first) ? "from " + rounded_text(first, 2) : std::string("never"),
+                        all_precisions()[p].title);
   }
-  return text.empty() ? "" : fmt::format("The textbook forms break at distances over R {}. ", text);
+  return text.empty() ? ""
+                      : fmt::format("The textbook's verdicts on two balls go wrong at a distance over R {}. ", text);
 }
 
-/// Of the methods, in double or the last precision there is: who survives how many of the arms.
+/// Of the methods, in double or the last precision there is: where those break that do not at once.
 std::string survivors_text(const std::vector<ExtremeLine>& lines) {
   const std::vector<std::size_t> precisions = precisions_of(lines);
   if (precisions.empty()) return "";
   const std::size_t p = std::find(precisions.begin(), precisions.end(), 1U) != precisions.end() ? 1 : precisions.back();
   std::string text;
-  for (const std::string_view method : methods_of(lines, p)) {
-    std::int64_t asked = 0, survived = 0, at_once = 0;
-    for (const Arm& arm : all_arms()) {
-      const Survival s = survival(lines, arm, method, p);
-      if (!s.survived && !s.broken) continue;
-      ++asked;
-      survived += s.broken ? 0 : 1;
-      at_once += s.survived ? 0 : 1;
-    }
-    if (at_once > asked / 2) continue;  // it does not find the time where nothing is extreme
-    text += fmt::format("{}{} {} of {}", text.empty() ? "" : ", ", method, survived, asked);
+  for (const std::string_view method : methods_of(lines, p, PairSet::rounded)) {
+    if (method == "closed_form" || breaks_at_once(lines, method, p, PairSet::rounded)) continue;
+    const std::string breaks = breaks_text(lines, method, p, PairSet::rounded);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", method, breaks.empty() ? "nowhere" : breaks);
   }
-  return text.empty() ? "" : fmt::format("In {}, of the ways outward survived: {}.", all_precisions()[p].title, text);
+  return text.empty() ? ""
+                      : fmt::format("In {}, on pairs with a ball, the others first break at: {}.",
+                                    all_precisions()[p].title, text);
+}
+
+/// A row a method that does not break at once, and the names of those that do.
+std::string block(const std::vector<ExtremeLine>& lines, std::size_t p, PairSet pairs) {
+  std::string rows, others;
+  for (const std::string_view method : methods_of(lines, p, pairs)) {
+    if (breaks_at_once(lines, method, p, pairs)) {
+      others += fmt::format("{}{}", others.empty() ? "" : ", ", method);
+      continue;
+    }
+    rows += fmt::format("{:<26}{:>8.0f}", method, nanoseconds_of(lines, method, p, pairs));
+    for (const Arm& arm : all_arms()) rows += fmt::format("{:>7}", short_text(survival(lines, arm, method, p, pairs)));
+    rows += "\n";
+  }
+  if (rows.empty() && others.empty()) return "";
+  std::string text = fmt::format(
+      "{:<26}{:>8}",
+      fmt::format("{}, {}", all_precisions()[p].title, pairs == PairSet::boxes ? "two boxes" : "with a ball"), "ns");
+  for (const Arm& arm : all_arms()) text += fmt::format("{:>7}", arm.name);
+  text += "\n" + rows;
+  constexpr std::size_t width = 96;
+  std::string line = "at once: ";
+  for (std::size_t at = 0; at < others.size();) {
+    const std::size_t comma = std::min(others.find(", ", at), others.size());
+    const std::string name = others.substr(at, comma - at) + (comma < others.size() ? ", " : "");
+    if (line.size() + name.size() > width) {
+      text += line + "\n";
+      line = "  ";
+    }
+    line += name;
+    at = comma + 2;
+  }
+  return text + (others.empty() ? "" : line + "\n") + "\n";
 }
 
 }  // namespace
@@ -95,25 +132,15 @@ std::string extreme_answer(const std::vector<ExtremeLine>& lines, const std::vec
 
 std::string extreme_summary(const std::vector<ExtremeLine>& lines, const std::vector<LadderTest>& tests) {
   std::string text;
-  for (const std::size_t p : precisions_of(lines)) {
-    const std::vector<std::string_view> methods = methods_of(lines, p);
-    if (methods.empty()) continue;
-    text += fmt::format("{:<25}{:>9}", all_precisions()[p].title, "ns");
-    for (const Arm& arm : all_arms()) text += fmt::format("{:>7}", arm.name);
-    text += "\n";
-    for (const std::string_view method : methods) {
-      text += fmt::format("{:<25}{:>9.0f}", method, nanoseconds_of(lines, method, p));
-      for (const Arm& arm : all_arms()) text += fmt::format("{:>7}", short_text(survival(lines, arm, method, p), arm));
-      text += "\n";
-    }
-    text += "\n";
+  for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
+    for (const std::size_t p : precisions_of(lines)) text += block(lines, p, pairs);
   }
   if (!text.empty()) {
     text +=
-        "The power of ten at which each first breaks, and why: v a verdict wrong by more than 4 u,\n"
-        "e a time off by more than 100 u kappa t, n no number, g gave up; all: where nothing is extreme;\n"
-        "-: never. Small, large: scale. Far: distance / R. Slow, fast: speed / R. Offset: / R. Grazing: 1 - b/R.\n"
-        "Textbook: the foil. ns: a query of a ball and a box.\n\n";
+        "The power of ten at which each first breaks, and why: v a verdict wrong by more than 4 u, e a\n"
+        "time off by more than 100 u kappa t, n no number, g gave up; all: at the first value; -: never.\n"
+        "Small, large: scale. Far, offset: over R. Slow, fast: speed / R. Grazing: 1 - b/R. Unequal: sizes.\n"
+        "Textbook is a foil. At once: the methods that break at most first values; they claim less.\n\n";
   }
   std::int64_t passed = 0;
   std::string failed;
@@ -146,7 +173,8 @@ std::vector<Section> extreme_sections(const std::vector<LadderTest>& tests) {
        "than 100 u kappa t, two decimals; no number; or an answer withheld. Some methods claim less than that: what they claim "
        "is on their page."},
       {"Self-test",
-       "Where contact lasts longer than 64 u of the path until it, the closed form keeps its contract in every precision and on "
+       "Where contact lasts longer than 64 u of the path until it (the forward error: and where the path is not within 64 u of "
+       "the last that touches), the closed form keeps its contract in every precision and on "
        "every pair: 4 u kappa t forward, 4 u backward, no verdict wrong by more than 4 u, an answer always. Between two balls the "
        "textbook's loss is at most 16 times u (d/R)^2 / 2 of the radius and the same at all distances, and its verdicts go wrong "
        "within a decade of d/R = 1/sqrt(u). " +

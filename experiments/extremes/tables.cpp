@@ -16,6 +16,8 @@ Value number(double x) { return std::isfinite(x) ? Value(x) : Value(); }
 Value number(const std::optional<double>& x) { return x ? Value(*x) : Value(); }
 std::string title_of(std::size_t precision) { return std::string(all_precisions()[precision].name); }
 
+std::string name_of(PairSet pairs) { return pairs == PairSet::rounded ? "with a ball" : "two boxes"; }
+
 /// "1e+08 verdict", "-" where it survives.
 std::string long_text(const Survival& s) {
   if (!s.broken) return s.survived ? "-" : "";
@@ -48,7 +50,8 @@ Table ladder_table(const std::vector<ExtremeLine>& lines) {
   table.in_report = true;
   table.columns = {{"method", ColumnType::text, "", "Way to find the time of impact."},
                    {"precision", ColumnType::text, "", "Floating-point type the kernels ran in."},
-                   {"nanoseconds", ColumnType::number, "ns", "A query of a ball and a box; median over the places."}};
+                   {"pairs", ColumnType::text, "", "With a ball, three pairs; or two boxes, which have no radius."},
+                   {"nanoseconds", ColumnType::number, "ns", "A query; median over pairs and places."}};
   for (const Arm& arm : all_arms()) {
     table.columns.push_back({std::string(arm.name), ColumnType::text, "",
                              fmt::format("First break along {}, towards {} values.", info(arm.axis).title,
@@ -56,11 +59,13 @@ Table ladder_table(const std::vector<ExtremeLine>& lines) {
   }
   for (const std::string_view method : extreme_method_names()) {
     for (const std::size_t p : precisions_of(lines)) {
-      const double time = nanoseconds_of(lines, method, p);
-      if (time == 0) continue;
-      std::vector<Value> row = {std::string(method), title_of(p), time};
-      for (const Arm& arm : all_arms()) row.emplace_back(long_text(survival(lines, arm, method, p)));
-      table.rows.push_back(std::move(row));
+      for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
+        const double time = nanoseconds_of(lines, method, p, pairs);
+        if (time == 0) continue;
+        std::vector<Value> row = {std::string(method), title_of(p), name_of(pairs), time};
+        for (const Arm& arm : all_arms()) row.emplace_back(long_text(survival(lines, arm, method, p, pairs)));
+        table.rows.push_back(std::move(row));
+      }
     }
   }
   return table;
@@ -90,11 +95,12 @@ Table ladder_test_table(const std::vector<LadderTest>& tests) {
 Table breaks_table(const std::vector<ExtremeLine>& lines) {
   Table table;
   table.name = "breaks";
-  table.description = "How far each method gets along each axis, on the four pairs that every method is asked.";
+  table.description = "How far each method gets along each axis, on the pairs that every method is asked.";
   table.columns = {{"axis", ColumnType::text, "", "What is extreme."},
                    {"side", ColumnType::text, "", "Towards greater or lesser values."},
                    {"precision", ColumnType::text, "", "Floating-point type."},
                    {"method", ColumnType::text, "", "Way to find the time of impact; textbook is a foil."},
+                   {"pairs", ColumnType::text, "", "With a ball, three pairs; or two boxes."},
                    {"survived", ColumnType::number, "1", "Last value before the first break; missing: none."},
                    {"broken", ColumnType::number, "1", "First value at which it breaks; missing: none."},
                    {"why", ColumnType::text, "", "A wrong verdict, an error, nan or gave_up."},
@@ -102,11 +108,14 @@ Table breaks_table(const std::vector<ExtremeLine>& lines) {
   for (const Arm& arm : all_arms()) {
     for (const std::size_t p : precisions_of(lines)) {
       for (const std::string_view method : methods_of(lines, p)) {
-        const Survival s = survival(lines, arm, method, p);
-        if (!s.broken && !s.survived) continue;
-        table.rows.push_back({std::string(info(arm.axis).name), std::string(arm.side > 0 ? "greater" : "lesser"),
-                              title_of(p), std::string(method), number(s.survived), number(s.broken),
-                              s.broken ? Value(std::string(name(s.flaw))) : Value(std::string()), std::string(s.pair)});
+        for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
+          const Survival s = survival(lines, arm, method, p, pairs);
+          if (!s.broken && !s.survived) continue;
+          table.rows.push_back({std::string(info(arm.axis).name), std::string(arm.side > 0 ? "greater" : "lesser"),
+                                title_of(p), std::string(method), name_of(pairs), number(s.survived), number(s.broken),
+                                s.broken ? Value(std::string(name(s.flaw))) : Value(std::string()),
+                                std::string(s.pair)});
+        }
       }
     }
   }

@@ -10,7 +10,8 @@ namespace thinwall {
 
 namespace {
 
-constexpr std::string_view closed_form = "closed_form", foil = "textbook", balls = "sphere_sphere";
+constexpr std::string_view closed_form = "closed_form", foil = "textbook", balls = "sphere_sphere",
+                           forward = "closed_form_forward";
 
 std::string where(const ExtremeLine& line) { return std::string(line.pair->name) + ", " + key(line.place); }
 
@@ -20,9 +21,10 @@ void add_contract(std::vector<LadderTest>& tests, const std::vector<ExtremeLine>
                   std::string what, double most, const Measure& measure) {
   LadderTest test{.what = std::move(what), .precision = precision, .most = most};
   for (const ExtremeLine& line : lines) {
-    if (!matches(line, {.method = closed_form, .precision = precision, .four_pairs = false})) continue;
+    if (!matches(line, {.method = closed_form, .precision = precision, .pairs = PairSet::all})) continue;
     if (line.tally.queries == 0 || contact_share(line.place) < least_contact * all_precisions()[precision].unit)
       continue;
+    if (test.what == forward && grazing_share(line.place) < least_contact * all_precisions()[precision].unit) continue;
     ++test.cells;
     const double x = measure(line.tally);
     if (x <= test.measured) continue;
@@ -99,7 +101,7 @@ void add_threshold(std::vector<LadderTest>& tests, const std::vector<ExtremeLine
 std::vector<LadderTest> ladder_tests(const std::vector<ExtremeLine>& lines, const LossTheory& theory) {
   std::vector<LadderTest> tests;
   for (const std::size_t p : precisions_of(lines)) {
-    add_contract(tests, lines, p, "closed_form_forward", 4, [](const ExtremeTally& t) { return t.forward_max; });
+    add_contract(tests, lines, p, std::string(forward), 4, [](const ExtremeTally& t) { return t.forward_max; });
     add_contract(tests, lines, p, "closed_form_backward", 4, [](const ExtremeTally& t) { return t.backward_max; });
     add_contract(tests, lines, p, "closed_form_verdicts", break_verdict,
                  [](const ExtremeTally& t) { return t.worst_wrong; });
