@@ -66,9 +66,9 @@ std::vector<Place> make_places(const Settings& settings) {
 
 const std::vector<Arm>& all_arms() {
   static const std::vector<Arm> arms = {
-      {ExtremeAxis::scale, -1, "small"},  {ExtremeAxis::scale, 1, "large"},      {ExtremeAxis::distance, 1, "far"},
-      {ExtremeAxis::speed, -1, "slow"},   {ExtremeAxis::speed, 1, "fast"},       {ExtremeAxis::thickness, -1, "thin"},
-      {ExtremeAxis::offset, 1, "offset"}, {ExtremeAxis::grazing, -1, "grazing"}, {ExtremeAxis::ratio, -1, "unequal"},
+      {ExtremeAxis::scale, -1, "small"},  {ExtremeAxis::scale, 1, "large"},    {ExtremeAxis::distance, 1, "far"},
+      {ExtremeAxis::speed, -1, "slow"},   {ExtremeAxis::speed, 1, "fast"},     {ExtremeAxis::thickness, -1, "thin"},
+      {ExtremeAxis::offset, 1, "offset"}, {ExtremeAxis::grazing, -1, "graze"}, {ExtremeAxis::ratio, -1, "unequal"},
   };
   return arms;
 }

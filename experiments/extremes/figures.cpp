@@ -115,7 +115,7 @@ Figure loss_figure(const std::vector<ExtremeLine>& lines) {
       "textbook_loss",
       "What the textbook's quadratic loses between two balls",
       "Root mean square of the error of the place of contact along the normal, over the radius, where it finds one. The "
-      "lines are u (d/R)^2 / 2, one a precision; points end where verdicts go wrong, at d/R = 1/sqrt(u). The closed "
+      "lines are u (d/R)^2 / 2, one a precision; points leave them where verdicts go wrong, at d/R = 1/sqrt(u). The closed "
       "form's stay at u d/R, whose slope is half.",
       {Panel{"distance / R [1]", "error along the normal / R [1]", true, true, 1, {}}}};
   for (const std::size_t p : precisions_of(lines)) {

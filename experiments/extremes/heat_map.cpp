@@ -1,6 +1,9 @@
 #include <thinwall/experiments/extremes/heat_map.hpp>
 
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include <thinwall/experiments/text/numbers.hpp>
 
@@ -18,6 +21,13 @@ std::vector<double> columns_of(const std::vector<Place>& places) {
     columns.push_back(i == 0 ? 1 : columns.back() + (begins ? 2 : 1));
   }
   return columns;
+}
+
+/// 1e4, 1e-15, but 1, 10 and 0.1.
+std::string short_value(double x) {
+  if (x > 0.05 && x < 50) return rounded_text(x, 2);
+  const double power = std::floor(std::log10(x) + 1e-9), leading = x / std::pow(10, power);
+  return fmt::format("{}e{:.0f}", rounded_text(leading, 2), power);
 }
 
 }  // namespace
@@ -47,8 +57,7 @@ Panel heat_panel(const std::string& title, const std::vector<Place>& places, con
       panel.series[*bin].y.push_back(y);
     }
   }
-  for (std::size_t i = 0; i < places.size(); ++i)
-    panel.x_tics.push_back({columns[i], rounded_text(places[i].value, 3)});
+  for (std::size_t i = 0; i < places.size(); ++i) panel.x_tics.push_back({columns[i], short_value(places[i].value)});
   for (const AxisInfo& axis : all_axes()) {
     double first = 0, last = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -98,13 +98,13 @@ std::string block(const std::vector<ExtremeLine>& lines, std::size_t p, PairSet 
       others += fmt::format("{}{}", others.empty() ? "" : ", ", method);
       continue;
     }
-    rows += fmt::format("{:<26}{:>8.0f}", method, nanoseconds_of(lines, method, p, pairs));
+    rows += fmt::format("{:<25}{:>10.0f}", method, nanoseconds_of(lines, method, p, pairs));
     for (const Arm& arm : all_arms()) rows += fmt::format("{:>7}", short_text(survival(lines, arm, method, p, pairs)));
     rows += "\n";
   }
   if (rows.empty() && others.empty()) return "";
   std::string text = fmt::format(
-      "{:<26}{:>8}",
+      "{:<25}{:>10}",
       fmt::format("{}, {}", all_precisions()[p].title, pairs == PairSet::boxes ? "two boxes" : "with a ball"), "ns");
   for (const Arm& arm : all_arms()) text += fmt::format("{:>7}", arm.name);
   text += "\n" + rows;
@@ -139,7 +139,7 @@ std::string extreme_summary(const std::vector<ExtremeLine>& lines, const std::ve
     text +=
         "The power of ten at which each first breaks, and why: v a verdict wrong by more than 4 u, e a\n"
         "time off by more than 100 u kappa t, n no number, g gave up; all: at the first value; -: never.\n"
-        "Small, large: scale. Far, offset: over R. Slow, fast: speed / R. Grazing: 1 - b/R. Unequal: sizes.\n"
+        "Small, large: scale. Far, offset: over R. Slow, fast: speed / R. Graze: 1 - b/R. Unequal: sizes.\n"
         "Textbook is a foil. At once: the methods that break at most first values; they claim less.\n\n";
   }
   std::int64_t passed = 0;
