@@ -32,11 +32,11 @@ TEST(Extremes, the_next_precision_takes_the_textbook_farther) {
   EXPECT_EQ(tally_of("sphere_sphere", at_50_digits, farther, 4, "textbook").far_wrong, 0);
 }
 
-TEST(Extremes, the_textbook_loses_numbers_at_scales_whose_squares_are_out_of_range) {
+TEST(Extremes, the_textbook_breaks_at_scales_whose_squares_are_out_of_range) {
   for (const double scale : {1e-150, 1e150}) {
     const Place place = {ExtremeAxis::scale, scale};
     const ExtremeTally foil = tally_of("sphere_sphere", in_double, place, 10, "textbook");
-    EXPECT_GT(foil.invalid + foil.far_wrong, 5) << scale;
+    EXPECT_TRUE(flaw_of(foil).has_value()) << scale;
     const ExtremeTally exact = tally_of("sphere_sphere", in_double, place, 10, "closed_form");
     EXPECT_EQ(exact.queries, 10) << scale;
     EXPECT_EQ(exact.invalid + exact.gave_up + exact.far_wrong, 0) << scale;
@@ -74,8 +74,9 @@ TEST(Extremes, the_oracle_is_right_about_very_unequal_boxes) {
 
 /// A method of the list needs no line here to be asked.
 TEST(Extremes, asks_every_method_of_the_list_and_the_foil) {
-  const auto lines = extreme_lines("sphere_aabb", in_double, ExtremeAxis::distance, {1}, 1,
-                                   {extreme_method_names().begin(), extreme_method_names().end()});
+  const std::vector<std::string_view> names = extreme_method_names();
+  const auto lines =
+      extreme_lines("sphere_aabb", in_double, ExtremeAxis::distance, {1}, 1, {names.begin(), names.end()});
   std::vector<std::string> asked;
   for (const ExtremeLine& line : lines) asked.push_back(line.tally.method);
   EXPECT_EQ(asked.front(), "textbook");

@@ -35,7 +35,7 @@ TEST(ExtremeTruth, judges_a_time_by_how_late_and_by_how_deep) {
   const Sphere<double> ball = {{0, 0, 0}, 1};
   const Moving a = {moved(ball, Vec3<double>(-4, 0, 0)), Vec3<double>(4, 0, 0)};
   const auto b = at_rest(ball);
-  Truth truth(a, b, Digits110(0));
+  Truth truth(a, b, Digits110(0.5 - 0x1p-30));
   ASSERT_EQ(truth.verdict(), oracle::Verdict::hit);
   const double u = 0x1p-53;
   // At t = 1/2, kappa t = (4 + 2 + 2) / 4 = 2.
