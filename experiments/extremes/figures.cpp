@@ -22,7 +22,7 @@ const std::vector<HeatBin>& share_bins() {
 const std::vector<HeatBin>& error_bins() {
   static const std::vector<HeatBin> bins = {{"up to 1", "#dfe8f0"},   {"up to 4", "#a6c8e0"},
                                             {"up to 100", "#fee391"}, {"up to 1e4", "#fe9929"},
-                                            {"up to 1e8", "#cc4c02"}, {"more", "#662506"}};
+                                            {"up to 1e8", "#cc4c02"}, {"more than 1e8", "#662506"}};
   return bins;
 }
 std::optional<std::size_t> share_bin(std::int64_t part, std::int64_t whole) {
