@@ -79,9 +79,8 @@ void add_loss(std::vector<LadderTest>& tests, const std::vector<ExtremeLine>& li
 void add_threshold(std::vector<LadderTest>& tests, const std::vector<ExtremeLine>& lines, std::size_t precision) {
   const double threshold = 1 / std::sqrt(all_precisions()[precision].unit);
   const std::vector<const ExtremeLine*> along = foil_lines(lines, precision);
-  constexpr std::int64_t enough = 5;  // queries a cell
   if (along.empty() || along.front()->place.value > threshold / 10) return;
-  if (std::any_of(along.begin(), along.end(), [](auto* line) { return line->tally.queries < enough; })) return;
+  if (std::any_of(along.begin(), along.end(), [](const ExtremeLine* line) { return line->tally.queries < 5; })) return;
   const bool reached = along.back()->place.value >= 10 * threshold;
   LadderTest test{.what = "textbook_verdicts",
                   .precision = precision,
