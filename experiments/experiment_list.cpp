@@ -5,6 +5,7 @@
 #include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/bouncing.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
+#include <thinwall/experiments/extremes.hpp>
 #include <thinwall/experiments/hitscan.hpp>
 #include <thinwall/experiments/stiff_contact.hpp>
 #include <thinwall/experiments/swept_bounds.hpp>
@@ -18,7 +19,7 @@ std::span<const Experiment> experiments() {
   static const std::array list = {
       thin_wall_experiment(),  //
       accuracy_experiment(),  work_precision_experiment(), swept_bounds_experiment(), crossing_bullets_experiment(),
-      hitscan_experiment(),   stiff_contact_experiment(),  bouncing_experiment(),
+      hitscan_experiment(),   stiff_contact_experiment(),  bouncing_experiment(),     extremes_experiment(),
   };
   return list;
 }

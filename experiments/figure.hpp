@@ -6,7 +6,13 @@
 
 namespace thinwall {
 
-enum class Mark { points, line, dashes };
+enum class Mark { points, line, dashes, cells };  ///< cells: a unit square around each point, as in a heat map
+
+/// A tic with a name of its own.
+struct Tic {
+  double at;
+  std::string label;
+};
 
 struct Series {
   std::string label;                               ///< legend entry; the same label has the same colour in every panel
@@ -14,6 +20,7 @@ struct Series {
   std::vector<double> x, y;                        ///< equally long; NaN leaves a gap
   std::vector<double> lower, upper;                ///< interval bars, as long as `y`, or both empty
   std::vector<double> x_lower = {}, x_upper = {};  ///< the same for `x`; only beside bars for `y`
+  std::string color = {};                          ///< #rrggbb; empty: the next of the palette
 };
 
 struct Panel {
@@ -22,6 +29,8 @@ struct Panel {
   bool log_x = false, log_y = false;
   double height = 1;  ///< [1] share of the figure's height, relative to the other panels
   std::vector<Series> series;
+  std::vector<Tic> x_tics = {}, y_tics = {};  ///< in place of numbers; the axis then ends half a unit beyond its values
+  std::vector<Tic> x_groups = {};             ///< names above the panel, of stretches of the x axis
 };
 
 struct Figure {

@@ -1,5 +1,6 @@
 #include <thinwall/experiments/figures/plot.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -42,6 +43,13 @@ void require_drawable(const Figure& figure) {
   }
 }
 
+/// Half a unit beyond all values: cells side by side.
+Axis axis_of_names(std::span<const double> values) {
+  if (values.empty()) return {};
+  const auto [least, most] = std::ranges::minmax(values);
+  return {false, least - 0.6, most + 0.6};
+}
+
 Axis x_axis(std::span<const Panel> panels) {
   std::vector<double> values;
   for (const Panel& panel : panels) {
@@ -50,6 +58,12 @@ Axis x_axis(std::span<const Panel> panels) {
         values.insert(values.end(), list->begin(), list->end());
       }
     }
+  }
+  if (!panels[0].x_tics.empty()) {
+    for (const Panel& panel : panels) {
+      for (const Tic& tic : panel.x_tics) values.push_back(tic.at);
+    }
+    return axis_of_names(values);
   }
   return axis_around(values, panels[0].log_x);
 }
@@ -60,6 +74,10 @@ Axis y_axis(const Panel& panel) {
     for (const auto* list : {&series.y, &series.lower, &series.upper}) {
       values.insert(values.end(), list->begin(), list->end());
     }
+  }
+  if (!panel.y_tics.empty()) {
+    for (const Tic& tic : panel.y_tics) values.push_back(tic.at);
+    return axis_of_names(values);
   }
   return axis_around(values, panel.log_y);
 }
@@ -76,6 +94,19 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
       steps, steps.ends_with(", 1e1") ? "set" : "unset");
 }
 
+/// The same for an axis whose tics have names, or are named on the other side, as x2.
+std::string named_axis_lines(std::string_view name, const Axis& axis, const std::vector<Tic>& named, bool labeled) {
+  std::vector<std::string> list;
+  for (const Tic& tic : named) {
+    list.push_back(fmt::format("{} {}", quoted(labeled ? tic.label : ""), rounded_text(tic.at, 9)));
+  }
+  const char* look = name == "x" ? " rotate by 90 right font ',11'" : name == "x2" ? " scale 0 font ',13'" : "";
+  return fmt::format(
+             "set {0}range [{1}:{2}]\nunset logscale {0}\nset {0}tics autofreq\nset {0}tics{3} noenhanced ({4})\n",
+             name, rounded_text(axis.lower, 6), rounded_text(axis.upper, 6), look, fmt::join(list, ", ")) +
+         (name == "x2" ? "" : fmt::format("unset m{}tics\n", name));
+}
+
 std::size_t point_count(const Panel& panel) {
   std::size_t count = 0;
   for (const Series& series : panel.series) count += series.mark == Mark::points ? series.x.size() : 0;
@@ -86,6 +117,10 @@ std::size_t point_count(const Panel& panel) {
 std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block, std::size_t style,
                                     bool crowded) {
   const std::string from = fmt::format("'{}' index {}", file, block);
+  if (series.mark == Mark::cells) {
+    return {fmt::format("{} using 1:2:(0.46):(0.46) with boxxyerror linestyle {} fillstyle solid noborder notitle",
+                        from, style)};
+  }
   const bool points = series.mark == Mark::points;
   const char* with = points ? "points" : "lines";
   const char* size = points && crowded ? " pointsize 0.5" : "";
@@ -101,6 +136,10 @@ std::vector<std::string> plot_items(const std::string& file, const Series& serie
 }
 
 std::string legend_item(const SeriesStyle& style, std::size_t number) {
+  if (style.has_cells) {
+    return fmt::format("keyentry with boxes linestyle {} fillstyle solid noborder title {}", number,
+                       quoted(style.label));
+  }
   const char* with = style.has_points && style.has_line ? "linespoints" : style.has_points ? "points" : "lines";
   return fmt::format("keyentry with {} linestyle {} title {}", with, number, quoted(style.label));
 }
@@ -147,12 +186,16 @@ std::string plot_script(const Figure& figure) {
     const auto up = [&](double y) { return 1 - y / layout.height; };
     out += fmt::format("\n# Panel {}\nset tmargin at screen {:.5f}; set bmargin at screen {:.5f}\n", p + 1, up(box.top),
                        up(box.bottom));
-    out += axis_lines('x', layout.shared_x ? shared_x : x_axis({&panel, 1}), layout.right - layout.left, 80, x_labeled);
-    out += axis_lines('y', y_axis(panel), box.bottom - box.top, 44, true);
+    const Axis x = layout.shared_x ? shared_x : x_axis({&panel, 1});
+    out += panel.x_tics.empty() ? axis_lines('x', x, layout.right - layout.left, 80, x_labeled)
+                                : named_axis_lines("x", x, panel.x_tics, x_labeled);
+    out += panel.y_tics.empty() ? axis_lines('y', y_axis(panel), box.bottom - box.top, 44, true)
+                                : named_axis_lines("y", y_axis(panel), panel.y_tics, true);
+    out += panel.x_groups.empty() ? "unset x2tics\n" : named_axis_lines("x2", x, panel.x_groups, true);
     out += fmt::format("set label 2 {} at screen {:.5f}, graph 0.5 center rotate by 90 noenhanced\n",
                        quoted(panel.y_label), 20 / layout.width);
     out += fmt::format("set label 3 {} at graph 0.5, screen {:.5f} center noenhanced\n",
-                       quoted(x_labeled ? panel.x_label : ""), up(box.bottom + 50));
+                       quoted(x_labeled ? panel.x_label : ""), up(box.bottom + layout.below));
     std::vector<std::string> items;
     const bool crowded = point_count(panel) > 400;
     for (const Series& series : panel.series) {

@@ -18,6 +18,7 @@ constexpr std::array point_types = {6, 4, 8, 12, 10, 7, 5, 9, 13, 11};
 void set_look(std::vector<SeriesStyle>& styles) {
   std::size_t lines = 0, colors = 0;
   for (SeriesStyle& style : styles) {
+    if (!style.color.empty()) continue;
     const bool gray = !style.has_points && lines < line_grays.size();
     style.color = gray ? line_grays[lines] : palette[colors % palette.size()];
     style.point_type = point_types[colors % point_types.size()];
@@ -33,9 +34,11 @@ std::vector<SeriesStyle> series_styles(const Figure& figure) {
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
       auto style = std::ranges::find(styles, series.label, &SeriesStyle::label);
-      if (style == styles.end()) style = styles.insert(styles.end(), SeriesStyle{.label = series.label, .color = {}});
+      if (style == styles.end())
+        style = styles.insert(styles.end(), SeriesStyle{.label = series.label, .color = series.color});
       if (series.mark == Mark::points) style->has_points = true;
-      if (series.mark != Mark::points) style->has_line = true;
+      if (series.mark == Mark::line || series.mark == Mark::dashes) style->has_line = true;
+      if (series.mark == Mark::cells) style->has_cells = true;
       if (series.mark == Mark::dashes) style->dash_type = 2;
     }
   }

@@ -14,7 +14,7 @@ struct SeriesStyle {
   std::string color;   ///< #rrggbb
   int point_type = 7;  ///< gnuplot's number
   int dash_type = 1;   ///< gnuplot's number
-  bool has_points = false, has_line = false;
+  bool has_points = false, has_line = false, has_cells = false;
 };
 
 /// One style for each label of the figure, in the order in which they first appear.

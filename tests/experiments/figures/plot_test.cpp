@@ -75,6 +75,31 @@ TEST(Plot, bars_may_lie_along_both_axes) {
   EXPECT_THROW(plot_script(figure), std::logic_error);
 }
 
+TEST(Plot, cells_stand_between_names) {
+  Figure figure;
+  figure.name = "heat";
+  Series cells{.label = "much", .mark = Mark::cells, .x = {1, 2}, .y = {1, 1}, .lower = {}, .upper = {}};
+  cells.color = "#123456";
+  Panel panel{"x", "y", false, false, 0.5, {cells}};
+  panel.x_tics = {{1, "ten_thousand"}, {2, "more"}};
+  panel.y_tics = {{1, "a rather long name of a row"}};
+  panel.x_groups = {{1.5, "group"}};
+  figure.panels = {panel};
+  const std::string script = plot_script(figure);
+  EXPECT_NE(script.find("linecolor rgb '#123456'"), std::string::npos);
+  EXPECT_NE(script.find("with boxxyerror"), std::string::npos);
+  EXPECT_NE(script.find("set xrange [0.4:2.6]"), std::string::npos) << script;
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "heat.gp", script);
+  write_text(folder / "heat.dat", plot_data(figure));
+  ASSERT_EQ(draw(folder.path(), "heat"), "");
+  const std::string svg = read_text(folder / "heat.svg");
+  for (const char* text : {"ten_thousand", "a rather long name of a row", "group", "much"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+}
+
 TEST(Plot, refuses_what_cannot_be_drawn) {
   Figure figure = two_panels();
   figure.name = "../up";
