@@ -110,10 +110,10 @@ class TableReporter : public benchmark::ConsoleReporter {
   }
 
   void Finalize() override {
-    std::printf("\n%-28s%9s%10s%8s |%-20s %-20s %-20s |%11s%11s%11s\n", "", "plain", "certified", "", " filter",
+    std::printf("\n%-28s%9s%10s%8s |%-20s %-20s %-20s |%12s%11s%11s\n", "", "plain", "certified", "", " filter",
                 " certificate", " exact", "interval", "interval", "50 digits");
-    std::printf("%-28s%9s%10s%8s |%8s%12s %8s%12s %8s%12s |%11s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "share",
-                "x plain", "share", "x plain", "share", "x plain", "unguarded", "x plain", "x plain");
+    std::printf("%-28s%9s%10s%8s |%8s%12s %8s%12s %8s%12s |%12s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "share",
+                "x plain", "share", "x plain", "share", "x plain", "unprotected", "x plain", "x plain");
     for (const std::string& row : rows) {
       const double plain = time(row + "/plain");
       if (plain == 0) continue;
@@ -124,7 +124,7 @@ class TableReporter : public benchmark::ConsoleReporter {
         const double part = share[row + name];
         std::printf("%7.2f%%%12s ", 100 * part, part > 0 ? number(ratio(name)).c_str() : "-");
       }
-      std::printf("|%11s%11s%11s\n", number(ratio("/interval_unprotected")).c_str(), number(ratio("/interval")).c_str(),
+      std::printf("|%12s%11s%11s\n", number(ratio("/interval_unprotected")).c_str(), number(ratio("/interval")).c_str(),
                   number(ratio("/50_digits")).c_str());
     }
     std::printf(
