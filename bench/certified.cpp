@@ -110,9 +110,9 @@ class TableReporter : public benchmark::ConsoleReporter {
   }
 
   void Finalize() override {
-    std::printf("\n%-28s%9s%10s%8s |%-20s %-20s %-20s |%11s%11s%11s\n", "", "plain", "certified", "", " filter",
-                " certificate", " exact", "interval,", "interval", "50 digits");
-    std::printf("%-28s%9s%10s%8s |%8s%12s %8s%12s %8s%12s |%11s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "share",
+    std::printf("\n%-28s%9s%10s%8s |%-20s %-20s %-20s |%12s%11s%11s\n", "", "plain", "certified", "", " filter",
+                " certificate", " exact", "interval", "interval", "50 digits");
+    std::printf("%-28s%9s%10s%8s |%8s%12s %8s%12s %8s%12s |%12s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "share",
                 "x plain", "share", "x plain", "share", "x plain", "unprotected", "x plain", "x plain");
     for (const std::string& row : rows) {
       const double plain = time(row + "/plain");
@@ -124,10 +124,12 @@ class TableReporter : public benchmark::ConsoleReporter {
         const double part = share[row + name];
         std::printf("%7.2f%%%12s ", 100 * part, part > 0 ? number(ratio(name)).c_str() : "-");
       }
-      std::printf("|%11s%11s%11s\n", number(ratio("/interval_unprotected")).c_str(), number(ratio("/interval")).c_str(),
+      std::printf("|%12s%11s%11s\n", number(ratio("/interval_unprotected")).c_str(), number(ratio("/interval")).c_str(),
                   number(ratio("/50_digits")).c_str());
     }
-    std::printf("A stage's cost is that of the queries it decided, what earlier stages tried included. -: none.\n");
+    std::printf(
+        "A stage's cost is that of the queries it decided, what earlier stages tried included. -: none.\n"
+        "Plain is the front door, with the normal and the point; a certified answer has neither.\n");
   }
 
  private:
