@@ -43,7 +43,7 @@ class StiffContactRun final : public Run {
     auto result = results.begin();
     for (const LimitCell& cell : limits_) found.limits.push_back(limit_line(plan_, cell, *result++));
     for (const BounceSeries& series : series_) {
-      for (const BounceLine& line : bounce_lines(plan_, series, *result++)) found.bounces.push_back(line);
+      for (const ContactLine& line : bounce_lines(plan_, series, *result++)) found.bounces.push_back(line);
     }
     for (const double ratio : plan_.bounce_ratios) {
       for (StiffRacer& racer : racers_from(plan_, ratio, *result++)) found.racers.push_back(std::move(racer));

@@ -1,11 +1,12 @@
 #pragma once
-/// The support function of every shape, from its center.
+/// The support function of every shape, from its center, and how large the numbers are that it is made of.
 /// Error: a few u of the sizes involved.
 
 #include <algorithm>
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/triangle.hpp>
+#include <thinwall/swept/moving.hpp>
 
 namespace thinwall {
 
@@ -22,6 +23,16 @@ template <Scalar S> S reach_along(const Triangle<S>& t, const Vec3<S>& n) {
 template <Scalar S> S reach_along(const Capsule<S>& capsule, const Vec3<S>& n) {
   const Vec3<S> middle = center(capsule);
   return std::max(n.dot(capsule.a - middle), n.dot(capsule.b - middle)) + capsule.radius;
+}
+
+/// The size of the numbers that a shape is given in, along each axis.
+template <Shape A> Vec3<typename A::Scalar> coordinate_sizes(const A& shape) {
+  return center(shape).cwiseAbs() + half_widths(shape);
+}
+
+/// The same, with the motion.
+template <Shape A> Vec3<typename A::Scalar> coordinate_sizes(const Moving<A>& m) {
+  return coordinate_sizes(m.shape) + m.displacement.cwiseAbs();
 }
 
 }  // namespace thinwall

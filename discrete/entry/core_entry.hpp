@@ -118,11 +118,13 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     return answer;
   };
   int touches = 0;
-  bool touched = false;  // in contact at `now`, to rounding
+  bool touched = false;                      // in contact at `now`, to rounding
+  Vec3<S> touched_normal = Vec3<S>::Zero();  // of the part that led there
   while (++answer.rounds < round_limit) {
     const S closing = part.closing_speed(v);
     if (touched && largest(closing) <= speed_noise)
-      return hit(now, part.outward());         // along it: no other time is any better
+      return hit(now, part.outward());  // along it: no other time is any better
+    if (touched && part.contains_point() && !(closing > S(0))) return hit(now, touched_normal);  // its side is rounding
     if (!(closing > S(0))) return miss(part);  // convex: what recedes does not come back
     const PartEntry<S> entry = part_entry(part, p, v, R);
     const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
@@ -136,6 +138,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     if (before || touching) {
       if (before) free = target;
       touched = touching;
+      touched_normal = entry.exists ? entry.normal : part.outward();
       now = target;
       part = there;
       continue;

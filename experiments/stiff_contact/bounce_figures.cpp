@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/stiff_contact/figures.hpp>
+#include <thinwall/experiments/stiff_contact/series.hpp>
 #include <thinwall/experiments/stiff_contact/theory.hpp>
 #include <thinwall/experiments/stiff_contact/verdicts.hpp>
 
@@ -12,15 +13,9 @@ namespace thinwall {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double least_ratio = 1e-3;  // drawn in place of a speed ratio that is less, down to 0
-constexpr double last_step = 3;       // of the picture of bounces
+constexpr double least_drawn = 1e-3;  // drawn in place of a speed ratio that is less, down to 0
 constexpr double sparse = 1.25;       // the map leaves out steps that are less than this factor apart
 constexpr const char* step_label = "h omega [1]";
-
-Series series_of(std::string label, Mark mark) {
-  return {.label = std::move(label), .mark = mark, .x = {}, .y = {}, .lower = {}, .upper = {}};
-}
 
 void add(Series& series, double x, double y) {
   series.x.push_back(x);
@@ -41,12 +36,12 @@ Series bounds_curve(const StiffPlan& plan) {
       const auto bounds = bounce_bounds(std::min(step, last));
       add(series, step, upper ? bounds->upper : bounds->lower);
     }
-    add(series, last, nan);
+    add(series, last, series_gap);
   }
   return series;
 }
 
-Panel bounce_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, Scheme scheme) {
+Panel bounce_panel(const StiffPlan& plan, const std::vector<ContactLine>& lines, Scheme scheme) {
   Panel p;
   p.x_label = step_label;
   p.y_label = fmt::format("speed out / in [1], {}", name(scheme));
@@ -57,19 +52,19 @@ Panel bounce_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
   for (std::size_t i = plan.bounce_ratios.size(); i-- > 0;) {  // the least damped on top
     const double ratio = plan.bounce_ratios[i];
     Series points = series_of(label_of(ratio), Mark::points);
-    for (const BounceLine& l : lines) {
+    for (const ContactLine& l : lines) {
       const PenaltyContact& c = l.contact;
       const bool drawn = c.scheme == scheme && c.damping_ratio == ratio && c.stiffness == plan.stiffest() &&
                          c.detection == Detection::discrete;
-      if (!drawn || !is_clean(plan, l) || c.step > last_step) continue;
-      add(points, c.step, std::max(least_ratio, l.tally.mean_speed()));
-      points.lower.push_back(std::max(least_ratio, l.tally.slowest));
-      points.upper.push_back(std::max(least_ratio, l.tally.fastest));
+      if (!drawn || !is_clean(plan, l) || c.step > last_step_of_bounces) continue;
+      add(points, c.step, std::max(least_drawn, l.tally.mean_speed()));
+      points.lower.push_back(std::max(least_drawn, l.tally.slowest));
+      points.upper.push_back(std::max(least_drawn, l.tally.fastest));
     }
     if (points.x.empty()) continue;
     add(exact, points.x.front(), restitution(ratio));
     add(exact, points.x.back(), restitution(ratio));
-    add(exact, points.x.back(), nan);
+    add(exact, points.x.back(), series_gap);
     p.series.push_back(std::move(points));
   }
   p.series.push_back(std::move(exact));
@@ -78,7 +73,7 @@ Panel bounce_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
 
 }  // namespace
 
-Figure bounce_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
+Figure bounce_figure(const StiffPlan& plan, const std::vector<ContactLine>& bounces) {
   Figure figure;
   figure.name = "bounce";
   figure.title = "What one bounce off a wall that only pushes does to the speed";
@@ -95,7 +90,7 @@ Figure bounce_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounc
 
 namespace {
 
-Panel escape_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, Scheme scheme, Detection detection) {
+Panel escape_panel(const StiffPlan& plan, const std::vector<ContactLine>& lines, Scheme scheme, Detection detection) {
   const Approach& e = plan.approach;
   const double ratio = plan.bounce_ratios.front();
   std::vector<double> steps;
@@ -104,11 +99,11 @@ Panel escape_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
   }
   Series returns = series_of("all return", Mark::points), fast = series_of("all return, some too fast", Mark::points);
   Series some = series_of("some get through", Mark::points), all = series_of("all get through", Mark::points);
-  for (const BounceLine& l : lines) {
+  for (const ContactLine& l : lines) {
     const PenaltyContact& c = l.contact;
     if (c.scheme != scheme || c.detection != detection || c.damping_ratio != ratio) continue;
     if (std::find(steps.begin(), steps.end(), c.step) == steps.end()) continue;
-    const BounceTally& t = l.tally;
+    const ContactTally& t = l.tally;
     Series& series = t.escaped == t.bounces() ? all : t.escaped > 0 ? some : t.blown_up > 0 ? fast : returns;
     add(series, c.step, c.stiffness);
   }
@@ -139,7 +134,7 @@ Panel escape_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
 
 }  // namespace
 
-Figure escape_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
+Figure escape_figure(const StiffPlan& plan, const std::vector<ContactLine>& bounces) {
   Figure figure;
   figure.name = "escape";
   figure.title = "Who gets through the wall";

@@ -13,9 +13,9 @@ namespace thinwall {
 Figure stability_figure(const StiffPlan& plan, const std::vector<LimitLine>& limits);
 
 /// A wall that only pushes: energy, who gets through, and what splitting the step changes.
-Figure bounce_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces);
-Figure escape_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces);
-Figure detection_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces);
+Figure bounce_figure(const StiffPlan& plan, const std::vector<ContactLine>& bounces);
+Figure escape_figure(const StiffPlan& plan, const std::vector<ContactLine>& bounces);
+Figure detection_figure(const StiffPlan& plan, const std::vector<ContactLine>& bounces);
 
 Figure race_figure(const StiffPlan& plan, const std::vector<StiffRacer>& racers);  ///< differs from run to run
 

@@ -72,16 +72,16 @@ std::string bounce_result(const StiffPlan& plan, const BounceSeries& series) {
   return result;
 }
 
-std::vector<BounceLine> bounce_lines(const StiffPlan& plan, const BounceSeries& series, const std::string& result) {
+std::vector<ContactLine> bounce_lines(const StiffPlan& plan, const BounceSeries& series, const std::string& result) {
   std::istringstream in(result);
-  std::vector<BounceLine> lines;
+  std::vector<ContactLine> lines;
   for (const double step : plan.bounce_steps) lines.push_back({contact_of(series, step), bounce_tally_from(in)});
   check_ended(in, result);
   return lines;
 }
 
-const BounceLine* twin_of(const std::vector<BounceLine>& lines, const BounceLine& line) {
-  for (const BounceLine& other : lines) {
+const ContactLine* twin_of(const std::vector<ContactLine>& lines, const ContactLine& line) {
+  for (const ContactLine& other : lines) {
     const PenaltyContact &a = other.contact, &b = line.contact;
     if (a.detection != b.detection && a.scheme == b.scheme && a.stiffness == b.stiffness && a.step == b.step &&
         a.damping_ratio == b.damping_ratio) {

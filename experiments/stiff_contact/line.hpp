@@ -28,18 +28,18 @@ std::string_view name(Verdict verdict);
 Verdict verdict_of(const StiffPlan& plan, const LimitLine& line, std::size_t i);
 
 /// One wall that only pushes, at one step, over all phases.
-struct BounceLine {
+struct ContactLine {
   PenaltyContact contact;
-  BounceTally tally;
+  ContactTally tally;
 };
 
 std::string limit_result(const StiffPlan& plan, const LimitCell& cell);
 LimitLine limit_line(const StiffPlan& plan, const LimitCell& cell, const std::string& result);
 
 std::string bounce_result(const StiffPlan& plan, const BounceSeries& series);
-std::vector<BounceLine> bounce_lines(const StiffPlan& plan, const BounceSeries& series, const std::string& result);
+std::vector<ContactLine> bounce_lines(const StiffPlan& plan, const BounceSeries& series, const std::string& result);
 
 /// The one of the same wall and step with the other detection, or nothing.
-const BounceLine* twin_of(const std::vector<BounceLine>& lines, const BounceLine& line);
+const ContactLine* twin_of(const std::vector<ContactLine>& lines, const ContactLine& line);
 
 }  // namespace thinwall

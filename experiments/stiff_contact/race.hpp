@@ -11,7 +11,7 @@ namespace thinwall {
 
 struct StiffRacer {
   PenaltyContact contact;
-  BounceTally tally;
+  ContactTally tally;
   std::vector<double> nanoseconds = {};  ///< a bounce, round by round
 };
 

@@ -7,6 +7,7 @@
 
 #include <thinwall/experiments/stiff_contact/figures.hpp>
 #include <thinwall/experiments/stiff_contact/pareto.hpp>
+#include <thinwall/experiments/stiff_contact/series.hpp>
 #include <thinwall/experiments/stiff_contact/theory.hpp>
 #include <thinwall/experiments/stiff_contact/verdicts.hpp>
 
@@ -14,12 +15,7 @@ namespace thinwall {
 
 namespace {
 
-constexpr double last_step = 3;        // of the picture of detections
 constexpr double least_spread = 1e-5;  // drawn in place of one that is less, down to 0
-
-Series series_of(std::string label, Mark mark) {
-  return {.label = std::move(label), .mark = mark, .x = {}, .y = {}, .lower = {}, .upper = {}};
-}
 
 std::string label_of(Scheme scheme, Detection detection) {
   return fmt::format("{}, {}", name(scheme), name(detection));
@@ -35,8 +31,8 @@ void add_joined(Panel& panel, Series points) {
   panel.series.push_back(std::move(points));
 }
 
-Panel detection_panel(const StiffPlan& plan, const std::vector<BounceLine>& lines, std::string y_label,
-                      const std::function<double(const BounceLine&)>& read) {
+Panel detection_panel(const StiffPlan& plan, const std::vector<ContactLine>& lines, std::string y_label,
+                      const std::function<double(const ContactLine&)>& read) {
   const double ratio = plan.bounce_ratios[plan.bounce_ratios.size() / 2];
   Panel panel;
   panel.x_label = "h omega [1]";
@@ -46,10 +42,10 @@ Panel detection_panel(const StiffPlan& plan, const std::vector<BounceLine>& line
   for (const Scheme scheme : all_schemes) {
     for (const Detection detection : all_detections) {
       Series points = series_of(label_of(scheme, detection), Mark::points);
-      for (const BounceLine& l : lines) {
+      for (const ContactLine& l : lines) {
         const PenaltyContact& c = l.contact;
         const bool drawn = c.scheme == scheme && c.detection == detection && c.damping_ratio == ratio &&
-                           c.stiffness == plan.stiffest() && c.step <= last_step && is_clean(plan, l);
+                           c.stiffness == plan.stiffest() && c.step <= last_step_of_bounces && is_clean(plan, l);
         if (!drawn || !(read(l) > 0)) continue;
         points.x.push_back(c.step);
         points.y.push_back(read(l));
@@ -87,10 +83,10 @@ Panel race_panel(const StiffPlan& plan, const std::vector<StiffRacer>& racers, d
 
 }  // namespace
 
-Figure detection_figure(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
-  const auto spread = [](const BounceLine& l) { return std::max(least_spread, l.tally.fastest - l.tally.slowest); };
-  const auto error = [](const BounceLine& l) { return l.tally.rms_error(); };
-  const auto depth = [&](const BounceLine& l) {
+Figure detection_figure(const StiffPlan& plan, const std::vector<ContactLine>& bounces) {
+  const auto spread = [](const ContactLine& l) { return std::max(least_spread, l.tally.fastest - l.tally.slowest); };
+  const auto error = [](const ContactLine& l) { return l.tally.rms_error(); };
+  const auto depth = [&](const ContactLine& l) {
     return l.tally.deepest * frequency(spring_of(plan.approach, l.contact)) /
            (plan.approach.speed * deepest(l.contact.damping_ratio));
   };

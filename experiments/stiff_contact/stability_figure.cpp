@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/stiff_contact/figures.hpp>
+#include <thinwall/experiments/stiff_contact/series.hpp>
 #include <thinwall/experiments/stiff_contact/theory.hpp>
 
 namespace thinwall {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string words(Scheme scheme) {
   switch (scheme) {
@@ -22,14 +21,9 @@ std::string words(Scheme scheme) {
   return "";
 }
 
-Series points(const char* label) {
-  return {.label = label, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
-}
-
 /// Twenty points a decade between the least and the greatest damping ratio.
 Series limit_curve(const StiffPlan& plan, Scheme scheme) {
-  Series series = points("formula");
-  series.mark = Mark::line;
+  Series series = series_of("formula", Mark::line);
   const double first =
       std::log10(*std::find_if(plan.ratios.begin(), plan.ratios.end(), [](double r) { return r > 0; }));
   const double last = std::log10(plan.ratios.back());
@@ -37,13 +31,14 @@ Series limit_curve(const StiffPlan& plan, Scheme scheme) {
   for (int i = 0; i <= count; ++i) {
     const double ratio = std::pow(10, first + (last - first) * i / count);
     series.x.push_back(ratio);
-    series.y.push_back(step_limit(scheme, ratio).value_or(nan));
+    series.y.push_back(step_limit(scheme, ratio).value_or(series_gap));
   }
   return series;
 }
 
 Panel panel(const StiffPlan& plan, const std::vector<LimitLine>& limits, Scheme scheme) {
-  Series stable = points("decays"), unstable = points("grows"), measured = points("measured limit, every stiffness");
+  Series stable = series_of("decays", Mark::points), unstable = series_of("grows", Mark::points),
+         measured = series_of("measured limit, every stiffness", Mark::points);
   for (const LimitLine& line : limits) {
     if (line.cell.scheme != scheme || line.cell.ratio == 0) continue;
     if (line.theory) {

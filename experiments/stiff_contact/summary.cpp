@@ -28,10 +28,10 @@ struct Passage {
   double least_escape = std::numeric_limits<double>::infinity();  ///< [reaches] the shortest path of a step that did
 };
 
-Passage passage_of(const StiffPlan& plan, const std::vector<BounceLine>& lines, Scheme scheme, Detection detection,
+Passage passage_of(const StiffPlan& plan, const std::vector<ContactLine>& lines, Scheme scheme, Detection detection,
                    const std::vector<double>& ratios) {
   Passage sum;
-  for (const BounceLine& l : lines) {
+  for (const ContactLine& l : lines) {
     const PenaltyContact& c = l.contact;
     if (c.scheme != scheme || c.detection != detection || !is_stiff_enough(plan, c)) continue;
     if (std::find(ratios.begin(), ratios.end(), c.damping_ratio) == ratios.end()) continue;
@@ -54,8 +54,8 @@ std::int64_t inside(const std::vector<LimitLine>& limits) {
 }
 
 /// Undamped (or least damped), at the greatest stiffness, at the poses.
-const BounceLine* bounce_at(const StiffPlan& plan, const std::vector<BounceLine>& lines, Scheme scheme, double step) {
-  for (const BounceLine& l : lines) {
+const ContactLine* bounce_at(const StiffPlan& plan, const std::vector<ContactLine>& lines, Scheme scheme, double step) {
+  for (const ContactLine& l : lines) {
     const PenaltyContact& c = l.contact;
     if (c.scheme == scheme && c.step == step && c.stiffness == plan.stiffest() && c.detection == Detection::discrete &&
         c.damping_ratio == plan.bounce_ratios.front()) {
@@ -65,7 +65,7 @@ const BounceLine* bounce_at(const StiffPlan& plan, const std::vector<BounceLine>
   return nullptr;
 }
 
-std::string speed_range(const BounceLine* line) {
+std::string speed_range(const ContactLine* line) {
   if (line == nullptr || line->tally.returned == 0) return "-";
   return fmt::format("{:.3g} to {:.3g}", line->tally.slowest, line->tally.fastest);
 }
@@ -111,7 +111,7 @@ std::string limits_part(const StiffPlan& plan, const std::vector<LimitLine>& lim
   return text;
 }
 
-std::string bounces_part(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
+std::string bounces_part(const StiffPlan& plan, const std::vector<ContactLine>& bounces) {
   const std::vector<double> steps = shown_steps(plan);
   std::string text =
       fmt::format("\nA wall that only pushes, {:g} N/m, damping ratio {:g}: speed out over speed in.\n{:<16}",
@@ -131,7 +131,7 @@ std::string bounces_part(const StiffPlan& plan, const std::vector<BounceLine>& b
   return text + "\n";
 }
 
-std::string passage_part(const StiffPlan& plan, const std::vector<BounceLine>& bounces) {
+std::string passage_part(const StiffPlan& plan, const std::vector<ContactLine>& bounces) {
   std::string text = fmt::format(
       "\nWalls stiff enough for continuous time, all steps and dampings. Too fast: over {:g} x the speed in.\n"
       "Least path: the shortest step that let a ball through, over the way from touch to the middle.\n"
@@ -179,7 +179,7 @@ std::string stiff_answer(const StiffPlan& plan, const StiffResults& results) {
       grouped_text(inside(results.limits)), grouped_text(static_cast<std::int64_t>(results.limits.size())));
   const std::vector<double> steps = shown_steps(plan);
   if (!steps.empty()) {
-    const BounceLine* line = bounce_at(plan, results.bounces, Scheme::semi_implicit, steps.back());
+    const ContactLine* line = bounce_at(plan, results.bounces, Scheme::semi_implicit, steps.back());
     if (line != nullptr && line->tally.returned > 0) {
       text += fmt::format(
           " Stable is not enough for a wall that only pushes: at h omega = {:g} a semi-implicit bounce leaves with {:.2f} to {:.2f} "

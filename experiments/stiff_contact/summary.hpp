@@ -13,7 +13,7 @@ namespace thinwall {
 /// All that a run found.
 struct StiffResults {
   std::vector<LimitLine> limits;
-  std::vector<BounceLine> bounces;
+  std::vector<ContactLine> bounces;
   std::vector<StiffRacer> racers;
   std::vector<StiffTest> tests;
 };

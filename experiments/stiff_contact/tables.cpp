@@ -19,7 +19,7 @@ const Column step_column = {"step", number, "1/omega", "Time step, with omega = 
 Value text_of(std::string_view name) { return std::string(name); }
 
 /// [1] Deepest over what continuous time has.
-double relative_depth(const StiffPlan& plan, const BounceLine& line) {
+double relative_depth(const StiffPlan& plan, const ContactLine& line) {
   const double omega = frequency(spring_of(plan.approach, line.contact));
   return line.tally.deepest * omega / (plan.approach.speed * deepest(line.contact.damping_ratio));
 }
@@ -72,7 +72,7 @@ Table stability_table(const StiffPlan& plan, const std::vector<LimitLine>& lines
   return table;
 }
 
-Table bounces_table(const StiffPlan& plan, const std::vector<BounceLine>& lines) {
+Table bounces_table(const StiffPlan& plan, const std::vector<ContactLine>& lines) {
   Table table = {"bounces", "A wall that only pushes: every cell, over all phases.", {}, {}};
   table.columns = {scheme_column,
                    detection_column,
@@ -96,9 +96,9 @@ Table bounces_table(const StiffPlan& plan, const std::vector<BounceLine>& lines)
                    {"contact_steps", number, "1", "Mean number of steps that pushed."},
                    {"depth_max", number, "m", "Deepest of all, past the front face."},
                    {"depth_ratio", number, "1", "The same over the depth in continuous time."}};
-  for (const BounceLine& l : lines) {
+  for (const ContactLine& l : lines) {
     const PenaltyContact& c = l.contact;
-    const BounceTally& t = l.tally;
+    const ContactTally& t = l.tally;
     const auto if_any = [&](double x) { return t.returned > 0 ? Value(x) : Value(); };
     table.rows.push_back({text_of(name(c.scheme)),
                           text_of(name(c.detection)),
@@ -126,7 +126,7 @@ Table bounces_table(const StiffPlan& plan, const std::vector<BounceLine>& lines)
   return table;
 }
 
-Table detection_table(const StiffPlan& plan, const std::vector<BounceLine>& lines) {
+Table detection_table(const StiffPlan& plan, const std::vector<ContactLine>& lines) {
   Table table = {"detection",
                  "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.",
                  {},
@@ -140,10 +140,10 @@ Table detection_table(const StiffPlan& plan, const std::vector<BounceLine>& line
                    {"spread_split", number, "1", "The same with split steps."},
                    {"depth_discrete", number, "1", "Deepest over the depth in continuous time: at the poses."},
                    {"depth_split", number, "1", "The same with split steps."}};
-  for (const BounceLine& l : lines) {
+  for (const ContactLine& l : lines) {
     const PenaltyContact& c = l.contact;
     if (c.detection != Detection::discrete || c.stiffness != plan.stiffest()) continue;
-    const BounceLine* split = twin_of(lines, l);
+    const ContactLine* split = twin_of(lines, l);
     if (split == nullptr || !is_clean(plan, l) || !is_clean(plan, *split)) continue;
     table.rows.push_back({text_of(name(c.scheme)), c.damping_ratio, c.step, l.tally.rms_error(),
                           split->tally.rms_error(), l.tally.fastest - l.tally.slowest,

@@ -13,14 +13,14 @@
 
 namespace thinwall {
 
-double BounceTally::rms_error() const { return std::sqrt(square_error / static_cast<double>(returned)); }
+double ContactTally::rms_error() const { return std::sqrt(square_error / static_cast<double>(returned)); }
 
-BounceTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count) {
+ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count) {
   const std::array factors = {e.mass,      e.speed,         e.radius, e.thickness,
                               c.stiffness, c.damping_ratio, c.step,   static_cast<double>(count)};
   const RandomStream stream = {seed, stream_of(factors)};
   const double exact = restitution(c.damping_ratio);
-  BounceTally t;
+  ContactTally t;
   for (std::int64_t i = 0; i < count; ++i) {
     const double within = uniform(random_words(stream, static_cast<std::uint64_t>(i), 0)[0]);
     const Bounce b = bounce(e, c, (static_cast<double>(i) + within) / static_cast<double>(count));
@@ -43,7 +43,7 @@ BounceTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t
   return t;
 }
 
-std::string to_line(const BounceTally& t) {
+std::string to_line(const ContactTally& t) {
   return fmt::format("{} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a}", t.returned, t.escaped, t.unfinished,
                      t.contact_steps, t.blown_up, t.blow_up_step, t.slowest, t.fastest, t.speed_sum, t.square_error,
                      t.shallowest, t.deepest);
@@ -58,8 +58,8 @@ double read_number(std::istream& in) {
   return value;
 }
 
-BounceTally bounce_tally_from(std::istream& in) {
-  BounceTally t;
+ContactTally bounce_tally_from(std::istream& in) {
+  ContactTally t;
   in >> t.returned >> t.escaped >> t.unfinished >> t.contact_steps >> t.blown_up >> t.blow_up_step;
   if (!in) throw std::runtime_error("not a tally of bounces");
   t.slowest = read_number(in);

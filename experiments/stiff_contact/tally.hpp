@@ -10,7 +10,7 @@
 
 namespace thinwall {
 
-struct BounceTally {
+struct ContactTally {
   std::int64_t returned = 0;       ///< left on the side they came from; all that follows but blow-up is of these
   std::int64_t escaped = 0;        ///< left on the other side
   std::int64_t unfinished = 0;     ///< did not leave
@@ -27,14 +27,14 @@ struct BounceTally {
   std::int64_t bounces() const { return returned + escaped + unfinished; }
   double mean_speed() const { return speed_sum / static_cast<double>(returned); }
   double rms_error() const;
-  bool operator==(const BounceTally&) const = default;
+  bool operator==(const ContactTally&) const = default;
 };
 
 /// The phases: one in each of `count` equal parts of the step, at random. The same for every scheme and detection.
-BounceTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count);
+ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count);
 
-std::string to_line(const BounceTally& tally);    ///< no digit is lost
-BounceTally bounce_tally_from(std::istream& in);  ///< throws std::runtime_error if it is not one
+std::string to_line(const ContactTally& tally);    ///< no digit is lost
+ContactTally bounce_tally_from(std::istream& in);  ///< throws std::runtime_error if it is not one
 
 /// In a stream, a number that {:a} wrote; also infinity.
 double read_number(std::istream& in);

@@ -40,11 +40,11 @@ void judge_limits(const StiffPlan& plan, const std::vector<LimitLine>& lines, st
   tests.insert(tests.end(), {inside, narrow, map});
 }
 
-void judge_energy(const StiffPlan& plan, const std::vector<BounceLine>& lines, std::vector<StiffTest>& tests) {
+void judge_energy(const StiffPlan& plan, const std::vector<ContactLine>& lines, std::vector<StiffTest>& tests) {
   StiffTest bounds = {"semi-implicit, undamped: the speed ratio keeps its bounds"};
   StiffTest gains = {"explicit, undamped: never slower after than before"};
   StiffTest loses = {"implicit, undamped: never faster after than before"};
-  for (const BounceLine& line : lines) {
+  for (const ContactLine& line : lines) {
     const PenaltyContact& c = line.contact;
     if (c.damping_ratio != 0 || !is_clean(plan, line)) continue;
     const double slack = rounding(plan, c);
@@ -59,12 +59,12 @@ void judge_energy(const StiffPlan& plan, const std::vector<BounceLine>& lines, s
 }
 
 /// A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
-void judge_splits(const StiffPlan& plan, const std::vector<BounceLine>& lines, std::vector<StiffTest>& tests) {
+void judge_splits(const StiffPlan& plan, const std::vector<ContactLine>& lines, std::vector<StiffTest>& tests) {
   StiffTest same = {"explicit and semi-implicit, undamped: splitting the step changes no bounce"};
-  for (const BounceLine& line : lines) {
+  for (const ContactLine& line : lines) {
     const PenaltyContact& c = line.contact;
     if (c.detection != Detection::discrete || c.scheme == Scheme::implicit_euler || c.damping_ratio != 0) continue;
-    const BounceLine* split = twin_of(lines, line);
+    const ContactLine* split = twin_of(lines, line);
     if (split == nullptr || !is_clean(plan, line)) continue;
     const double slack = rounding(plan, c) * std::max(1.0, line.tally.fastest);
     judge(same, is_clean(plan, *split) && std::abs(line.tally.slowest - split->tally.slowest) <= slack &&
@@ -73,10 +73,10 @@ void judge_splits(const StiffPlan& plan, const std::vector<BounceLine>& lines, s
   tests.push_back(same);
 }
 
-void judge_escapes(const StiffPlan& plan, const std::vector<BounceLine>& lines, std::vector<StiffTest>& tests) {
+void judge_escapes(const StiffPlan& plan, const std::vector<ContactLine>& lines, std::vector<StiffTest>& tests) {
   StiffTest late = {"discrete: as many escape as are first seen past the middle, or more"};
   StiffTest held = {"implicit, split, stiff enough for continuous time: none escapes"};
-  for (const BounceLine& line : lines) {
+  for (const ContactLine& line : lines) {
     const PenaltyContact& c = line.contact;
     const double bounces = static_cast<double>(line.tally.bounces());
     if (c.detection == Detection::discrete) {
@@ -91,7 +91,7 @@ void judge_escapes(const StiffPlan& plan, const std::vector<BounceLine>& lines, 
 
 }  // namespace
 
-bool is_clean(const StiffPlan& plan, const BounceLine& line) {
+bool is_clean(const StiffPlan& plan, const ContactLine& line) {
   return line.tally.returned == line.tally.bounces() && line.tally.deepest < reach(plan.approach);
 }
 
@@ -110,7 +110,7 @@ double late_share(const StiffPlan& plan, const PenaltyContact& c) {
 }
 
 std::vector<StiffTest> stiff_tests(const StiffPlan& plan, const std::vector<LimitLine>& limits,
-                                   const std::vector<BounceLine>& bounces) {
+                                   const std::vector<ContactLine>& bounces) {
   std::vector<StiffTest> tests;
   judge_limits(plan, limits, tests);
   judge_energy(plan, bounces, tests);

@@ -17,7 +17,7 @@ struct StiffTest {
 };
 
 /// Every bounce came back, and none got past the middle of the wall.
-bool is_clean(const StiffPlan& plan, const BounceLine& line);
+bool is_clean(const StiffPlan& plan, const ContactLine& line);
 
 /// [1] Of the incoming speed: what rounding may do to a bounce.
 double rounding(const StiffPlan& plan, const PenaltyContact& contact);
@@ -26,7 +26,7 @@ double rounding(const StiffPlan& plan, const PenaltyContact& contact);
 double late_share(const StiffPlan& plan, const PenaltyContact& contact);
 
 std::vector<StiffTest> stiff_tests(const StiffPlan& plan, const std::vector<LimitLine>& limits,
-                                   const std::vector<BounceLine>& bounces);
+                                   const std::vector<ContactLine>& bounces);
 bool all_passed(const std::vector<StiffTest>& tests);
 
 /// The widest bracket, over its limit; 0 if there is none with two ends.

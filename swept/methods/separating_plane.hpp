@@ -15,11 +15,6 @@
 
 namespace thinwall {
 
-/// The size of the numbers that a shape is given in, along each axis.
-template <Shape A> Vec3<typename A::Scalar> coordinate_sizes(const A& shape) {
-  return center(shape).cwiseAbs() + half_widths(shape);
-}
-
 /// The gap across the plane at time t, less the minimal separation, is at least gap - closing * t.
 template <Scalar S> struct SeparatingPlane {
   S gap = 0;      ///< [length] at the start, rounded down; <= 0: it does not part the shapes there

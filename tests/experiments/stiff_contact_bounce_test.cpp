@@ -73,7 +73,7 @@ TEST(StiffBounce, goes_over_into_continuous_time) {
   for (const Scheme scheme : all_schemes) {
     for (const Detection detection : all_detections) {
       for (const double zeta : {0.1, 0.5, 1.5}) {
-        const BounceTally t = bounce_all(usual, contact_by(scheme, detection, 0.003, zeta), 1, 10);
+        const ContactTally t = bounce_all(usual, contact_by(scheme, detection, 0.003, zeta), 1, 10);
         EXPECT_EQ(t.returned, 10);
         EXPECT_NEAR(t.mean_speed(), restitution(zeta), 0.01) << name(scheme) << " " << name(detection) << " " << zeta;
         EXPECT_NEAR(t.deepest * 1e5 / 10, deepest(zeta), 0.02) << name(scheme) << " " << name(detection) << " " << zeta;
@@ -139,7 +139,7 @@ TEST(StiffBounce, never_gives_a_number_that_is_none) {
       for (const double zeta : {0.0, 0.1, 0.5, 1.0, 100.0}) {
         for (const double step : {0.1, 1.0, 3.0, 30.0, 1e4, 1e6}) {
           for (const double stiffness : {1.0, 1e4, 1e10}) {
-            const BounceTally t = bounce_all(usual, contact_by(scheme, detection, step, zeta, stiffness), 1, 3);
+            const ContactTally t = bounce_all(usual, contact_by(scheme, detection, step, zeta, stiffness), 1, 3);
             EXPECT_EQ(t.bounces(), 3);
             EXPECT_TRUE(std::isfinite(t.fastest) && std::isfinite(t.speed_sum) && std::isfinite(t.deepest));
           }

@@ -97,7 +97,7 @@ TEST(StiffConfig, refuses_what_cannot_be_asked) {
 }
 
 TEST(StiffTally, survives_its_line) {
-  BounceTally tally;
+  ContactTally tally;
   const auto read = [](const std::string& line) {
     std::istringstream in(line);
     return bounce_tally_from(in);

@@ -17,7 +17,7 @@ namespace {
 struct Measured {
   StiffPlan plan = stiff_plan();
   std::vector<LimitLine> limits;
-  std::vector<BounceLine> bounces;
+  std::vector<ContactLine> bounces;
 };
 
 Measured measured() {
@@ -26,7 +26,7 @@ Measured measured() {
     m.limits.push_back(limit_line(m.plan, cell, limit_result(m.plan, cell)));
   }
   for (const BounceSeries& series : bounce_series(m.plan)) {
-    for (const BounceLine& l : bounce_lines(m.plan, series, bounce_result(m.plan, series))) m.bounces.push_back(l);
+    for (const ContactLine& l : bounce_lines(m.plan, series, bounce_result(m.plan, series))) m.bounces.push_back(l);
   }
   return m;
 }
@@ -66,25 +66,25 @@ TEST(StiffContact, fails_a_wrong_limit) {
 
 TEST(StiffContact, fails_a_wrong_bounce) {
   const Measured m = measured();
-  const auto passes_with = [&](const std::function<void(BounceLine&)>& change) {
+  const auto passes_with = [&](const std::function<void(ContactLine&)>& change) {
     Measured changed = m;
-    for (BounceLine& line : changed.bounces) change(line);
+    for (ContactLine& line : changed.bounces) change(line);
     return passes(changed);
   };
-  EXPECT_TRUE(passes_with([](BounceLine&) {}));
-  EXPECT_FALSE(passes_with([](BounceLine& l) { l.tally.fastest *= 1.01; }));
-  EXPECT_FALSE(passes_with([](BounceLine& l) { l.tally.slowest *= 0.99; }));
-  EXPECT_FALSE(passes_with([](BounceLine& l) {  // an implicit step that gains
+  EXPECT_TRUE(passes_with([](ContactLine&) {}));
+  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.fastest *= 1.01; }));
+  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.slowest *= 0.99; }));
+  EXPECT_FALSE(passes_with([](ContactLine& l) {  // an implicit step that gains
     if (l.contact.scheme == Scheme::implicit_euler) l.tally.fastest = 1.001;
   }));
-  EXPECT_FALSE(passes_with([](BounceLine& l) {  // an explicit one that loses
+  EXPECT_FALSE(passes_with([](ContactLine& l) {  // an explicit one that loses
     if (l.contact.scheme == Scheme::explicit_euler) l.tally.slowest = 0.999;
   }));
-  EXPECT_FALSE(passes_with([](BounceLine& l) {  // a split that matters
+  EXPECT_FALSE(passes_with([](ContactLine& l) {  // a split that matters
     if (l.contact.detection == Detection::toi_split) l.tally.fastest *= 1 + 1e-6;
   }));
-  EXPECT_FALSE(passes_with([](BounceLine& l) { l.tally.escaped = 0; }));  // nobody tunnels
-  EXPECT_FALSE(passes_with([](BounceLine& l) { l.tally.escaped = 1; }));  // somebody always does
+  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.escaped = 0; }));  // nobody tunnels
+  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.escaped = 1; }));  // somebody always does
 }
 
 TEST(StiffContact, says_what_is_stable_and_what_a_bounce_does) {

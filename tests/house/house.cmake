@@ -32,9 +32,13 @@ foreach(folder IN ITEMS discrete capsule swept experiments)
 endforeach()
 
 # The sources of each folder of the program in one file, for clang-tidy to read every header they share once; never built.
+# Those of experiments/ itself stay alone: each experiment has functions of the same names.
 file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/experiments/*.cpp")
 foreach(source IN LISTS sources)
   cmake_path(GET source PARENT_PATH folder)
+  if(folder STREQUAL "${PROJECT_SOURCE_DIR}/experiments")
+    continue()
+  endif()
   cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
   string(REPLACE "/" "_" unit "${folder}")
   list(APPEND source_units "${unit}")
