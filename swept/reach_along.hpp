@@ -6,7 +6,6 @@
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/triangle.hpp>
-#include <thinwall/swept/moving.hpp>
 
 namespace thinwall {
 
@@ -28,11 +27,6 @@ template <Scalar S> S reach_along(const Capsule<S>& capsule, const Vec3<S>& n) {
 /// The size of the numbers that a shape is given in, along each axis.
 template <Shape A> Vec3<typename A::Scalar> coordinate_sizes(const A& shape) {
   return center(shape).cwiseAbs() + half_widths(shape);
-}
-
-/// The same, with the motion.
-template <Shape A> Vec3<typename A::Scalar> coordinate_sizes(const Moving<A>& m) {
-  return coordinate_sizes(m.shape) + m.displacement.cwiseAbs();
 }
 
 }  // namespace thinwall

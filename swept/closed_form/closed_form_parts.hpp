@@ -18,11 +18,14 @@ template <Scalar S> struct ClosedForm {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
-/// settled(), out of the way of what does not need it.
+/// Whether an entry near the end of the step comes in time must not be decided by roundings. Its time keeps its bits, which do
+/// not depend on where a step ends.
 template <class A, class B, Scalar T>
-THINWALL_COLD Entry<T> settled_near_end(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
+THINWALL_COLD T settled_near_end(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
+  if (rounding(a.shape) + rounding(b.shape) + gap == T(0)) return entry.time;  // found without roundings, or settled
   const Entry<T> last_word = settled(a, b, gap, entry);
-  return last_word.graze ? entry : last_word;
+  if (last_word.graze) return entry.time;
+  return last_word.time <= T(1) ? std::min(T(1), entry.time) : last_word.time;
 }
 
 /// Turns an entry (its normal from A to B, `gap` the minimal separation) into the answer; point(time) says where they touch.
@@ -32,8 +35,10 @@ THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap,
   if (found.inside) return overlapping_at_start(a, b, found.rounds);
   if (found.gave_up) return {ToiStatus::gave_up, found.rounds, std::min(T(1), found.time)};
   Entry<T> entry = found;
-  if constexpr (has_wider<T>) {  // whether it comes in time must not be decided by roundings
-    if (largest(T(entry.time - T(1))) <= constant_power_of_two<T, -10>()) entry = settled_near_end(a, b, gap, entry);
+  if constexpr (has_wider<T>) {
+    if (largest(T(entry.time - T(1))) <= constant_power_of_two<T, -10>()) {
+      entry.time = settled_near_end(a, b, gap, entry);
+    }
   }
   if (!(entry.time <= T(1))) return {ToiStatus::apart, entry.rounds};
   return {ToiStatus::hit, entry.rounds, entry.time, entry.normal, point(entry.time)};

@@ -10,7 +10,8 @@
 /// rounding, and decides whether a contact near the end of the step is still in it.
 ///
 /// Not for a graze: where the motion hardly closes the gap, the second order is not small. Nor where it would move the time by
-/// more than rounding: a corner met without a radius has an answer but no plane of its own.
+/// more than rounding: a corner met without a radius has an answer but no plane of its own, and a face that hardly closes would be
+/// reached when another has passed.
 /// Source: derived in docs/closed_forms.md.
 
 #include <limits>
@@ -42,8 +43,10 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
                   (reach_along(a.shape, n) + reach_along<W>(b.shape, -n) + W(gap));
   const W time = apart / closing, shift = largest(W(time - W(entry.time)));
   const bool second_order_is_small = 32 * shift * motion.squaredNorm() <= round * closing || round == W(0);
-  const Vec3<T> sizes = coordinate_sizes(narrow_a) + coordinate_sizes(narrow_b);
-  const bool by_rounding = shift * closing <= W(gap_noise<T>(entry.normal.cwiseAbs().dot(sizes) + gap));
+  const Vec3<T> paths = narrow_a.displacement.cwiseAbs() + narrow_b.displacement.cwiseAbs();
+  const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
+  const T size = entry.normal.cwiseAbs().dot(sizes) + gap, tiny = entry.time * constant_power_of_two<T, -40>();
+  const bool by_rounding = shift <= W(tiny) && shift * closing <= W(gap_noise(size));
   entry.graze = !(closing > W(0)) || !second_order_is_small || !by_rounding;
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));
