@@ -32,6 +32,8 @@ class QueryNumbers {
     } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
     return safe_unit(v);
   }
+  /// Any direction, `length` long: whoever draws the length draws it first, as compilers differ in the order of operands.
+  Vec3<double> vector(double length) { return direction() * length; }
 
  private:
   RandomStream stream_;
@@ -56,7 +58,10 @@ template <> struct ShapeDraw<Sphere<double>> {
 template <> struct ShapeDraw<Aabb<double>> {
   static Aabb<double> draw(QueryNumbers& u, double size) {
     const double thinnest = u.one_in(3) ? -6 : -1;
-    return {Vec3<double>::Zero(), Vec3<double>(u.decades(thinnest, 0), u.decades(-1, 0), u.decades(-1, 0)) * size};
+    const double z = u.decades(-1, 0);
+    const double y = u.decades(-1, 0);
+    const double x = u.decades(thinnest, 0);
+    return {Vec3<double>::Zero(), Vec3<double>(x, y, z) * size};
   }
 };
 template <> struct ShapeDraw<Obb<double>> {
@@ -74,14 +79,22 @@ template <> struct ShapeDraw<Obb<double>> {
 };
 template <> struct ShapeDraw<Capsule<double>> {
   static Capsule<double> draw(QueryNumbers& u, double size) {
-    const Vec3<double> half = u.direction() * (size * u.decades(-2, 0));
-    return {-half, half, size * u.decades(-3, 0)};
+    const double half_length = size * u.decades(-2, 0);
+    const Vec3<double> half = u.vector(half_length);
+    const double radius = size * u.decades(-3, 0);
+    return {-half, half, radius};
   }
 };
 template <> struct ShapeDraw<Triangle<double>> {
   static Triangle<double> draw(QueryNumbers& u, double size) {
-    return {u.direction() * (size * u.decades(-1, 0)), u.direction() * (size * u.decades(-1, 0)),
-            u.direction() * (size * u.decades(-1, 0))};
+    const auto corner = [&] {
+      const double from_middle = size * u.decades(-1, 0);
+      return u.vector(from_middle);
+    };
+    const Vec3<double> a = corner();
+    const Vec3<double> b = corner();
+    const Vec3<double> c = corner();
+    return {a, b, c};
   }
 };
 
@@ -97,11 +110,17 @@ template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double 
   const A a = ShapeDraw<A>::draw(u, a_small ? small : 1.0);
   const B b = ShapeDraw<B>::draw(u, a_small ? 1.0 : small);
   const double reach = safe_norm(half_widths(a)) + safe_norm(half_widths(b));
-  const Vec3<double> from = u.direction() * (reach * (1 + u.decades(-3, u.one_in(3) ? digits : 1)));
-  const Vec3<double> aside = u.direction() * (reach * u.decades(-1, 0));
+  const double farthest = u.one_in(3) ? digits : 1;
+  const double distance = reach * (1 + u.decades(-3, farthest));
+  const Vec3<double> from = u.vector(distance);
+  const double offset = reach * u.decades(-1, 0);
+  const Vec3<double> aside = u.vector(offset);
   const double stretch = u.one_in(10) ? u.decades(0, 3) : u.between(0.6, 3);
-  const Vec3<double> drift =
-      u.one_in(2) ? Vec3<double>(u.direction() * (safe_norm(from) * u.decades(-3, 1))) : Vec3<double>::Zero();
+  Vec3<double> drift = Vec3<double>::Zero();
+  if (u.one_in(2)) {
+    const double length = safe_norm(from) * u.decades(-3, 1);
+    drift = u.vector(length);
+  }
   const auto aimed = [&](double share) {
     return MovingPair<A, B>{{moved(a, from), (aside * share - from) * stretch + drift}, {b, drift}};
   };
@@ -112,11 +131,13 @@ template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double 
       const MovingPair<A, B> tried = aimed((hit + miss) / 2);
       (time_of_impact(tried.a, tried.b).status == ToiStatus::apart ? miss : hit) = (hit + miss) / 2;
     }
-    share = hit * (1 + (u.one_in(2) ? 1 : -1) * u.decades(-15, -1));
+    const double side = u.one_in(2) ? 1 : -1;
+    share = hit * (1 + side * u.decades(-15, -1));
   }
   MovingPair<A, B> query = aimed(share);
   if (u.one_in(5)) {
-    const Vec3<double> origin = u.direction() * (reach * u.decades(0, digits));
+    const double length = reach * u.decades(0, digits);
+    const Vec3<double> origin = u.vector(length);
     query.a.shape = moved(query.a.shape, origin);
     query.b.shape = moved(query.b.shape, origin);
   }
