@@ -47,6 +47,8 @@ Vec3<double> slower_path(const Crossing& c) {
 
 Vec3<double> relative_path(const Crossing& c) { return slower_path(c) - faster_path(c); }
 
+double longest_contact(const Crossing& c) { return 2 * contact_distance(c) / relative_path(c).norm(); }
+
 bool is_parallel(const Crossing& c) { return c.ratio == 0 || c.angle_deg == 0 || c.angle_deg == 180; }
 
 RandomStream random_stream(const Crossing& c, std::uint64_t seed) {

@@ -33,6 +33,7 @@ double contact_distance(const Crossing& c);     ///< [m] R = 2 r
 Vec3<double> faster_path(const Crossing& c);    ///< [m] a, in one step
 Vec3<double> slower_path(const Crossing& c);    ///< [m] b
 Vec3<double> relative_path(const Crossing& c);  ///< [m] d = b - a: of the slower ball, seen from the faster
+double longest_contact(const Crossing& c);      ///< [1] the longest that two balls can be in contact, of a step
 bool is_parallel(const Crossing& c);            ///< both fly along one line, or the slower one rests
 RandomStream random_stream(const Crossing& c, std::uint64_t seed);  ///< from the physical factors alone
 

@@ -102,8 +102,6 @@ std::set<double> speeds_of(const std::vector<CrossingLine>& lines) {
   return speeds;
 }
 
-double longest_contact(const Crossing& c) { return 2 * contact_distance(c) / relative_path(c).norm(); }
-
 std::string path_label(const Crossing& c) {
   return fmt::format("path {:.3g} R", c.speed * c.step / contact_distance(c));
 }

@@ -16,9 +16,6 @@ double resolution(const Crossing& c) {
   return 16 * std::numeric_limits<double>::epsilon() * size;
 }
 
-/// The longest time [1] that two balls can be in contact.
-double longest_contact(const Crossing& c) { return 2 * contact_distance(c) / relative_path(c).norm(); }
-
 }  // namespace
 
 std::optional<double> missed_share(const CrossingLine& line) {

@@ -34,14 +34,10 @@ THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap,
                            const Point& point) {
   if (found.inside) return overlapping_at_start(a, b, found.rounds);
   if (found.gave_up) return {ToiStatus::gave_up, found.rounds, std::min(T(1), found.time)};
-  Entry<T> entry = found;
-  if constexpr (has_wider<T>) {
-    if (largest(T(entry.time - T(1))) <= constant_power_of_two<T, -10>()) {
-      entry.time = settled_near_end(a, b, gap, entry);
-    }
-  }
-  if (!(entry.time <= T(1))) return {ToiStatus::apart, entry.rounds};
-  return {ToiStatus::hit, entry.rounds, entry.time, entry.normal, point(entry.time)};
+  const auto end_is_near = [&] { return largest(T(found.time - T(1))) <= constant_power_of_two<T, -10>(); };
+  const T time = has_wider<T> && end_is_near() ? settled_near_end(a, b, gap, found) : found.time;
+  if (!(time <= T(1))) return {ToiStatus::apart, found.rounds};
+  return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
 }
 
 /// The whole question in the wider scalar.
@@ -58,13 +54,15 @@ THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, cons
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                      const Point& point) {
-  Entry<T> entry = found;
+  const T gap(method.min_separation);
   if constexpr (has_wider<T>) {
-    const bool hit = !entry.inside && !entry.gave_up && entry.time <= T(1) + constant_power_of_two<T, -10>();
-    if (hit && !entry.graze) entry = settled(a, b, T(method.min_separation), entry);
-    if (entry.graze && !entry.inside) return toi_by_wider<Method, A, B, T>(method, a, b);
+    if (found.inside || found.gave_up) return toi_of(a, b, gap, found, point);
+    const bool may_hit = found.time <= T(1) + constant_power_of_two<T, -10>();
+    const Entry<T> entry = may_hit && !found.graze ? settled(a, b, gap, found) : found;
+    return entry.graze ? toi_by_wider<Method, A, B, T>(method, a, b) : toi_of(a, b, gap, entry, point);
+  } else {
+    return toi_of(a, b, gap, found, point);
   }
-  return toi_of(a, b, T(method.min_separation), entry, point);
 }
 
 /// Where a moving sphere touches something that lies along `outward` at `time`; the middle of the gap if there is one.

@@ -48,7 +48,8 @@ list(REMOVE_DUPLICATES source_units)
 add_library(sources_together OBJECT EXCLUDE_FROM_ALL)
 target_link_libraries(sources_together PRIVATE thinwall::experiments thinwall_options)
 foreach(unit IN LISTS source_units)
-  file(CONFIGURE OUTPUT "headers/all_sources_of_${unit}.cpp" CONTENT "${includes_of_${unit}}" @ONLY)
+  file(CONFIGURE OUTPUT "headers/all_sources_of_${unit}.cpp" CONTENT
+    "// NOLINTBEGIN(bugprone-suspicious-include)\n${includes_of_${unit}}// NOLINTEND(bugprone-suspicious-include)\n" @ONLY)
   target_sources(sources_together PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/headers/all_sources_of_${unit}.cpp")
 endforeach()
 

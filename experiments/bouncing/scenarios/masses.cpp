@@ -62,7 +62,7 @@ BounceScenario cradle(int count) {
       passed &= ball.velocity == Vec3<double>(leaves ? 1 : 0, 0, 0) && ball.shape.center == Vec3<double>(place, 0, 0);
       speeds += (i > 0 ? " " : "") + rounded_text(ball.velocity.x(), 6);
     }
-    passed &= impacts == count * (5 - count);
+    passed &= impacts == std::int64_t{count} * (5 - count);
   }
   return {fmt::format("a cradle of five balls, {} come{} in", count, count == 1 ? "s" : ""),
           fmt::format("only the last {} leave{}, exactly; {} impacts at one instant, in either order of the list",
