@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <thinwall/discrete/entry/ball_entry.hpp>
+#include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/sphere.hpp>
 #include <thinwall/swept/closed_form/settled.hpp>
 #include <thinwall/swept/serves.hpp>
@@ -40,11 +41,27 @@ THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap,
   return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
 }
 
+/// What the wider scalar asks about: the shape itself, and of a box, whose axes are orthonormal to the narrower scalar's
+/// rounding only, one with the nearest orthonormal axes and the true lengths of its edges: half as far off as its transpose.
+template <class A> const A& with_true_axes(const A& shape) { return shape; }
+template <Scalar W> Obb<W> with_true_axes(const Obb<W>& box) {
+  Obb<W> upright =
+      box;  // one step of Newton's method for the polar factor of the axes, and the lengths it takes from them
+  const Mat3<W> gram = box.axes.transpose() * box.axes;
+  upright.axes = box.axes * (Mat3<W>::Identity() * W(3) - gram) / W(2);
+  for (int i = 0; i < 3; ++i) upright.half_extents[i] *= (gram(i, i) + W(1)) / W(2);
+  return upright;
+}
+
 /// The whole question in the wider scalar.
 template <class Method, class A, class B, Scalar T>
 THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   using W = Wider<T>;
-  const auto toi = impact(ClosedForm<W>{W(method.min_separation)}, cast<W>(a), cast<W>(b));
+  const auto wide = [](const auto& moving) {
+    const auto exact = cast<W>(moving);
+    return Moving{with_true_axes(exact.shape), exact.displacement};
+  };
+  const auto toi = impact(ClosedForm<W>{W(method.min_separation)}, wide(a), wide(b));
   return {toi.status, toi.evaluations, static_cast<T>(toi.time), toi.normal.template cast<T>(),
           toi.point.template cast<T>()};
 }
