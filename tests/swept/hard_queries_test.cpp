@@ -61,8 +61,9 @@ TEST(HardQueries, parallel_boxes_have_a_normal) {
   using F = Vec3<float>;
   const Moving first{Obb<float>{F(-2, -2, -2), F(2, 4, 2), axes}, F(-2, 3, -2)};
   const Moving second{Obb<float>{F(0x1.e0f84p+0F, -0x1.07c1fp+0F, -0x1.e0f83ep+0F), F(2, 2, 2), axes}, F(-2, -2, -2)};
-  const auto toi = time_of_impact(first, second);
-  ASSERT_EQ(toi.status, ToiStatus::hit);
+  const auto toi = time_of_impact(first, second);  // they touch at the start, to float's rounding of the axes
+  ASSERT_NE(toi.status, ToiStatus::apart);
+  EXPECT_NEAR(toi.time, 0, 1e-6);
   EXPECT_NEAR(toi.normal.norm(), 1, 1e-6);
 }
 
