@@ -17,6 +17,7 @@
 
 #include "certified_sets.hpp"
 #include "interval_ball.hpp"
+#include "median_times.hpp"
 
 namespace {
 
@@ -98,17 +99,8 @@ const bool added = [] {
   return true;
 }();
 
-/// Prints as usual, and keeps each time (the median, if repeated) for the closing table.
-class TableReporter : public benchmark::ConsoleReporter {
+class TableReporter : public MedianTimes {
  public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Aggregate && run.aggregate_name != "median") continue;
-      times_[run.run_name.function_name] = run.GetAdjustedCPUTime();
-    }
-  }
-
   void Finalize() override {
     std::printf("\n%-28s%9s%10s%8s |%-20s %-20s %-20s |%12s%11s%11s\n", "", "plain", "certified", "", " filter",
                 " certificate", " exact", "interval", "interval", "50 digits");
@@ -133,16 +125,11 @@ class TableReporter : public benchmark::ConsoleReporter {
   }
 
  private:
-  double time(const std::string& name) const {
-    const auto found = times_.find(name);
-    return found == times_.end() ? 0 : found->second;
-  }
   static std::string number(double ratio) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), ratio < 100 ? "%.1f" : "%.0f", ratio);
     return ratio > 0 ? text.data() : "-";
   }
-  std::map<std::string, double> times_;
 };
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <string>
 #include <vector>
 
 #include <thinwall/discrete/boxes/box_manifold.hpp>
 
+#include "median_times.hpp"
 #include "plain_forms.hpp"
 
 namespace {
@@ -214,16 +214,8 @@ const bool added = [] {
   return true;
 }();
 
-/// Prints as usual, and keeps each time (the median, if repeated) for the closing table.
-class TableReporter : public benchmark::ConsoleReporter {
+class TableReporter : public MedianTimes {
  public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Aggregate && run.aggregate_name != "median") continue;
-      times_[run.run_name.function_name] = run.GetAdjustedCPUTime();
-    }
-  }
   void Finalize() override {
     std::printf("\n%-36s %10s %10s %10s %9s %9s %6s\n", "[ns, this run]", "front door", "kernel", "plain", "to kernel",
                 "to plain", "goal");
@@ -236,13 +228,6 @@ class TableReporter : public benchmark::ConsoleReporter {
     }
     std::printf("Goals are for one core of a 3.6 GHz Zen 5 EPYC. 0.0: not measured, or there is none.\n");
   }
-
- private:
-  double time(const std::string& name) const {
-    const auto found = times_.find(name);
-    return found == times_.end() ? 0 : found->second;
-  }
-  std::map<std::string, double> times_;
 };
 
 }  // namespace

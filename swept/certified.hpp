@@ -58,24 +58,23 @@ template <Shape A, Shape B> THINWALL_HOT CertifiedToi certified_in_order(const M
   return fast.verdict != ToiStatus::gave_up ? fast : decided_exactly(a, b, guess);
 }
 
+/// True if x is greater in the first number in which it and y differ.
+template <class Matrix> bool is_later(const Matrix& x, const Matrix& y) {
+  return std::lexicographical_compare(y.data(), y.data() + y.size(), x.data(), x.data() + x.size());
+}
+
 /// Two of a kind are asked about in one order, whichever way they are passed: by the first number in which they differ.
 inline bool comes_later(const Moving<Obb<double>>& a, const Moving<Obb<double>>& b) {
-  const auto later = [](const auto& x, const auto& y) {
-    return std::lexicographical_compare(y.data(), y.data() + y.size(), x.data(), x.data() + x.size());
-  };
-  if (a.shape.center != b.shape.center) return later(a.shape.center, b.shape.center);
-  if (a.shape.half_extents != b.shape.half_extents) return later(a.shape.half_extents, b.shape.half_extents);
-  if (a.shape.axes != b.shape.axes) return later(a.shape.axes, b.shape.axes);
-  return later(a.displacement, b.displacement);
+  if (a.shape.center != b.shape.center) return is_later(a.shape.center, b.shape.center);
+  if (a.shape.half_extents != b.shape.half_extents) return is_later(a.shape.half_extents, b.shape.half_extents);
+  if (a.shape.axes != b.shape.axes) return is_later(a.shape.axes, b.shape.axes);
+  return is_later(a.displacement, b.displacement);
 }
 inline bool comes_later(const Moving<Capsule<double>>& a, const Moving<Capsule<double>>& b) {
-  const auto later = [](const auto& x, const auto& y) {
-    return std::lexicographical_compare(y.data(), y.data() + y.size(), x.data(), x.data() + x.size());
-  };
-  if (a.shape.a != b.shape.a) return later(a.shape.a, b.shape.a);
-  if (a.shape.b != b.shape.b) return later(a.shape.b, b.shape.b);
+  if (a.shape.a != b.shape.a) return is_later(a.shape.a, b.shape.a);
+  if (a.shape.b != b.shape.b) return is_later(a.shape.b, b.shape.b);
   if (a.shape.radius != b.shape.radius) return a.shape.radius > b.shape.radius;
-  return later(a.displacement, b.displacement);
+  return is_later(a.displacement, b.displacement);
 }
 
 /// When A and B first touch during the step: a proven verdict, and `lower` <= first contact <= `upper`.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/bouncing_run.hpp"
+#include "support/described_tables.hpp"
 
 namespace thinwall {
 namespace {
@@ -25,15 +26,7 @@ TEST(BouncingConfig, trials_override_the_bounces) {
 }
 
 TEST(BouncingConfig, every_row_is_as_long_as_its_columns_and_every_column_is_described) {
-  for (const Table& t : few_bounces_outcome().tables) {
-    EXPECT_FALSE(t.rows.empty()) << t.name;
-    for (const std::vector<Value>& row : t.rows) ASSERT_EQ(row.size(), t.columns.size()) << t.name;
-    for (const Column& column : t.columns) {
-      EXPECT_FALSE(column.description.empty()) << t.name << " " << column.name;
-      EXPECT_EQ(column.unit.empty(), column.type == ColumnType::text || column.type == ColumnType::boolean)
-          << t.name << " " << column.name;
-    }
-  }
+  expect_described_tables(few_bounces_outcome());
 }
 
 TEST(BouncingConfig, summary_fits_a_terminal) {

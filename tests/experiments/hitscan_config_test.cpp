@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/hitscan_run.hpp"
+#include "support/described_tables.hpp"
 
 namespace thinwall {
 namespace {
@@ -45,15 +46,7 @@ TEST(HitscanConfig, takes_every_combination_that_arrives) {
 }
 
 TEST(HitscanConfig, every_row_is_as_long_as_its_columns_and_every_column_is_described) {
-  for (const Table& t : hitscan_outcome(few_hitscans).tables) {
-    EXPECT_FALSE(t.rows.empty()) << t.name;
-    for (const std::vector<Value>& row : t.rows) ASSERT_EQ(row.size(), t.columns.size()) << t.name;
-    for (const Column& column : t.columns) {
-      EXPECT_FALSE(column.description.empty()) << t.name << " " << column.name;
-      EXPECT_EQ(column.unit.empty(), column.type == ColumnType::text || column.type == ColumnType::boolean)
-          << t.name << " " << column.name;
-    }
-  }
+  expect_described_tables(hitscan_outcome(few_hitscans));
 }
 
 TEST(HitscanConfig, summary_fits_a_terminal_and_opens_with_the_known_shots) {

@@ -1,0 +1,25 @@
+#pragma once
+/// What the tables of every experiment owe their reader.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include <thinwall/experiments/experiment.hpp>
+
+namespace thinwall {
+
+/// Every table has rows, as long as its columns are many, and every column a description and, if it is a number, a unit.
+inline void expect_described_tables(const Outcome& outcome) {
+  for (const Table& t : outcome.tables) {
+    EXPECT_FALSE(t.rows.empty()) << t.name;
+    for (const std::vector<Value>& row : t.rows) ASSERT_EQ(row.size(), t.columns.size()) << t.name;
+    for (const Column& column : t.columns) {
+      EXPECT_FALSE(column.description.empty()) << t.name << " " << column.name;
+      EXPECT_EQ(column.unit.empty(), column.type == ColumnType::text || column.type == ColumnType::boolean)
+          << t.name << " " << column.name;
+    }
+  }
+}
+
+}  // namespace thinwall
