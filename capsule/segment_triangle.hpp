@@ -23,24 +23,38 @@ template <Scalar S> struct PrismPart {
   S s = 0;
 };
 
-/// Requires lengths whose products of four are in range.
+/// How far apart the direction of `gap` shows the segment x + s * d and the triangle (0, e1, e2) to be, times its length.
+template <Scalar S>
+S parted_along(const Vec3<S>& gap, const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
+  const S start = gap.dot(x);
+  return std::min(start, S(start + gap.dot(d))) - std::max({S(0), S(gap.dot(e1)), S(gap.dot(e2))});
+}
+
+/// Of candidates as near as each other, to rounding, the one whose direction parts the two best is taken: distances tell
+/// directions apart only to the square root of a rounding. Requires lengths whose products of four are in range.
 template <Scalar S>
 PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
   const Vec3<S> normal = cross(e1, e2);
   PrismPart<S> best;
   S least = std::numeric_limits<S>::infinity();
+  const auto is_better = [&](const Vec3<S>& gap) {
+    const S square = gap.squaredNorm(), rounding = 4 * std::numeric_limits<S>::epsilon();
+    const bool ties = square <= least * (1 + rounding) && square >= least * (1 - rounding);
+    if (ties) return parted_along(gap, x, d, e1, e2) > parted_along(best.part.gap, x, d, e1, e2);
+    return square < least;
+  };
   for (int end = 0; end < 2; ++end) {
     const Vec3<S> tip = end == 0 ? x : Vec3<S>(x + d);
     const CorePart<S> face = closest_on_triangle(tip, e1, e2);
-    if (face.kind != CorePart<S>::face || face.gap.squaredNorm() >= least) continue;
+    if (face.kind != CorePart<S>::face || !is_better(face.gap)) continue;
     least = face.gap.squaredNorm();
     best = {
         {end, CorePart<S>::face, end == 0 ? Vec3<S>::Zero() : Vec3<S>(-d), normal, face.gap}, tip - face.gap, S(end)};
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const SegmentPair<S> pair = closest_on_segments<S>(x - from[k], along[k], d);
-    if (pair.gap.squaredNorm() >= least) continue;
+    if (!is_better(pair.gap)) continue;
     least = pair.gap.squaredNorm();
     CorePart<S> side = closest_on_parallelogram<S>(x - from[k], along[k], d);
     side.origin += from[k];

@@ -112,10 +112,16 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
     return answer;
   };
-  const S noise = gap_noise(largest(p, S(R + size))), speed_noise = gap_noise(largest(v));
+  const S speed = largest(v), noise = gap_noise(largest(p, S(R + size))), speed_noise = gap_noise(speed);
   const auto miss = [&](const CorePart<S>& nearest) {
     answer.graze = nearest.distance() - R <= noise;
     return answer;
+  };
+  // This near, the side it is seen from is rounding: what has it inside a moment later did not recede.
+  const auto miss_unless_soon_inside = [&](const CorePart<S>& nearest, const S& time) {
+    const bool decided = nearest.distance() - R > noise || speed == S(0);
+    const bool inside_soon = !decided && closest(p + v * S(time + 4 * noise / speed)).distance() < R;
+    return inside_soon ? hit(time, Vec3<S>::Zero()) : miss(nearest);
   };
   int touches = 0;
   bool touched = false;                      // in contact at `now`, to rounding
@@ -125,12 +131,12 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     if (touched && largest(closing) <= speed_noise)
       return hit(now, part.outward());  // along it: no other time is any better
     if (touched && part.contains_point() && !(closing > S(0))) return hit(now, touched_normal);  // its side is rounding
-    if (!(closing > S(0))) return miss(part);  // convex: what recedes does not come back
+    if (!(closing > S(0))) return miss_unless_soon_inside(part, now);  // convex: what recedes does not come back
     const PartEntry<S> entry = part_entry(part, p, v, R);
     const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
     if (!is_finite(target)) return answer;
     const CorePart<S> there = closest(p + v * target);
-    if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : miss(there);
+    if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : miss_unless_soon_inside(there, target);
     const S ahead = there.distance() - R;
     if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
     const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
@@ -154,21 +160,29 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   return answer;
 }
 
-/// The same for a core spanned by vectors, at any scale; closest(x, spans...) gets all of them at a scale that is safe.
-template <Scalar S, class Closest, class... Spans>
-Entry<S> core_entry_at_any_scale(const Closest& closest, const Vec3<S>& p, const Vec3<S>& v, const S& R,
-                                 const Spans&... spans) {
+/// entry_of(p, v, R, spans...) asked at a scale whose products of four are in range.
+template <Scalar S, class EntryOf, class... Spans>
+Entry<S> entry_at_safe_scale(const EntryOf& entry_of, const Vec3<S>& p, const Vec3<S>& v, const S& R,
+                             const Spans&... spans) {
   const S length = largest(p, R, spans...), speed = largest(v);
   const int length_exponent = products_in_range(length) ? 0 : binary_exponent(length);
   const int speed_exponent = products_in_range(speed) ? 0 : binary_exponent(speed);
-  if (length_exponent == 0 && speed_exponent == 0) {
-    return core_entry(p, v, R, largest(spans...), [&](const Vec3<S>& x) { return closest(x, spans...); });
-  }
-  Entry<S> entry = core_entry_at_any_scale<S>(
-      closest, times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-      times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
+  if (length_exponent == 0 && speed_exponent == 0) return entry_of(p, v, R, spans...);
+  Entry<S> entry =
+      entry_at_safe_scale<S>(entry_of, times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+                             times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
   entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
   return entry;
+}
+
+/// core_entry for a core spanned by vectors, at any scale; closest(x, spans...) gets all of them at a scale that is safe.
+template <Scalar S, class Closest, class... Spans>
+Entry<S> core_entry_at_any_scale(const Closest& closest, const Vec3<S>& p, const Vec3<S>& v, const S& R,
+                                 const Spans&... spans) {
+  const auto entry_of = [&closest](const Vec3<S>& from, const Vec3<S>& along, const S& reach, const auto&... scaled) {
+    return core_entry(from, along, reach, largest(scaled...), [&](const Vec3<S>& x) { return closest(x, scaled...); });
+  };
+  return entry_at_safe_scale<S>(entry_of, p, v, R, spans...);
 }
 
 }  // namespace thinwall

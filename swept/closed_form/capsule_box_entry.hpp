@@ -27,19 +27,23 @@ SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Ve
   return shared;
 }
 
-/// First time at which the segment p + v t + s * d, s in [0, 1], is within R of the box [-h, h]; the normal out of the box.
+/// Requires lengths and displacements whose products of four are in range.
 template <Scalar S>
-Entry<S> capsule_box_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d, const Vec3<S>& h) {
+Entry<S> capsule_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d,
+                                    const Vec3<S>& h) {
   const S size = largest(p, R, d, h);
-  if (!products_in_range(size) || !products_in_range(largest(v))) {
-    return core_entry_at_any_scale<S>(&closest_on_swept_box<S>, p, v, R, d, h);
-  }
   const SharedTime<S> shared = segment_and_box_share(p, v, d, h, R);
   if (!shared.ever()) return {};
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(
       p, v, R, largest(d, h), [&](const Vec3<S>& x) { return closest_on_swept_box(x, d, h); },
       starts_apart ? shared.first : S(0));
+}
+
+/// First time at which the segment p + v t + s * d, s in [0, 1], is within R of the box [-h, h]; the normal out of the box.
+template <Scalar S>
+Entry<S> capsule_box_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d, const Vec3<S>& h) {
+  return entry_at_safe_scale<S>(&capsule_box_entry_in_range<S>, p, v, R, d, h);
 }
 
 /// Where the two touch, on the box, for the segment's start at x.

@@ -25,19 +25,23 @@ SharedTime<S> point_and_triangle_share(const Vec3<S>& p, const Vec3<S>& v, const
   return shared;
 }
 
-/// First time at which p + v t is within R > 0 of the triangle (0, e1, e2); the normal out of the triangle.
+/// Requires lengths and displacements whose products of four are in range.
 template <Scalar S>
-Entry<S> sphere_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& e1, const Vec3<S>& e2) {
+Entry<S> sphere_triangle_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& e1,
+                                        const Vec3<S>& e2) {
   const S size = largest(p, R, e1, e2);
-  if (!products_in_range(size) || !products_in_range(largest(v))) {
-    return core_entry_at_any_scale<S>(&closest_on_triangle<S>, p, v, R, e1, e2);
-  }
   const SharedTime<S> shared = point_and_triangle_share(p, v, R, e1, e2, size);
   if (!shared.ever()) return {};
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(
       p, v, R, largest(e1, e2), [&](const Vec3<S>& x) { return closest_on_triangle(x, e1, e2); },
       starts_apart ? shared.first : S(0));
+}
+
+/// First time at which p + v t is within R > 0 of the triangle (0, e1, e2); the normal out of the triangle.
+template <Scalar S>
+Entry<S> sphere_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& e1, const Vec3<S>& e2) {
+  return entry_at_safe_scale<S>(&sphere_triangle_entry_in_range<S>, p, v, R, e1, e2);
 }
 
 }  // namespace thinwall

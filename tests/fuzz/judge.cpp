@@ -39,7 +39,9 @@ template <class R> Judgment judge_impact_in(const Exhibit& exhibit, ToiStatus st
   const double there = in_u(referee.at(t));
   if (there <= allowed && there >= -allowed) return {};
   if (touches && size_of(R(t - truth.time)) <= exhibit.least) return {};
-  // A displacement that much longer or shorter makes it exact where the separation changes sign about the time.
+  // A displacement that much longer or shorter makes it exact: where the first contact is that near, or the separation
+  // changes sign about the time.
+  if (touches && size_of(R(t - truth.time)) <= allowed * u * t) return {};
   const R before = referee.at(R(t * (1 - allowed * u))).gap, after = referee.at(R(t * (1 + allowed * u))).gap;
   if (before >= 0 && after <= 0) return {};
   return fault(!touches ? "a hit that is a miss" : there > 0 ? "early" : "late", there, truth.time);

@@ -1,0 +1,101 @@
+/// Shapes in touch, or as near as rounding can tell, where the side one is seen from is noise. Found by feeding raw numbers
+/// to every pair.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <thinwall/discrete/queries.hpp>
+#include <thinwall/swept/methods/centre_ray.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+namespace thinwall {
+namespace {
+
+using V = Vec3<double>;
+using F = Vec3<float>;
+
+TEST(TouchToRounding, segment_that_starts_on_a_triangle_and_goes_in_hits_it) {  // truly at 3.6e-18
+  const Moving segment{Capsule<double>{V(2, -8, -9), V(-8, 0, -0x1p-5), 0}, V(2, 0, 0x1.8000000008p+1)};
+  const Moving triangle{Triangle<double>{V(-0x1.7d9601fda252ap+2, -0x1.38c4a93b8ae3ap+1, -0x1.30365c4f767ddp+0),
+                                         V(-0x1.bb2c03fb44a54p+1, 0x1.d161537bd427dp+2, -0x1.a2d39856bb9c8p+3),
+                                         V(0x1.84d3fc04bb5acp+1, 0x1.5f1ee788ea38cp+0, 0x1.67e4d1d844c12p+1)},
+                        V(-6, -0x1.14e50cp-1, 0.3)};
+  const auto toi = time_of_impact(segment, triangle);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_LT(toi.time, 1e-16);
+}
+
+TEST(TouchToRounding, segment_that_seems_to_recede_once_it_is_there_hits_the_triangle) {
+  const Moving segment{Capsule<double>{V(-9.2, 0x1.80000000002p+1, 0), V(0, -0x1.838d78p-2, 0), 0},
+                       V(0x1.4888888888888p+3, -0x1.c1a84c5aaaacbp+4, -0x1.4409794p+3)};
+  const Moving triangle{
+      Triangle<double>{V(1, -0x1.838d78p-2, -9.2), V(16, -64, -5.6), V(0, -16, -0x1.3282d22666666p+3)}, V(0, 0, -2)};
+  const auto toi = time_of_impact(segment, triangle);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_NEAR(toi.time, 0x1.e7bf7f7befa87p-1, 0x1p-50);
+}
+
+TEST(TouchToRounding, segment_that_starts_on_a_plate_touches_it) {
+  const Moving segment{Capsule<float>{F(2, -5, -2), F(-0.2F, 2, 0.2F), 0}, F(-7, -2, 3)};
+  const auto toi = time_of_impact(segment, at_rest(Aabb<float>{F(0x1.1d14ap-3F, 0.75F, -0.5F), F(0, 0.75F, 4.6F)}));
+  EXPECT_NE(toi.status, ToiStatus::apart);
+  EXPECT_LT(toi.time, 1e-7F);
+}
+
+TEST(TouchToRounding, triangle_with_two_equal_corners_keeps_its_bits_at_any_scale) {
+  const Moving sphere{Sphere<double>{V(-0.8, -0x1.0f135cf53a706p+3, 0x1.55cb443f674eep+1), 0.8},
+                      V(-0x1.ecabc4p-1, 0.4, -3)};
+  const Moving triangle{Triangle<double>{V(-8, -0.8, -0.8), V(-0.8, -0.8, -0.8), V(-0.8, -0.8, -0.8)}, V(0, -8, 0.8)};
+  const auto toi = time_of_impact(sphere, triangle);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  for (const int e : {-700, -300, 300, 700}) {
+    const auto far = time_of_impact(scaled(sphere, e), scaled(triangle, e));
+    EXPECT_EQ(far.time, toi.time) << e;
+    EXPECT_EQ(far.normal, toi.normal) << e;
+  }
+}
+
+TEST(TouchToRounding, center_ray_that_starts_in_what_its_body_does_not_overlap_has_a_normal) {
+  const Moving capsule{Capsule<double>{V(-0x1.63c000000ffcep+353, -0x1.50ef63ccea089p-197, -0x1.31b628f713334p-947),
+                                       V(-0x1.bb9060faaba8dp-193, 0x1.2203537bc019dp-658, -0x1.cae542c69b37dp-963),
+                                       0x1.be2dc8a9cc467p-729},
+                       V(-0x1.489315528e02dp+814, -0x1.13001db6dbcb7p+909, 0x1.b9568f3df17bdp+863)};
+  const Moving triangle{Triangle<double>{V(0x1.73f21c0cfd2p+511, 0x1.94764ded94e81p+371, 0x1.023c321612732p-489),
+                                         V(-0x1.4dc398c4afa1dp-336, 0x1.825410b836332p-827, 0x1.1a3ba5e0403d9p+118),
+                                         V(-0x1.ecdc9ffbd5043p+815, -0x1.9c802c9249b13p+910, -0x1.ba8a47251275dp-680)},
+                        V(-0x1.0de9883421985p-472, -0x1.fe9de77ec61e5p+817, 0x1.b9568f3df17bdp+863)};
+  const auto toi = time_of_impact(CentreRay<double>{}, capsule, triangle);
+  EXPECT_TRUE(toi.status != ToiStatus::hit || safe_norm(toi.normal) > 0.5);
+}
+
+/// How far apart the plane across the separation's normal shows two sets of corners, rounded by R, to be.
+double parted(const V& n, const std::vector<V>& a, const std::vector<V>& b, double R) {
+  double ahead = -1e300, behind = 1e300;
+  for (const V& x : a) ahead = std::max(ahead, n.dot(x));
+  for (const V& x : b) behind = std::min(behind, n.dot(x));
+  return behind - ahead - R;
+}
+
+TEST(TouchToRounding,
+     capsule_and_triangle_are_parted_by_their_normal_by_all_of_the_gap) {  // not by the slope of an edge
+  const Capsule<double> capsule{V(-8, -8, -0x1.fffffff8p+2), V(-0x1.fffffff8p+2, 0x1.bfbbb8p-1, -0x1.fffffff8p+2),
+                                0x1.fffffff8p+2};
+  const Triangle<double> triangle{V(-0x1.0dafecp-28, -0x1.fffffff8p+2, -0x1.fffffff8p+2),
+                                  V(-0x1.0dafecp-28, 0x1.0000000000002p+1, 2), V(0x1.1333332d17d36p+3, 8, 5)};
+  const auto gap = separation(capsule, triangle);
+  EXPECT_NEAR(parted(gap.normal, {capsule.a, capsule.b}, {triangle.a, triangle.b, triangle.c}, capsule.radius),
+              gap.distance, 1e-14);
+}
+
+TEST(TouchToRounding, boxes_beside_each_other_are_parted_by_an_axis) {
+  const Obb<double> upper{V(-1, 1, 1), V(1, 1, 1), Mat3<double>::Identity()};
+  const Aabb<double> lower{V(-1, -1, -1), V(0x1.ffffffffcp-1, 0x1.cc0aap-4, 2)};
+  const auto gap = separation(upper, lower);
+  EXPECT_EQ(gap.normal, V(0, -1, 0));
+  EXPECT_EQ(gap.distance, 1 - 0x1.cc0aap-4);
+}
+
+}  // namespace
+}  // namespace thinwall
