@@ -99,14 +99,15 @@ template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, c
   return chord_through_ball(p, v, R, [&] { return accurate_discriminant(p, v, R); });
 }
 
-/// The first time at which a moving point is in a closed convex body.
+/// The first time at which a moving point is in a closed convex body. The vector comes first: it is written and read in pairs
+/// of numbers, and a pair written across two others' places costs ten cycles to read.
 template <Scalar S> struct Entry {
-  bool inside = false;   ///< already so at time 0, touching included
-  bool gave_up = false;  ///< out of rounds; `time` is proven free
-  bool graze = false;    ///< a few roundings of the coordinates may turn a miss into a hit, or back
-  S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
   Vec3<S> normal = Vec3<S>::Zero();             ///< unit, out of the body, where the point is at `time`
-  int rounds = 1;                               ///< how many closed forms were solved
+  S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
+  bool inside = false;                          ///< already so at time 0, touching included
+  bool gave_up = false;                         ///< out of rounds; `time` is proven free
+  bool graze = false;  ///< a few roundings of the coordinates may turn a miss into a hit, or back
+  int rounds = 1;      ///< how many closed forms were solved
 };
 
 template <Scalar S> Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R);

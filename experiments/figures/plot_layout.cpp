@@ -6,7 +6,7 @@ namespace thinwall {
 namespace {
 
 // [pixel], for text of 15 pixels
-constexpr double letter_width = 7.6, legend_sample = 60, legend_row = 23;
+constexpr double letter_width = 7.6, legend_sample = 70, legend_row = 23;
 constexpr double panel_height = 360;             // of a panel of height 1
 constexpr double shared_gap = 16, own_gap = 74;  // between panels that share their x axis, and others
 constexpr double bottom_margin = 66;
@@ -19,7 +19,7 @@ double room_for_names(const std::vector<Panel>& panels) {
   for (const Panel& panel : panels) {
     for (const Tic& tic : panel.y_tics) longest = std::max(longest, tic.label.size());
   }
-  return longest == 0 ? 0 : 44 + letter_width * static_cast<double>(longest);
+  return longest == 0 ? 0 : 56 + letter_width * static_cast<double>(longest);
 }
 
 std::size_t columns_that_fit(const std::vector<SeriesStyle>& styles, double width) {

@@ -13,9 +13,7 @@ template <class R> R size_of(const R& x) { return x < 0 ? R(-x) : x; }
 template <class R> Judgment judge_impact_in(const Exhibit& exhibit, ToiStatus status, double time, double allowed) {
   const Referee<R> referee(exhibit);
   const R u = exhibit.u, t = time;
-  const auto in_u = [&](const typename Referee<R>::State& s) {
-    return s.gap == 0 ? 0.0 : narrow(R(s.gap / (u * (s.scale > 0 ? s.scale : R(1)))));
-  };
+  const auto in_u = [&](const typename Referee<R>::State& s) { return narrow(R(s.margin / u)); };
   const auto fault = [](const char* property, double backward, const R& truly) {
     return Fault{property, std::to_string(backward) + " u, truly at " + text(narrow(truly))};
   };

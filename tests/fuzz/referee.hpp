@@ -27,11 +27,14 @@ template <class R> class Referee {
     R gap = 0;      ///< [length] < 0: the least translation that parts the two
     R closing = 0;  ///< [length] per step
     R scale = 0;    ///< [length] what one round-off is measured by
+    R margin =
+        0;  ///< [1] gap over scale; of two that overlap, along the direction in which the fewest round-offs part them
   };
 
   State at(const R& time) const {
     const oracle::Gap<R> apart = oracle::gap_at(problem_, time, tolerance());
-    const State outside{R(apart.core - problem_.reach), apart.closing, apart.scale};
+    const R gap = apart.core - problem_.reach;
+    const State outside{gap, apart.closing, apart.scale, over(gap, apart.scale)};
     return apart.core > touch() * size_at(time) ? outside : inside(time);
   }
 
@@ -92,6 +95,7 @@ template <class R> class Referee {
     }
     const Vec offset = oracle::combination(R(1), problem_.offset, time, problem_.motion);
     State best;
+    R margin = 0;
     bool found = false;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t j = i + 1; j < edges.size(); ++j) {
@@ -103,14 +107,17 @@ template <class R> class Referee {
         for (const int side : {1, -1}) {
           const Vec n = oracle::combination(R(side / length), across, R(0), across);
           const R distance = oracle::dot(n, offset) - support(n);
+          const R scale = scale_along(time, n), here = over(R(distance - problem_.reach), scale);
+          if (!found || here > margin) margin = here;
           if (found && distance <= best.gap) continue;
           found = true;
-          best = {distance, R(-oracle::dot(n, problem_.motion)), scale_along(time, n)};
+          best = {distance, R(-oracle::dot(n, problem_.motion)), scale, R(0)};
         }
       }
     }
     best.gap = (best.gap < 0 ? best.gap : R(0)) - problem_.reach;
     if (!found) best.scale = size_at(time);
+    best.margin = found ? (margin < 0 ? margin : R(0)) : over(best.gap, best.scale);
     return best;
   }
 
@@ -122,6 +129,7 @@ template <class R> class Referee {
     return scale;
   }
   static R size(const R& x) { return x < 0 ? R(-x) : x; }
+  static R over(const R& gap, const R& scale) { return scale > 0 ? R(gap / scale) : gap; }
 
   oracle::Problem<R> problem_;
 };
