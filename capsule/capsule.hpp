@@ -182,12 +182,14 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangl
 }
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Capsule<S>& capsule) {
-  const Vec3<S> from_a = ray.origin - capsule.a, core = capsule.b - capsule.a;
-  const Entry<S> entry = rounded_segment_entry(from_a, ray.direction, core, capsule.radius);
+  const Vec3<S> core = capsule.b - capsule.a;
+  const NearPath<S> path(ray.origin - capsule.a, ray.direction, capsule.radius + largest(core));
+  const Entry<S> entry = rounded_segment_entry(path.start, ray.direction, core, capsule.radius);
   if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
-  if (entry.inside || !(entry.time <= ray.max_t) || !is_finite(entry.time)) return std::nullopt;
-  const S s = closest_parameter<S>(from_a + ray.direction * entry.time, core);
-  return RayHit<S>{entry.time, capsule.a + core * s + entry.normal * capsule.radius, entry.normal};
+  const S time = entry.time + path.base_time;
+  if (entry.inside || !(time <= ray.max_t) || !is_finite(time)) return std::nullopt;
+  const S s = closest_parameter<S>(path.start + ray.direction * entry.time, core);
+  return RayHit<S>{time, capsule.a + core * s + entry.normal * capsule.radius, entry.normal};
 }
 
 }  // namespace thinwall

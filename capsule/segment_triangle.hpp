@@ -35,7 +35,7 @@ S parted_along(const Vec3<S>& gap, const Vec3<S>& x, const Vec3<S>& d, const Vec
 template <Scalar S>
 PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
-  const Vec3<S> normal = cross(e1, e2);
+  const Vec3<S> normal = accurate_cross(e1, e2);
   PrismPart<S> best;
   S least = std::numeric_limits<S>::infinity();
   const auto is_better = [&](const Vec3<S>& gap) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The oriented box, and its pairs with the sphere and both kinds of box.
 
+#include <limits>
 #include <optional>
 
 #include <thinwall/discrete/aabb.hpp>
@@ -91,9 +92,12 @@ template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Obb<S>& b) { retu
 template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) { return flipped(box_gap(box_pair(b, a))); }
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Obb<S>& box) {
-  const Ray<S> own{into<S>(box, ray.origin - box.center), into(box, ray.direction), ray.max_t};
-  auto hit = ray_entry(own, Aabb<S>{Vec3<S>::Zero(), box.half_extents});
-  if (!hit) return std::nullopt;
+  const NearPath<S> path(ray.origin - box.center, ray.direction, box.half_extents.sum());
+  const S max_t = path.base_time > S(0) ? std::numeric_limits<S>::infinity() : ray.max_t;
+  auto hit = ray_entry(Ray<S>{into(box, path.start), into(box, ray.direction), max_t},
+                       Aabb<S>{Vec3<S>::Zero(), box.half_extents});
+  if (!hit || !(hit->t + path.base_time <= ray.max_t)) return std::nullopt;
+  hit->t += path.base_time;
   hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin : Vec3<S>(box.center + out_of(box, hit->point));
   hit->normal = out_of(box, hit->normal);
   return hit;

@@ -48,9 +48,9 @@ template <Scalar S> Vec3<S> contact_point(const Triangle<S>&, const Vec3<S>& cor
 /// The part of the triangle (0, e1, e2) that is closest to x: 0 the face, 1 to 3 the edges e1, e2 - e1, -e2, 4 to 6 the
 /// corners they start from. Inside the face by the signs of three areas, else the nearest of the edges; a triangle of no
 /// area has edges only. Requires lengths whose products of four are in range.
-/// Error: a few u (|x| + |e1| + |e2|), more for the normal of a sliver. Source: derived here.
+/// Error: a few u (|x| + |e1| + |e2|). Source: derived here.
 template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3<S>& e1, const Vec3<S>& e2) {
-  Vec3<S> normal = cross(e1, e2);
+  Vec3<S> normal = accurate_cross(e1, e2);
   if (!products_in_range(largest(normal))) normal = times_power_of_two(normal, -binary_exponent(largest(normal)));
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
   const bool flat = normal != Vec3<S>::Zero();

@@ -44,13 +44,16 @@ template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
   return largest(n[(axis + 1) % 3]) > noise && largest(n[(axis + 2) % 3]) > noise ? 1 : 2;
 }
 
-/// Closest points of boxes that are apart.
+/// Closest points of boxes that are apart. Of those as near as each other, to rounding, the ones whose direction parts the
+/// boxes best: distances tell directions apart only to the square root of a rounding.
 template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
   BoxPoints<S> best;
   S least = std::numeric_limits<S>::infinity();
   const auto consider = [&](const Vec3<S>& on_a, const Vec3<S>& on_b) {
-    const S distance = safe_norm<S>(on_b - on_a);
-    if (distance < least) {
+    const Vec3<S> gap = on_b - on_a;
+    const S distance = safe_norm(gap), rounding = 4 * std::numeric_limits<S>::epsilon() * distance;
+    const bool ties = largest(S(distance - least)) <= rounding;
+    if (ties ? pair.overlap(gap) < pair.overlap(best.on_b - best.on_a) : distance < least) {
       least = distance;
       best = {on_a, on_b};
     }

@@ -23,13 +23,14 @@ template <Scalar S> struct CentreRay {
   S min_separation = 0;  ///< [length] >= 0: at the start only, a gap this small counts as contact
 };
 
-/// The center ray of `shooter` against the shape of `target`. The normal points from the shooter to the target; along the ray
-/// where the center starts in a target that, to rounding, the shooter does not overlap.
+/// The center ray of `shooter` against the shape of `target`. The normal points from the shooter to the target. Where the
+/// center starts in a target that, to rounding, the shooter does not overlap, it is along the ray; without a ray they are apart.
 template <Scalar T, Shape A, Shape B> Toi<T> cast_center(const Moving<A>& shooter, const Moving<B>& target) {
   const auto hit = raycast(Ray<T>{center(shooter.shape), relative_displacement(shooter, target), T(1)}, target.shape);
   if (!hit) return {ToiStatus::apart, 2};
   const bool starts_in_it = hit->normal == Vec3<T>::Zero();
   const Vec3<T> normal = starts_in_it ? safe_unit(relative_displacement(shooter, target)) : Vec3<T>(-hit->normal);
+  if (normal == Vec3<T>::Zero()) return {ToiStatus::apart, 2};
   return {ToiStatus::hit, 2, hit->t, normal, hit->point + target.displacement * hit->t};
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <thinwall/discrete/queries.hpp>
@@ -95,6 +96,42 @@ TEST(TouchToRounding, boxes_beside_each_other_are_parted_by_an_axis) {
   const auto gap = separation(upper, lower);
   EXPECT_EQ(gap.normal, V(0, -1, 0));
   EXPECT_EQ(gap.distance, 1 - 0x1.cc0aap-4);
+}
+
+TEST(TouchToRounding, parallel_rods_are_parted_across_them) {  // not from one's end to the other's, 2^-24 further on
+  Mat3<double> axes = Mat3<double>::Identity();
+  axes.col(0) << 0.6, 0.8, 0;
+  axes.col(1) << -0.8, 0.6, 0;
+  const V half(0x1p-20, 0x1p-25, 7);
+  const auto gap = separation(Obb<double>{V(0x1p-25, -7, 0x1p-24), half, axes}, Obb<double>{V(1, 4, 0), half, axes});
+  EXPECT_NEAR(gap.normal[2], 0, 1e-14);
+}
+
+TEST(TouchToRounding, ray_from_afar_through_a_capsule_hits_it) {  // in float a place on the path is known to 4 lengths
+  const Capsule<float> capsule{F(0, 4, 0x1.fffffcp+0F), F(-0.4F, 0, -0.15F), 0x1.fffffcp+0F};
+  for (const float x : {0.375F, -0.125F}) {
+    const Ray<float> ray{F(x, 0x1p+26F, 0.5F), F(2, -0x1p+27F, 0), 1};
+    const auto hit = raycast(ray, capsule);
+    ASSERT_TRUE(hit) << x;
+    EXPECT_NEAR(hit->t, 0.5F, 0x1p-23F);
+    const Obb<float> box{F(0, 2, 1), F(2, 2, 2), Mat3<float>::Identity()};
+    EXPECT_TRUE(raycast(ray, box)) << x;
+  }
+}
+
+TEST(TouchToRounding, center_at_the_corner_of_a_sliver_is_no_distance_from_it) {
+  const float r = 0x1.00004p+3F;
+  const auto gap = separation(Triangle<float>{F(-0x1.f8028cp-1F, -0x1.f908p-1F, 0), F(r, r, r), F(r, 0x1.004p+3F, r)},
+                              Sphere<float>{F(r, r, r), r});
+  EXPECT_NEAR(gap.distance, -r, 2e-6F);
+}
+
+TEST(TouchToRounding, center_in_a_triangle_that_its_body_misses_does_not_hit_it_at_rest) {
+  const auto segment = at_rest(Capsule<double>{V(-1, 6, 2), V(-6, -2.5, -2.5), 0});
+  const double huge = std::numeric_limits<double>::max();
+  const auto triangle = at_rest(Triangle<double>{V(-2.5, huge, -6.25), V(-0.5, -0x1p+52, 0x1p-4), V(-7.984375, 0, -8)});
+  const auto toi = time_of_impact(CentreRay<double>{}, segment, triangle);
+  EXPECT_TRUE(toi.status != ToiStatus::hit || safe_norm(toi.normal) > 0.5);
 }
 
 }  // namespace
