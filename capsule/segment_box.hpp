@@ -99,6 +99,10 @@ template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec
     fixed_axis = i;
     ++outside;
   }
+  if (outside > 0 && largest(part.gap) <= gap_noise(largest(x, d, h))) {  // where it enters the box, to rounding?
+    const auto [first, last] = stretch_between_faces(x, d, h);
+    if (first <= last) outside = 0;
+  }
   if (outside == 0) {  // the segment crosses the box
     const CoreGap<S> crossing = segment_through_box(x, d, h);
     part = {-1, CorePart<S>::face, x + crossing.normal * crossing.distance, crossing.normal};

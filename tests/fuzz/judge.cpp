@@ -1,5 +1,7 @@
 // Answers against the oracle: in long double, and at 50 digits where that finds fault.
 
+#include <cmath>
+
 #include "fuzz/finding.hpp"
 #include "fuzz/moderate.hpp"
 #include "fuzz/referee.hpp"
@@ -132,6 +134,8 @@ Judgment judge_bracket(const Exhibit& exhibit, ToiStatus verdict, double lower, 
 Judgment judge_time(const Exhibit& exhibit, double time, double lower, double upper, double allowed) {
   if ((time >= lower && time <= upper) || !is_clear(exhibit)) return {};
   const Referee<Digits50> referee(exhibit);
+  const double backward = narrow(referee.at(Digits50(time)).margin);
+  if (std::abs(backward) <= allowed * exhibit.u) return {};
   const auto truth = referee.first_contact(Digits50(lower) / 2);
   const double off = time < lower ? lower - time : time - upper;
   const double slack = exhibit.u * allowed * (narrow(truth.conditioning) + time) + exhibit.least;

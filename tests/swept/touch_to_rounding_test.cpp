@@ -45,6 +45,13 @@ TEST(TouchToRounding, segment_that_starts_on_a_plate_touches_it) {
   EXPECT_LT(toi.time, 1e-7F);
 }
 
+TEST(TouchToRounding, segment_through_a_box_overlaps_it_though_its_way_in_is_the_closest_point_found) {
+  const Moving segment{Capsule<double>{V(-0.6, -8, 5), V(-0.6, -0x1.64ec8p-1, -0x1.8p-4), 0}, V(0.5, -2.6, 2.5)};
+  const auto box = at_rest(Aabb<double>{V(-0x1.8dca66666666p-4, -7, 5), V(2, 0.7, 0x1.4d89cp+0)});
+  EXPECT_LT(separation(segment.shape, box.shape).distance, -0.5);
+  EXPECT_EQ(time_of_impact(segment, box).status, ToiStatus::overlapping);
+}
+
 TEST(TouchToRounding, triangle_with_two_equal_corners_keeps_its_bits_at_any_scale) {
   const Moving sphere{Sphere<double>{V(-0.8, -0x1.0f135cf53a706p+3, 0x1.55cb443f674eep+1), 0.8},
                       V(-0x1.ecabc4p-1, 0.4, -3)};
