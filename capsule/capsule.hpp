@@ -183,7 +183,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangl
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Capsule<S>& capsule) {
   const Vec3<S> core = capsule.b - capsule.a;
-  const NearPath<S> path(ray.origin - capsule.a, ray.direction, capsule.radius + largest(core));
+  const NearPath<S> path(ray.origin - capsule.a, ray.direction, capsule.radius + largest(core), S(64));
   const Entry<S> entry = rounded_segment_entry(path.start, ray.direction, core, capsule.radius);
   if (entry.inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
   const S time = entry.time + path.base_time;

@@ -92,7 +92,7 @@ template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Obb<S>& b) { retu
 template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) { return flipped(box_gap(box_pair(b, a))); }
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Obb<S>& box) {
-  const NearPath<S> path(ray.origin - box.center, ray.direction, box.half_extents.sum());
+  const NearPath<S> path(ray.origin - box.center, ray.direction, box.half_extents.sum(), S(64));
   const S max_t = path.base_time > S(0) ? std::numeric_limits<S>::infinity() : ray.max_t;
   auto hit = ray_entry(Ray<S>{into(box, path.start), into(box, ray.direction), max_t},
                        Aabb<S>{Vec3<S>::Zero(), box.half_extents});
