@@ -49,11 +49,12 @@ template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
 template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
   BoxPoints<S> best;
   S least = std::numeric_limits<S>::infinity();
+  const auto overlap = [&](const Vec3<S>& n) { return pair.overlap(safe_unit(n)); };
   const auto consider = [&](const Vec3<S>& on_a, const Vec3<S>& on_b) {
     const Vec3<S> gap = on_b - on_a;
     const S distance = safe_norm(gap), rounding = 4 * std::numeric_limits<S>::epsilon() * distance;
     const bool ties = largest(S(distance - least)) <= rounding;
-    if (ties ? pair.overlap(gap) < pair.overlap(best.on_b - best.on_a) : distance < least) {
+    if (ties ? overlap(gap) < overlap(best.on_b - best.on_a) : distance < least) {
       least = distance;
       best = {on_a, on_b};
     }

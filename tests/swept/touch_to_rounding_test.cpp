@@ -133,6 +133,22 @@ TEST(TouchToRounding, center_at_the_corner_of_a_sliver_is_no_distance_from_it) {
   EXPECT_NEAR(gap.distance, -r, 2e-6F);
 }
 
+TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_scale) {
+  Mat3<double> about_z = Mat3<double>::Identity(), about_y = Mat3<double>::Identity();
+  about_z.col(0) << 0.6, 0.8, 0;
+  about_z.col(1) << -0.8, 0.6, 0;
+  about_y.col(0) << 0.6, 0, -0.8;
+  about_y.col(2) << 0.8, 0, 0.6;
+  const double h = 0x1.3333333333334p-1;
+  const Obb<double> a{V(2, 4, 6), V(h, h, h), about_z}, b{V(-h, -h, -h), V(h, h, h), about_y};
+  const auto near = separation(a, b);
+  for (const int e : {-700, 700}) {
+    const auto far = separation(scaled(a, e), scaled(b, e));
+    EXPECT_EQ(far.distance, times_power_of_two(near.distance, e)) << e;
+    EXPECT_EQ(far.normal, near.normal) << e;
+  }
+}
+
 TEST(TouchToRounding, center_in_a_triangle_that_its_body_misses_does_not_hit_it_at_rest) {
   const auto segment = at_rest(Capsule<double>{V(-1, 6, 2), V(-6, -2.5, -2.5), 0});
   const double huge = std::numeric_limits<double>::max();
