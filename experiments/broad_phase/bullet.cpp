@@ -21,7 +21,8 @@ btScalar up(double x) { return -down(-x); }
 btVector3 low_of(const Proxy& p) { return {down(p.low[0]), down(p.low[1]), down(p.low[2])}; }
 btVector3 high_of(const Proxy& p) { return {up(p.high[0]), up(p.high[1]), up(p.high[2])}; }
 
-/// Bullet's dynamic tree with its own settings and its own cache of pairs, which is where its users read them.
+/// Bullet's dynamic tree with its own cache of pairs, which is where its users read them. It looks for pairs once all boxes
+/// have moved: its default, to look after each box, takes about twice as long on these worlds.
 class BulletFinder final : public Finder {
  public:
   explicit BulletFinder(bool keeps_tree) : keeps_tree_(keeps_tree) {}
@@ -56,6 +57,7 @@ class BulletFinder final : public Finder {
   void build(std::span<const Proxy> proxies) {
     bodies_.clear();
     tree_ = std::make_unique<btDbvtBroadphase>();
+    tree_->m_deferedcollide = true;
     names_.resize(proxies.size());
     for (std::size_t i = 0; i < proxies.size(); ++i) {
       names_[i] = static_cast<std::uint32_t>(i);

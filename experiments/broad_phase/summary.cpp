@@ -141,7 +141,7 @@ std::vector<Section> broad_phase_sections(const std::vector<SurveyLine>& lines) 
   }
   if (most > 0)
     against = fmt::format(
-        "\n\nBullet's btDbvtBroadphase, with its own settings, is timed with its tree built anew and with its tree moved on by a "
+        "\n\nBullet's btDbvtBroadphase, set to look for pairs once all boxes have moved, is timed with its tree built anew and moved on by a "
         "step, its boxes in float and rounded outward. It keeps pairs in a cache, unsorted, and boxes with a margin: what it finds "
         "beyond the pairs is counted as extra and held against nobody. From {} balls on, the quicker of the two takes {:.1f} to {:.1f} "
         "times as long as the best of ours.",

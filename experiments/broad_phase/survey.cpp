@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <memory>
 #include <mutex>
@@ -37,19 +38,37 @@ std::int64_t count_in_first_only(const std::vector<ProxyPair>& a, const std::vec
   return count;
 }
 
-constexpr std::int64_t least_rounds = 3;
-
 using Steps = std::array<std::vector<Proxy>, 2>;
 
+/// [s] a call, over `calls` of them, on the boxes of one step and of the other in turn. `turn` says whose is next.
+double time_calls(Finder& finder, const Steps& steps, std::int64_t calls, std::size_t& turn) {
+  const double start = thread_seconds();
+  for (std::int64_t i = 0; i < calls; ++i) finder.find(steps[turn ^= 1]);
+  return (thread_seconds() - start) / static_cast<double>(calls);
+}
+
+constexpr std::int64_t least_rounds = 3;
+constexpr double least_seconds = 1e-4;     // [s] that a round takes at least: reading the clock takes 1e-6
+constexpr std::int64_t most_calls = 1000;  // a round
+
+/// The finders have seen the first of the steps.
 void time_rounds(const Steps& steps, const SurveyOptions& options, std::vector<std::unique_ptr<Finder>>& finders,
                  std::vector<Finding>& findings) {
+  std::vector<std::pair<std::int64_t, std::size_t>> calls_and_turns;
+  for (const auto& finder : finders) {
+    std::size_t turn = 0;
+    const double once = time_calls(*finder, steps, 1, turn);
+    calls_and_turns.emplace_back(once > least_seconds ? 1 : most_calls, turn);
+    if (once > least_seconds / static_cast<double>(most_calls) && once <= least_seconds)
+      calls_and_turns.back().first = static_cast<std::int64_t>(std::ceil(least_seconds / once));
+  }
   for (std::int64_t round = 0; round < options.rounds; ++round) {
     for (std::size_t k = 0; k < finders.size(); ++k) {
+      auto& [calls, turn] = calls_and_turns[k];
       std::vector<double>& times = findings[k].milliseconds;
-      if (round >= least_rounds && std::accumulate(times.begin(), times.end(), 0.0) > 1e3 * options.seconds) continue;
-      const double start = thread_seconds();
-      finders[k]->find(steps[static_cast<std::size_t>((round + 1) % 2)]);  // the first step was taken to warm up
-      times.push_back(1e3 * (thread_seconds() - start));
+      const double spent = 1e-3 * std::accumulate(times.begin(), times.end(), 0.0) * static_cast<double>(calls);
+      if (round >= least_rounds && spent > options.seconds) continue;
+      times.push_back(1e3 * time_calls(*finders[k], steps, calls, turn));
     }
   }
 }
