@@ -38,7 +38,7 @@ void add_series(Panel& panel, const std::vector<SurveyLine>& some, const std::st
     const auto count = static_cast<double>(line.factors.count);
     points.x.push_back(count);
     if (memory) {
-      points.y.push_back(static_cast<double>(*f->bytes) / count);
+      points.y.push_back(1e-6 * static_cast<double>(*f->bytes));
       continue;
     }
     points.y.push_back(1e6 * time.median / count);
@@ -56,7 +56,7 @@ Figure figure(const std::vector<SurveyLine>& lines, bool memory) {
   figure.title = memory ? "Memory of finding all pairs" : "Time to find all pairs";
   figure.caption =
       memory
-          ? "Bytes a ball of working memory and pairs, beside the boxes themselves. Bullet's cannot be told."
+          ? "Working memory and pairs, beside the boxes themselves. Bullet's cannot be told."
           : "Nanoseconds a ball against the number of balls at constant density: level is linear growth. Medians over "
             "interleaved rounds, mostly wider than their 95 % bootstrap intervals.";
   figure.is_timing = true;
@@ -69,7 +69,7 @@ Figure figure(const std::vector<SurveyLine>& lines, bool memory) {
     seen.push_back(line.factors);
     Panel panel;
     panel.x_label = "balls";
-    panel.y_label = fmt::format("{} a ball; {}, {:g} m a step", memory ? "bytes" : "ns", placement_name(line.factors),
+    panel.y_label = fmt::format("{}; {}, {:g} m a step", memory ? "MB" : "ns a ball", placement_name(line.factors),
                                 line.factors.speed);
     panel.log_x = panel.log_y = true;
     const std::vector<SurveyLine> some = lines_like(lines, line.factors);
