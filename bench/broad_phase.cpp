@@ -44,8 +44,8 @@ void find_all(benchmark::State& state, std::string_view name, double speed, std:
     odd = !odd;
     finder->find(odd ? steps.next : steps.now);
   }
-  if (const auto bytes = finder->bytes())
-    state.counters["bytes_a_ball"] = static_cast<double>(*bytes) / static_cast<double>(count);
+  const double bytes = static_cast<double>(finder->bytes().value_or(0));
+  if (bytes > 0) state.counters["bytes_a_ball"] = bytes / static_cast<double>(count);
 }
 
 /// Which worlds a broad phase can be asked to look at within a benchmark's patience.

@@ -8,18 +8,19 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <thinwall/discrete/broad_phase/proxy.hpp>
 
 namespace thinwall {
 
-/// The bodies whose widest side lies between one power of two and the next, those at rest apart from those that move.
+/// The bodies whose widest side lies between one power of two and the next, and of one kind.
 /// A body lies in the cell of its low corner. A cell is wider than every body of the grid, so a body that another one
 /// touches lies at most one cell further. The cells wrap around: far bodies may share a cell and are told apart by
 /// their boxes, so that memory depends on the number of bodies alone, and an escaped body costs nothing.
 struct GridLevel {
-  bool is_static = false;                               ///< two such bodies are never a pair
+  int kind = 0;  ///< 0: its bodies may meet; else none of one kind meets another of that kind, here or in other grids
   bool bounded = true;                                  ///< false: boxes of no size a cell could have, all in one cell
   int size_class = 0;                                   ///< binary exponent of the widest side
   std::uint32_t count = 0;                              ///< of bodies
@@ -51,11 +52,34 @@ inline int size_class_of(const Vec3<double>& sides) {
   return static_cast<int>(std::bit_cast<std::uint64_t>(widest) >> 52) - 1023;
 }
 
+/// Tells apart the bodies that never meet their like: static ones, and those of a group that their own mask leaves out,
+/// such as debris. So a heap of them costs nothing.
+class Kinds {
+ public:
+  static constexpr int most = 4;
+
+  int of(const Proxy& p) {
+    if (p.is_static) return 1;
+    if ((p.group & p.mask) != 0) return 0;
+    for (int k = 2; k < used_; ++k) {
+      if (known_[static_cast<std::size_t>(k)] == std::pair{p.group, p.mask}) return k;
+    }
+    if (used_ == most) return 0;  // held against each other, for nothing
+    known_[static_cast<std::size_t>(used_)] = {p.group, p.mask};
+    return used_++;
+  }
+
+ private:
+  int used_ = 2;
+  std::array<std::pair<std::uint32_t, std::uint32_t>, most> known_{};
+};
+
 /// Puts every body that is not skipped into a grid; fills `levels`, in no order of size, and `level_of`.
 inline void sort_by_size(std::span<const Proxy> proxies, std::vector<GridLevel>& levels,
                          std::vector<std::uint16_t>& level_of) {
-  constexpr std::size_t classes = 2 * (unbounded_class + 1024);
-  std::array<std::uint16_t, classes> level_at{};
+  constexpr std::size_t classes = unbounded_class + 1024;
+  std::array<std::uint16_t, Kinds::most * classes> level_at;  // filled below
+  Kinds kinds;
   level_at.fill(no_level);
   levels.clear();
   level_of.assign(proxies.size(), no_level);
@@ -64,11 +88,13 @@ inline void sort_by_size(std::span<const Proxy> proxies, std::vector<GridLevel>&
     if (p.skipped) continue;
     const Vec3<double> sides = p.high - p.low;
     const int size_class = size_class_of(sides);
-    std::uint16_t& at = level_at[2 * static_cast<std::size_t>(size_class + 1023) + (p.is_static ? 1 : 0)];
+    const int kind = kinds.of(p);
+    std::uint16_t& at =
+        level_at[static_cast<std::size_t>(kind) * classes + static_cast<std::size_t>(size_class + 1023)];
     if (at == no_level) {
       at = static_cast<std::uint16_t>(levels.size());
       GridLevel& fresh = levels.emplace_back();
-      fresh.is_static = p.is_static;
+      fresh.kind = kind;
       fresh.bounded = size_class != unbounded_class;
       fresh.size_class = size_class;
       for (std::size_t k = 0; k < 3; ++k) fresh.least[k] = fresh.greatest[k] = p.low[static_cast<int>(k)];

@@ -29,7 +29,8 @@ struct Proxy {
 struct ProxyPair {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
-  friend auto operator<=>(const ProxyPair&, const ProxyPair&) = default;
+  friend bool operator==(const ProxyPair&, const ProxyPair&) = default;
+  friend auto operator<=>(const ProxyPair&, const ProxyPair&) = default;  // NOLINT(modernize-use-nullptr): false alarm
 };
 
 /// More pairs than the caller allows. The list of pairs is left empty.

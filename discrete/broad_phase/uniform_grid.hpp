@@ -194,11 +194,11 @@ inline void find_pairs(const UniformGrid&, std::span<const Proxy> proxies, std::
   grid::sort_by_cell(proxies, m);
   grid::Scanner scanner(m, sink);
   for (const GridLevel& level : m.levels) {
-    if (!level.is_static) grid::scan_level(level, m, scanner);
+    if (level.kind == 0) grid::scan_level(level, m, scanner);
     const std::uint32_t begin = m.starts[level.first_cell];
     for (const GridLevel& other : m.levels) {
-      if (other.size_class < level.size_class || (level.is_static && other.is_static)) continue;
-      if (other.size_class == level.size_class && (other.is_static || !level.is_static)) continue;
+      if (other.size_class < level.size_class || (other.kind == level.kind && level.kind != 0)) continue;
+      if (other.size_class == level.size_class && other.kind <= level.kind) continue;  // itself, or seen from there
       for (std::uint32_t a = begin; a < begin + level.count; ++a) grid::scan_other_level(a, other, m, scanner);
     }
   }

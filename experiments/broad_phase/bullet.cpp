@@ -28,10 +28,11 @@ class BulletFinder final : public Finder {
   explicit BulletFinder(bool keeps_tree) : keeps_tree_(keeps_tree) {}
 
   void find(std::span<const Proxy> proxies) override {
-    if (!keeps_tree_ || bodies_.size() != proxies.size())
-      build(proxies);
-    else
+    if (keeps_tree_ && bodies_.size() == proxies.size()) {
       move(proxies);
+    } else {
+      build(proxies);
+    }
     tree_->calculateOverlappingPairs(nullptr);
   }
 

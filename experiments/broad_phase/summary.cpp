@@ -111,9 +111,10 @@ std::string broad_phase_answer(const std::vector<SurveyLine>& lines) {
                   best->finder, grouped_text(largest->survey.pairs), milliseconds_text(median(best->milliseconds)));
   if (const Finding* tree = finding_of(largest->survey, "r_tree"); tree != nullptr && tree != best)
     text += fmt::format(", the R-tree in {} ms", milliseconds_text(median(tree->milliseconds)));
-  if (const Finding* bullet = bullet_of(largest->survey))
-    text +=
-        fmt::format(", Bullet's tree ({}) in {} ms", bullet->finder, milliseconds_text(median(bullet->milliseconds)));
+  if (const Finding* bullet = bullet_of(largest->survey)) {
+    text += fmt::format(", Bullet's tree ({}) in {} ms", bullet->finder,  //
+                        milliseconds_text(median(bullet->milliseconds)));
+  }
   text += ".";
   if (const std::int64_t most = loop_is_best_up_to(lines); most > 0)
     text += fmt::format(" The half loop is the quickest up to {} balls.", grouped_text(most));
@@ -139,13 +140,14 @@ std::vector<Section> broad_phase_sections(const std::vector<SurveyLine>& lines) 
     least = std::min(least, ratio);
     most = std::max(most, ratio);
   }
-  if (most > 0)
+  if (most > 0) {
     against = fmt::format(
         "\n\nBullet's btDbvtBroadphase, set to look for pairs once all boxes have moved, is timed with its tree built anew and moved on by a "
         "step, its boxes in float and rounded outward. It keeps pairs in a cache, unsorted, and boxes with a margin: what it finds "
         "beyond the pairs is counted as extra and held against nobody. From {} balls on, the quicker of the two takes {:.1f} to {:.1f} "
         "times as long as the best of ours.",
         grouped_text(static_cast<std::int64_t>(growth_from)), least, most);
+  }
   return {
       {"What is asked",
        "Balls of 1 m diameter fly straight during a step, each in a direction of its own. Every broad phase is given the boxes that "

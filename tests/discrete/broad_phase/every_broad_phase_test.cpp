@@ -100,6 +100,17 @@ TYPED_TEST(EveryBroadPhase, pairs_bodies_only_if_each_mask_has_the_other_group) 
   EXPECT_EQ(pairs_of<TypeParam>(proxies), Pairs{});
 }
 
+TEST(UniformGrid, is_not_slowed_by_a_heap_of_bodies_that_leave_each_other_out) {  // 5e11 looks if it were
+  Proxy debris = cube(0);
+  debris.group = 2;
+  debris.mask = ~std::uint32_t{2};
+  std::vector<Proxy> proxies(1000000, debris);
+  proxies.push_back(cube(1));
+  const Pairs pairs = pairs_of<UniformGrid>(proxies);
+  EXPECT_EQ(pairs.size(), 1000000U);
+  EXPECT_EQ(pairs.back(), (ProxyPair{999999, 1000000}));
+}
+
 TYPED_TEST(EveryBroadPhase, pairs_a_giant_with_all_and_an_infinite_floor_with_what_reaches_it) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Proxy> proxies;
