@@ -54,6 +54,15 @@ std::optional<double> miss_probability(const RoundedBox& box, const Vec3<double>
   return 1 - volume(box) / (spacing * shadow(box, direction));
 }
 
+std::optional<double> unturned_probability(const RoundedBox& box, const Vec3<double>& direction, double spacing) {
+  if (spacing < longest_chord(box, direction)) return std::nullopt;
+  const double h = box.half_extents[0], side = box.half_extents[1];
+  // Where the nearest face is one that the motion runs along: over that face, and a roof of the box below it.
+  const double beside = 2 * (box.radius * 4 * h * side + 4 * (side * h * h / 2 - h * h * h / 6));
+  const double across = beside * (direction[1] == 0 ? 2 : 1);
+  return 1 - (volume(box) - across) / (2 * spacing * shadow(box, direction));
+}
+
 std::optional<double> center_ray_miss_probability(const RoundedBox& box, double step) {
   const double chord = 2 * (box.half_extents[0] + box.radius);
   if (step < chord) return std::nullopt;

@@ -26,6 +26,7 @@ struct Plan {
   std::vector<Detector> detectors;
   std::int64_t shots;  ///< of each cell and detector
   std::uint64_t seed;
+  Response response;
 };
 
 /// Throws UsageError.
