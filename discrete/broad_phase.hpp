@@ -1,0 +1,14 @@
+#pragma once
+/// Every way to find the pairs of bodies that may touch (docs/broad_phase.md). A new one is a header of its own and one
+/// line here: tests, benchmarks and experiments loop over this list.
+
+#include <thinwall/discrete/broad_phase/all_pairs.hpp>
+#include <thinwall/discrete/type_list.hpp>
+
+namespace thinwall {
+
+using BroadPhases = TypeList<  //
+    AllPairs,                  //
+    AllOrderedPairs>;
+
+}  // namespace thinwall
