@@ -17,7 +17,7 @@ namespace {
 
 class ThinWallRun final : public Run {
  public:
-  explicit ThinWallRun(Plan plan) : plan_(std::move(plan)), stratified_(stratified_plan(plan_)) {}
+  explicit ThinWallRun(ShotPlan plan) : plan_(std::move(plan)), stratified_(stratified_plan(plan_)) {}
 
   /// First every cell at every detector, cell by cell, then the stratified cells.
   std::vector<Unit> units() const override {
@@ -90,7 +90,7 @@ class ThinWallRun final : public Run {
     return counts;
   }
 
-  Plan plan_;
+  ShotPlan plan_;
   StratifiedPlan stratified_;
 };
 

@@ -89,8 +89,8 @@ std::vector<Cell> make_cells(const Settings& settings) {
 
 }  // namespace
 
-Plan make_plan(const Settings& settings, const RunOptions& options) {
-  Plan plan;
+ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
+  ShotPlan plan;
   plan.cells = make_cells(settings);
   plan.response = settings.choice("response", response_names) == "bounce" ? Response::bounce : Response::none;
   plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", 2, 1000),

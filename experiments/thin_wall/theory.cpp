@@ -35,8 +35,10 @@ Theory confirmed_ray_theory(const Cell& cell) {
 /// The plane before an infinite wall is the wall. Beside one that ends, the plane reaches on, and so do its hits.
 Theory speculative_theory(const Cell& cell) { return early_theory(cell, cell.wall == Wall::finite ? 1 : 0); }
 
+/// At a rim, what is seen before contact may lie beside the ball: it is then pushed neither back nor ahead.
 Theory early_theory(const Cell& cell, double tolerance) {
-  return {0, std::nullopt, 0, tolerance * step_length(cell), 0};
+  const bool turns = cell.wall == Wall::infinite;
+  return {0, std::nullopt, 0, tolerance * step_length(cell), turns ? std::optional(0.0) : std::nullopt};
 }
 
 /// Seen before the middle of the wall, it turns back. At a rim there is no depth that is safe.

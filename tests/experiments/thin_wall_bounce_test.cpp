@@ -89,7 +89,7 @@ bool self_test_passes(double (*theory)(const Cell&)) {
     response = "bounce"
     method = ["end_of_step"])",
                           "test.toml", experiment.default_toml);
-  const Plan plan = make_plan(settings, {.seed = 1, .trials = {}});
+  const ShotPlan plan = make_plan(settings, {.seed = 1, .trials = {}});
   const auto results = results_of(experiment.configure(settings, {.seed = 1, .trials = {}})->units());
   std::vector<Tally> tallies;
   for (std::size_t i = 0; i < plan.cells.size() * plan.detectors.size(); ++i)
@@ -114,7 +114,7 @@ TEST(ThinWallBounce, fails_a_wrong_theory) {
 
 TEST(ThinWallBounce, ends_must_be_where_the_push_led) {
   const Experiment experiment = thin_wall_experiment();
-  const Plan plan = make_plan(Settings(bouncing, "test.toml", experiment.default_toml), {.seed = 1, .trials = {}});
+  const ShotPlan plan = make_plan(Settings(bouncing, "test.toml", experiment.default_toml), {.seed = 1, .trials = {}});
   Tally tally = {.shots = 100, .tunneled = 40, .wrong_side = 10, .behind = 50};
   const std::size_t cells = plan.cells.size() * plan.detectors.size();
   EXPECT_TRUE(ends_agree(make_lines(plan, std::vector<Tally>(cells, tally), std::vector<double>(cells))));
