@@ -22,7 +22,9 @@ foreach(folder IN ITEMS discrete capsule swept experiments)
   add_library(headers_all_${folder} OBJECT EXCLUDE_FROM_ALL "${all}")
   foreach(target IN ITEMS headers_alone_${folder} headers_all_${folder})
     target_link_libraries(${target} PRIVATE thinwall::${folder} thinwall_options)
-    if(folder STREQUAL "swept")
+    if(folder STREQUAL "discrete")
+      target_link_libraries(${target} PRIVATE Boost::headers)  # the broad phase's R-tree
+    elseif(folder STREQUAL "swept")
       target_link_libraries(${target} PRIVATE thinwall::certified)  # its headers lie there
     endif()
   endforeach()

@@ -1,0 +1,109 @@
+#pragma once
+/// A tree of nested boxes, built anew for each step. Needs Boost.Geometry; nothing else in discrete/ does.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#ifndef BOOST_ALLOW_DEPRECATED_HEADERS  // Boost's R-tree includes one of its own, and would say so in every build
+#define BOOST_ALLOW_DEPRECATED_HEADERS
+#define THINWALL_ALLOWED_DEPRECATED_HEADERS
+#endif
+#include <boost/geometry/core/cs.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#ifdef THINWALL_ALLOWED_DEPRECATED_HEADERS
+#undef BOOST_ALLOW_DEPRECATED_HEADERS
+#undef THINWALL_ALLOWED_DEPRECATED_HEADERS
+#endif
+
+#include <thinwall/discrete/broad_phase/pair_sink.hpp>
+#include <thinwall/discrete/broad_phase/proxy.hpp>
+
+namespace thinwall {
+
+/// Boost.Geometry's R-tree, packed from all boxes at once, asked once for each moving body. Its boxes are floats, rounded
+/// outward; what it finds is checked with the boxes given. Time n log n, whatever the sizes.
+/// Source: Leutenegger, Lopez and Edgington, STR: a simple and efficient algorithm for R-tree packing, 1997, and
+/// Garcia, Lopez and Leutenegger 1998, as Boost.Geometry says.
+struct RTree {
+  static constexpr std::string_view name = "r_tree";
+  struct Memory;
+};
+
+namespace r_tree {
+
+using Point = boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>;
+using Box = boost::geometry::model::box<Point>;
+using Entry = std::pair<Box, std::uint32_t>;
+using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<8>>;
+
+inline constexpr double largest =
+    0x1p120;  ///< [length] beyond, coordinates are one: sums and differences must be floats
+
+/// The greatest float <= x, within `largest`. Never falls as x grows, so boxes that touch still do.
+inline float float_below(double x) {
+  const auto y = static_cast<float>(std::clamp(x, -largest, largest));
+  return static_cast<double>(y) > x ? std::nextafter(y, -std::numeric_limits<float>::infinity()) : y;
+}
+inline float float_above(double x) { return -float_below(-x); }
+
+inline Box box_of(const Proxy& p) {
+  return {{float_below(p.low[0]), float_below(p.low[1]), float_below(p.low[2])},
+          {float_above(p.high[0]), float_above(p.high[1]), float_above(p.high[2])}};
+}
+
+/// An output iterator that hands each entry to a function.
+template <class F> class Each {
+ public:
+  explicit Each(F& take) : take_(&take) {}
+  Each& operator*() { return *this; }
+  Each& operator++() { return *this; }
+  Each operator++(int) { return *this; }
+  Each& operator=(const Entry& entry) {
+    (*take_)(entry);
+    return *this;
+  }
+
+ private:
+  F* take_;
+};
+
+}  // namespace r_tree
+
+struct RTree::Memory {
+  PairMemory pairs;
+  std::vector<r_tree::Entry> entries;
+};
+
+inline void find_pairs(const RTree&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,
+                       std::size_t max_pairs, RTree::Memory& m) {
+  pairs.clear();
+  require_valid(proxies);
+  PairSink sink(proxies, max_pairs, m.pairs);
+  m.entries.clear();
+  for (std::size_t i = 0; i < proxies.size(); ++i) {
+    if (!proxies[i].skipped) m.entries.emplace_back(r_tree::box_of(proxies[i]), static_cast<std::uint32_t>(i));
+  }
+  const r_tree::Tree tree(m.entries);
+  for (const r_tree::Entry& mine : tree) {  // in the tree's order: the next query walks where the last one did
+    const Proxy& body = proxies[mine.second];
+    if (body.is_static) continue;
+    auto take = [&](const r_tree::Entry& other) {
+      const Proxy& partner = proxies[other.second];
+      if (!partner.is_static && other.second <= mine.second) return;  // found from the other side, or itself
+      if (boxes_touch(body, partner)) sink.add(mine.second, other.second);
+    };
+    tree.query(boost::geometry::index::intersects(mine.first), r_tree::Each(take));
+  }
+  sink.finish(pairs);
+}
+
+}  // namespace thinwall

@@ -1,0 +1,156 @@
+// Every broad phase finds what the half loop finds, in the same order.
+
+#include <thinwall/discrete/broad_phase.hpp>
+
+#include "support/draw_proxies.hpp"
+#include "support/property.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+using Pairs = std::vector<ProxyPair>;
+
+template <class Method> Pairs pairs_of(const std::vector<Proxy>& proxies) {
+  Pairs pairs;
+  find_pairs(Method{}, proxies, pairs);
+  return pairs;
+}
+
+Proxy box(const Vec3<double>& low, const Vec3<double>& high) {
+  Proxy p;
+  p.low = low;
+  p.high = high;
+  return p;
+}
+Proxy cube(double x, double side = 1) { return box({x, 0, 0}, {x + side, side, side}); }
+
+template <class List> struct AsTypes;
+template <class... M> struct AsTypes<TypeList<M...>> {
+  using type = ::testing::Types<M...>;
+};
+
+struct MethodNames {
+  template <class M> static std::string GetName(int) { return std::string(M::name); }
+};
+
+template <class M> class EveryBroadPhase : public ::testing::Test {};
+TYPED_TEST_SUITE(EveryBroadPhase, AsTypes<BroadPhases>::type, MethodNames);
+
+TYPED_TEST(EveryBroadPhase, finds_what_the_half_loop_finds_in_random_worlds) {
+  typename TypeParam::Memory memory;  // kept from world to world, as a caller may
+  Pairs found;
+  check_property(10000, [&] {
+    Shaker<double> draw(static_cast<unsigned>(draw_integer(0, 1 << 30)));
+    const std::vector<Proxy> proxies = drawn_proxies(draw, draw.pick(0, 9) == 0 ? 200 : 24);
+    find_pairs(TypeParam{}, proxies, found, no_pair_limit, memory);
+    if (found != pairs_of<AllPairs>(proxies)) RC_FAIL("other pairs than the half loop:\n" + describe(proxies));
+  });
+}
+
+TYPED_TEST(EveryBroadPhase, finds_the_pairs_of_a_larger_mixed_world) {
+  Shaker<double> draw(7);
+  std::vector<Proxy> proxies;
+  for (int i = 0; i < 3000; ++i) {
+    const double size = std::ldexp(1.0, -draw.pick(0, 6));
+    const Vec3<double> low = draw.vector() * 3;
+    proxies.push_back(box(low, low + draw.sizes() * size));
+    proxies.back().is_static = draw.pick(0, 4) == 0;
+  }
+  const Pairs expected = pairs_of<AllPairs>(proxies);
+  EXPECT_GT(expected.size(), 1000U);
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), expected);
+}
+
+TYPED_TEST(EveryBroadPhase, counts_touching_as_a_pair_and_the_next_number_as_none) {
+  EXPECT_EQ(pairs_of<TypeParam>({cube(0), cube(1)}), (Pairs{{0, 1}}));
+  EXPECT_EQ(pairs_of<TypeParam>({cube(std::nextafter(1.0, 2.0)), cube(0)}), Pairs{});
+  EXPECT_EQ(pairs_of<TypeParam>({cube(0), box({1, 1, 1}, {1, 1, 1})}), (Pairs{{0, 1}}));  // a point at a corner
+  EXPECT_EQ(pairs_of<TypeParam>({cube(0, 0), cube(0, 0)}), (Pairs{{0, 1}}));              // two points at one place
+}
+
+TYPED_TEST(EveryBroadPhase, knows_a_touch_far_from_the_origin) {
+  const double far_off = 0x1p52;
+  const std::vector<Proxy> proxies = {cube(far_off), cube(far_off + 1), cube(far_off + 3)};
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), (Pairs{{0, 1}}));
+}
+
+TYPED_TEST(EveryBroadPhase, finds_nothing_among_none_or_one) {
+  EXPECT_EQ(pairs_of<TypeParam>({}), Pairs{});
+  EXPECT_EQ(pairs_of<TypeParam>({cube(0)}), Pairs{});
+}
+
+TYPED_TEST(EveryBroadPhase, never_pairs_static_bodies_or_skipped_ones) {
+  std::vector<Proxy> proxies(4, cube(0));
+  proxies[0].is_static = proxies[1].is_static = true;
+  proxies[2].skipped = true;
+  proxies[2].low[0] = std::numeric_limits<double>::quiet_NaN();  // not read
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), (Pairs{{0, 3}, {1, 3}}));
+}
+
+TYPED_TEST(EveryBroadPhase, pairs_bodies_only_if_each_mask_has_the_other_group) {
+  std::vector<Proxy> proxies(3, cube(0));
+  proxies[0].group = 1;
+  proxies[0].mask = 6;
+  proxies[1].group = 2;
+  proxies[1].mask = 4;
+  proxies[2].group = 4;
+  proxies[2].mask = 3;
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), (Pairs{{0, 2}, {1, 2}}));
+  proxies[2].group = 0;  // belongs nowhere
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), Pairs{});
+}
+
+TYPED_TEST(EveryBroadPhase, pairs_a_giant_with_all_and_an_infinite_floor_with_what_reaches_it) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Proxy> proxies;
+  Pairs expected;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    proxies.push_back(cube(3.0 * i));
+    expected.push_back({i, 50});
+    if (i < 2) expected.push_back({i, 51});
+  }
+  proxies.push_back(cube(-1e9, 2e9));
+  proxies.back().low = Vec3<double>::Constant(-1e9);
+  proxies.push_back(box(Vec3<double>::Constant(-infinity), {3.5, infinity, infinity}));
+  expected.push_back({50, 51});
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), expected);
+}
+
+TYPED_TEST(EveryBroadPhase, stops_when_pairs_explode_with_bounded_memory) {
+  const std::vector<Proxy> proxies(1000, cube(0));  // half a million pairs
+  Pairs pairs(3);
+  typename TypeParam::Memory memory;
+  EXPECT_THROW(find_pairs(TypeParam{}, proxies, pairs, 5000, memory), TooManyPairs);
+  EXPECT_TRUE(pairs.empty());
+  EXPECT_LE(pairs.capacity(), 3 * 5000U);
+  find_pairs(TypeParam{}, proxies, pairs, 499500, memory);  // as many as there are: allowed
+  EXPECT_EQ(pairs.size(), 499500U);
+  try {
+    find_pairs(TypeParam{}, proxies, pairs, 7, memory);
+    FAIL() << "no complaint";
+  } catch (const TooManyPairs& complaint) {
+    EXPECT_EQ(complaint.max_pairs, 7U);
+    EXPECT_EQ(std::string(complaint.what()),
+              "more than 7 pairs of bodies may touch: allow more pairs, or part bodies that lie on one another");
+  }
+}
+
+TYPED_TEST(EveryBroadPhase, refuses_a_box_that_is_no_box_by_its_index) {
+  std::vector<Proxy> proxies(3, cube(0));
+  proxies[1].high[2] = std::numeric_limits<double>::quiet_NaN();
+  const auto complaint = [&] {
+    try {
+      pairs_of<TypeParam>(proxies);
+    } catch (const InvalidProxy& invalid) {
+      return std::to_string(invalid.index) + " | " + invalid.what();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(complaint(), "1 | proxy 1: its box is not a number");
+  proxies[1] = cube(0);
+  proxies[2].low[0] = 2;
+  EXPECT_EQ(complaint(), "2 | proxy 2: its box has low > high");
+}
+
+}  // namespace
+}  // namespace thinwall::testing
