@@ -66,8 +66,8 @@ void require_valid(const WorldOptions& options) {
 std::vector<Body> checked_and_sorted(std::vector<Body> bodies) {
   for (const Body& body : bodies) require_valid(body);
   std::stable_sort(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.id < b.id; });
-  const auto twins = std::adjacent_find(bodies.begin(), bodies.end(),
-                                        [](const Body& a, const Body& b) { return a.id == b.id; });
+  const auto twins =
+      std::adjacent_find(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.id == b.id; });
   if (twins != bodies.end()) throw WorldError(called(*twins) + " and " + called(*(twins + 1)) + " share one id");
   return bodies;
 }

@@ -21,10 +21,10 @@ struct Motion {
   Vec3<double> offset = Vec3<double>::Zero();    ///< [m] at `anchor`
   Vec3<double> velocity = Vec3<double>::Zero();  ///< [m/s]
   double anchor = 0;                             ///< [1] part of the step
-  double speed = 0;                              ///< [m/s] the largest |v_x| + |v_y| + |v_z| so far: what rounding is of
-  std::uint32_t version = 0;                     ///< changes with the motion
-  int events = 0;                                ///< hits so far
-  bool waiting = false;                          ///< does not move any more in this step
+  double speed = 0;           ///< [m/s] the largest |v_x| + |v_y| + |v_z| so far: what rounding is of
+  std::uint32_t version = 0;  ///< changes with the motion
+  int events = 0;             ///< hits so far
+  bool waiting = false;       ///< does not move any more in this step
 };
 
 /// [m/s] In effect: zero while it waits.
