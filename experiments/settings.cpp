@@ -293,7 +293,7 @@ std::vector<Settings> Settings::tables(std::string_view key, std::string_view de
 }
 
 void Settings::assign(std::string_view key, const std::string& text) { impl_->user->insert_or_assign(key, text); }
-void Settings::assign(std::string_view key, bool flag) { impl_->user->insert_or_assign(key, flag); }
+void Settings::assign_flag(std::string_view key, bool flag) { impl_->user->insert_or_assign(key, flag); }
 
 void Settings::complain(std::string_view key, std::string_view what_is_allowed) const {
   impl_->refuse(key, *impl_->entry(key).node, what_is_allowed);

@@ -59,7 +59,7 @@ class Settings {
 
   /// As if the user's file said so: for an option of the command line. The key must not have a dot.
   void assign(std::string_view key, const std::string& text);
-  void assign(std::string_view key, bool flag);
+  void assign_flag(std::string_view key, bool flag);
 
   /// The key a complaint should name, for a check that only the experiment can make.
   [[noreturn]] void complain(std::string_view key, std::string_view what_is_allowed) const;

@@ -85,7 +85,7 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
   Settings settings(text, file, chosen->default_toml);
   settings.reject_unknown_keys();
   if (is_scene) settings.assign("experiment", std::string(chosen->name));
-  if (request.trace) settings.assign("trace", true);
+  if (request.trace) settings.assign_flag("trace", true);
   if (!request.plan_kind.empty()) settings.assign("plan", request.plan_kind);
   ConfiguredRun out{.experiment = *chosen,
                     .name = std::string(chosen->name),

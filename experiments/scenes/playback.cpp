@@ -25,11 +25,13 @@ class Hands {
 };
 
 std::vector<Track> begin_tracks(const std::vector<Body>& bodies) {
-  std::vector<Track> tracks;
+  std::vector<std::uint32_t> ids;
   for (const Body& body : bodies) {
-    const bool drawn = can_move(body) && !std::holds_alternative<std::monostate>(body.shape);
-    if (drawn && tracks.size() < most_tracks) tracks.push_back({.id = body.id, .x = {}, .y = {}});
+    if (can_move(body) && !std::holds_alternative<std::monostate>(body.shape)) ids.push_back(body.id);
   }
+  const std::size_t count = std::min(ids.size(), most_tracks);
+  std::vector<Track> tracks;
+  for (std::size_t i = 0; i < count; ++i) tracks.push_back({.id = ids[i * ids.size() / count], .x = {}, .y = {}});
   return tracks;
 }
 
@@ -97,6 +99,8 @@ Playback play(const Scene& scene, const Frame& on_frame) {
     if (step % stride == 0 || step == scene.steps) extend(out.tracks, world, scene);
     if (on_frame) on_frame(world);
   }
+  std::stable_sort(out.events.begin(), out.events.end(),
+                   [](const CollisionEvent& a, const CollisionEvent& b) { return a.time < b.time; });
   out.live = static_cast<std::int64_t>(world.events().live());
   for (const Body& body : world.bodies()) out.places.emplace_back(body.id, box_of(body).center);
   out.hash = world.state_hash();

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_outlines = 400;
-constexpr std::size_t most_named = 8;  // tracks in the legend; the others share one entry
+constexpr std::size_t most_marks = 1500;  // more would be a blot: then lines
+constexpr std::size_t most_named = 8;     // tracks in the legend; the others share one entry
 
 Series lines(const std::string& label, Mark mark) {
   return {.label = label, .mark = mark, .x = {}, .y = {}, .lower = {}, .upper = {}};
@@ -23,46 +24,84 @@ void append_gap(Series& series) {
   series.y.push_back(nan);
 }
 
-/// The outlines of what stays, cut to the window where something moves and a margin around it.
-Series outlines(const Scene& scene, const Aabb<double>& window) {
+/// A rectangle of the picture.
+struct Window {
+  double left = 0, right = 1, bottom = 0, top = 1;  ///< [m]
+};
+
+/// Where anything moved, with room for the bodies themselves and a fifth more on each side.
+Window window_of(const Scene& scene, const Playback& playback) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Window w{infinity, -infinity, infinity, -infinity};
+  for (const Track& track : playback.tracks) {
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                   [&track](const Body& candidate) { return candidate.id == track.id; });
+    const Vec3<double> half = body == scene.bodies.end() ? Vec3<double>::Zero().eval() : box_of(*body).half_extents;
+    for (std::size_t i = 0; i < track.x.size(); ++i) {
+      w.left = std::min(w.left, track.x[i] - half[scene.across]);
+      w.right = std::max(w.right, track.x[i] + half[scene.across]);
+      w.bottom = std::min(w.bottom, track.y[i] - half[scene.up]);
+      w.top = std::max(w.top, track.y[i] + half[scene.up]);
+    }
+  }
+  const double wide = 0.2 * (w.right - w.left), high = 0.2 * (w.top - w.bottom);
+  return {w.left - wide, w.right + wide, w.bottom - high, w.top + high};
+}
+
+/// The part of a segment within the window, appended with a gap before it. Source: Liang and Barsky, 1984.
+void append_clipped(Series& series, const Window& w, double x0, double y0, double x1, double y1) {
+  double from = 0, to = 1;
+  const auto cut = [&](double start, double change, double low, double high) {
+    if (change == 0) return low <= start && start <= high;
+    const double enter = ((change > 0 ? low : high) - start) / change;
+    const double leave = ((change > 0 ? high : low) - start) / change;
+    from = std::max(from, enter);
+    to = std::min(to, leave);
+    return from <= to;
+  };
+  if (!cut(x0, x1 - x0, w.left, w.right) || !cut(y0, y1 - y0, w.bottom, w.top)) return;
+  append_gap(series);
+  for (const double t : {from, to}) {
+    series.x.push_back(x0 + t * (x1 - x0));
+    series.y.push_back(y0 + t * (y1 - y0));
+  }
+}
+
+/// The twelve edges of a box: its corners differ along one axis.
+void append_edges(Series& series, const Window& w, const Scene& scene, const Vec3<double>& center,
+                  const Mat3<double>& axes, const Vec3<double>& half) {
+  const auto corner = [&](unsigned which) {
+    Vec3<double> at = center;
+    for (unsigned i = 0; i < 3; ++i) {
+      const double side = (which >> i & 1U) != 0 ? 1 : -1;
+      at += side * half[static_cast<int>(i)] * axes.col(static_cast<int>(i));
+    }
+    return at;
+  };
+  for (unsigned from = 0; from < 8; ++from) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((from >> axis & 1U) != 0) continue;
+      const Vec3<double> a = corner(from), b = corner(from | 1U << axis);
+      append_clipped(series, w, a[scene.across], a[scene.up], b[scene.across], b[scene.up]);
+    }
+  }
+}
+
+/// The edges of what stays, where they are in the window; of what is round, those of the box that holds it.
+Series outlines(const Scene& scene, const Window& window) {
   Series series = lines("at rest", Mark::line);
   series.color = "#888888";
-  const auto cut = [&](double value, int axis) {
-    return std::clamp(value, window.center[axis] - window.half_extents[axis],
-                      window.center[axis] + window.half_extents[axis]);
-  };
   std::size_t drawn = 0;
   for (const Body& body : scene.bodies) {
     if (!body.is_static || std::holds_alternative<std::monostate>(body.shape) || ++drawn > most_outlines) continue;
-    const Aabb<double> box = box_of(body);
-    const int a = scene.across, u = scene.up;
-    append_gap(series);
-    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
-      series.x.push_back(cut(box.center[a] + x * box.half_extents[a], a));
-      series.y.push_back(cut(box.center[u] + y * box.half_extents[u], u));
+    if (const auto* const turned = std::get_if<Obb<double>>(&body.shape)) {
+      append_edges(series, window, scene, turned->center, turned->axes, turned->half_extents);
+    } else {
+      const Aabb<double> box = box_of(body);
+      append_edges(series, window, scene, box.center, Mat3<double>::Identity(), box.half_extents);
     }
   }
   return series;
-}
-
-/// Where anything moved, and a fifth more on each side.
-Aabb<double> window_of(const Scene& scene, const Playback& playback) {
-  Aabb<double> window{Vec3<double>::Zero(), Vec3<double>::Constant(std::numeric_limits<double>::infinity())};
-  const auto set = [&](int axis, std::vector<double> Track::*values) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Track& track : playback.tracks) {
-      for (const double value : track.*values) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-    }
-    if (!(low < high)) return;
-    window.center[axis] = (low + high) / 2;
-    window.half_extents[axis] = 0.7 * (high - low);
-  };
-  set(scene.across, &Track::x);
-  set(scene.up, &Track::y);
-  return window;
 }
 
 }  // namespace
@@ -74,10 +113,14 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   panel.series.push_back(outlines(scene, window_of(scene, playback)));
   if (panel.series.back().x.empty()) panel.series.clear();
   const bool few = playback.tracks.size() <= most_named;
+  std::size_t points = 0;
+  for (const Track& track : playback.tracks) points += track.x.size();
+  const Mark mark = points <= most_marks ? Mark::points : Mark::line;
   for (const Track& track : playback.tracks) {
     if (few || &track == &playback.tracks.front())
-      panel.series.push_back(lines(few ? name_in(scene, track.id) : "bodies that move", Mark::points));
+      panel.series.push_back(lines(few ? name_in(scene, track.id) : "bodies that move", mark));
     Series& series = panel.series.back();
+    append_gap(series);
     series.x.insert(series.x.end(), track.x.begin(), track.x.end());
     series.y.insert(series.y.end(), track.y.begin(), track.y.end());
   }
