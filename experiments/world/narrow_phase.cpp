@@ -14,7 +14,7 @@ namespace {
 
 using SphereOrAabb = std::variant<std::monostate, Sphere<double>, Aabb<double>>;
 
-constexpr std::size_t block_size = 4096;  // pairs; the same for any number of threads
+constexpr std::size_t block_size = 1024;  // pairs; the same for any number of threads
 constexpr std::size_t few = 16;           // pairs: grouping them costs more than the calls through a variant
 
 double least_half_width(const Sphere<double>& s) { return s.radius; }
