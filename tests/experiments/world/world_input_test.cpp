@@ -143,17 +143,17 @@ TEST(WorldInput, names_the_body_that_leaves_the_world_and_changes_nothing) {
   }
 }
 
-/// A crowd with hundreds of pairs a block: threads share it.
-TEST(WorldInput, one_two_and_three_threads_leave_one_state) {
+/// A crowd with blocks of pairs for threads to share, and with more changes of course than are searched one by one.
+TEST(WorldInput, one_two_and_three_threads_and_the_full_plan_leave_one_state) {
   for (const TimePolicy policy : {TimePolicy::discrete, TimePolicy::event_driven}) {
     std::vector<std::uint64_t> hashes;
-    for (const int threads : {1, 2, 3}) {
+    for (const int threads : {1, 2, 3, 0}) {  // 0: one, and nothing omitted
       WorldDraw draw(11);
       std::vector<Body> bodies;
       for (std::uint32_t id = 0; id < 500; ++id) {
         Body body = bullet();
         body.id = id;
-        const Vec3<double> place = draw.vector(4, false);
+        const Vec3<double> place = draw.vector(3, false);
         body.shape = drawn_shape(draw, 5, place, false);
         body.velocity = draw.vector(9, false);
         body.restitution = 0.5;
@@ -161,7 +161,8 @@ TEST(WorldInput, one_two_and_three_threads_leave_one_state) {
       }
       WorldOptions options;
       options.policy = policy;
-      options.threads = threads;
+      options.threads = std::max(1, threads);
+      options.full_plan = threads == 0;
       options.max_events = 4;
       World world(bodies, options);
       EXPECT_GT(world.step(0.02).pairs, 2048U);
@@ -170,6 +171,7 @@ TEST(WorldInput, one_two_and_three_threads_leave_one_state) {
     }
     EXPECT_EQ(hashes[0], hashes[1]);
     EXPECT_EQ(hashes[0], hashes[2]);
+    EXPECT_EQ(hashes[0], hashes[3]);
   }
 }
 
