@@ -4,6 +4,7 @@
 
 #include <thinwall/experiments/accuracy.hpp>
 #include <thinwall/experiments/bouncing.hpp>
+#include <thinwall/experiments/broad_phase.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
 #include <thinwall/experiments/extremes.hpp>
 #include <thinwall/experiments/hitscan.hpp>
@@ -18,8 +19,9 @@ std::span<const Experiment> experiments() {
   // A new experiment is a line here: one that registered itself could be dropped by the linker.
   static const std::array list = {
       thin_wall_experiment(),  //
-      accuracy_experiment(),  work_precision_experiment(), swept_bounds_experiment(), crossing_bullets_experiment(),
-      hitscan_experiment(),   stiff_contact_experiment(),  bouncing_experiment(),     extremes_experiment(),
+      accuracy_experiment(),         work_precision_experiment(), swept_bounds_experiment(),
+      crossing_bullets_experiment(), hitscan_experiment(),        stiff_contact_experiment(),
+      bouncing_experiment(),         extremes_experiment(),       broad_phase_experiment(),
   };
   return list;
 }

@@ -10,13 +10,17 @@ namespace thinwall {
 /// The half loop: each pair once, n (n - 1) / 2 looks.
 struct AllPairs {
   static constexpr std::string_view name = "all_pairs";
-  struct Memory {};
+  struct Memory {
+    static std::size_t bytes() { return 0; }
+  };
 };
 
 /// The full loop: each pair from both sides, n^2 looks, one side kept. The half loop's foil.
 struct AllOrderedPairs {
   static constexpr std::string_view name = "all_ordered_pairs";
-  struct Memory {};
+  struct Memory {
+    static std::size_t bytes() { return 0; }
+  };
 };
 
 inline void find_pairs(const AllPairs&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,

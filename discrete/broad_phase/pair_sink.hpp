@@ -18,6 +18,7 @@ struct PairMemory {
   std::vector<ProxyPair> found;       ///< as they came
   std::vector<std::uint32_t> starts;  ///< where the partners of each first body begin
   std::vector<std::uint32_t> seconds;
+  std::size_t bytes() const { return bytes_of(found) + bytes_of(starts) + bytes_of(seconds); }
 };
 
 /// Pairs of boxes that touch go in through `add`; `finish` sorts them by counting, in time linear in bodies and pairs

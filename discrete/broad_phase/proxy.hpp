@@ -75,8 +75,12 @@ inline void require_valid(std::span<const Proxy> proxies) {
   }
 }
 
+/// [bytes] that a list holds, used or not.
+template <class T> std::size_t bytes_of(const std::vector<T>& list) { return list.capacity() * sizeof(T); }
+
 /// Finds every pair, sorted by (first, second), into `pairs`, whose old content goes. The same pairs from each method.
-/// `Method::Memory` is working memory that a caller who steps a world may keep from call to call; it changes no answer.
+/// `Method::Memory` is working memory that a caller who steps a world may keep from call to call; it changes no answer, and says how much
+/// it is: `memory.bytes()`.
 /// Errors: InvalidProxy; TooManyPairs as soon as more than max_pairs are found, with memory bounded by that number.
 template <class Method>
 void find_pairs(const Method& method, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -43,7 +44,24 @@ namespace r_tree {
 using Point = boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>;
 using Box = boost::geometry::model::box<Point>;
 using Entry = std::pair<Box, std::uint32_t>;
-using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<8>>;
+/// The standard allocator, and a count of what it gave out.
+template <class T> struct Counting {
+  using value_type = T;
+  std::size_t* bytes;  ///< [bytes] given out so far; what comes back is not taken off
+
+  explicit Counting(std::size_t& count) : bytes(&count) {}
+  template <class U> Counting(const Counting<U>& other) : bytes(other.bytes) {}  // as allocators convert
+  T* allocate(std::size_t count) {
+    *bytes += count * sizeof(T);
+    return std::allocator<T>().allocate(count);
+  }
+  void deallocate(T* place, std::size_t count) { std::allocator<T>().deallocate(place, count); }
+  friend bool operator==(const Counting&, const Counting&) { return true; }
+};
+
+using Tree =
+    boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<8>, boost::geometry::index::indexable<Entry>,
+                                  boost::geometry::index::equal_to<Entry>, Counting<Entry>>;
 
 inline constexpr double largest =
     0x1p120;  ///< [length] beyond, coordinates are one: sums and differences must be floats
@@ -81,6 +99,8 @@ template <class F> class Each {
 struct RTree::Memory {
   PairMemory pairs;
   std::vector<r_tree::Entry> entries;
+  std::size_t tree_bytes = 0;
+  std::size_t bytes() const { return pairs.bytes() + bytes_of(entries) + tree_bytes; }
 };
 
 inline void find_pairs(const RTree&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,
@@ -92,7 +112,8 @@ inline void find_pairs(const RTree&, std::span<const Proxy> proxies, std::vector
   for (std::size_t i = 0; i < proxies.size(); ++i) {
     if (!proxies[i].skipped) m.entries.emplace_back(r_tree::box_of(proxies[i]), static_cast<std::uint32_t>(i));
   }
-  const r_tree::Tree tree(m.entries);
+  m.tree_bytes = 0;
+  const r_tree::Tree tree(m.entries, {}, {}, {}, r_tree::Counting<r_tree::Entry>(m.tree_bytes));
   for (const r_tree::Entry& mine : tree) {  // in the tree's order: the next query walks where the last one did
     const Proxy& body = proxies[mine.second];
     if (body.is_static) continue;

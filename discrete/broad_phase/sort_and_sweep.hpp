@@ -53,6 +53,7 @@ inline int best_axis(std::span<const Proxy> proxies) {
 struct SortAndSweep::Memory {
   PairMemory pairs;
   std::vector<sweep::Box> boxes;
+  std::size_t bytes() const { return pairs.bytes() + bytes_of(boxes); }
 };
 
 inline void find_pairs(const SortAndSweep&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,

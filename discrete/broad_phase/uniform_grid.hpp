@@ -47,6 +47,10 @@ struct UniformGrid::Memory {
   std::vector<std::uint32_t> starts;    ///< of each cell in the sorted order; one more at the end
   std::vector<std::uint32_t> ids;       ///< of the bodies in that order
   std::vector<grid::Box> boxes;         ///< in that order
+  std::size_t bytes() const {
+    return pairs.bytes() + bytes_of(levels) + bytes_of(level_of) + bytes_of(cell_of) + bytes_of(starts) +
+           bytes_of(ids) + bytes_of(boxes);
+  }
 };
 
 namespace grid {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <thinwall/discrete/grouped_pairs.hpp>
@@ -14,7 +15,7 @@ namespace {
 
 using SphereOrAabb = std::variant<std::monostate, Sphere<double>, Aabb<double>>;
 
-constexpr std::size_t block_size = 4096;  // pairs; the same for any number of threads
+constexpr std::size_t block_size = 1024;  // pairs; the same for any number of threads
 constexpr std::size_t few = 16;           // pairs: grouping them costs more than the calls through a variant
 
 double least_half_width(const Sphere<double>& s) { return s.radius; }
@@ -145,6 +146,8 @@ template <class Held> class Kernels final : public NarrowPhase {
     if (threads_ == 1) {
       for (std::size_t k = 0; k < count; ++k) run(k);
     } else {
+      const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(threads_));
       arena_.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, run); });
     }
     for (std::size_t k = 0; k < count; ++k) {

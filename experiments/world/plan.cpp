@@ -35,11 +35,11 @@ Census census_of(std::span<const Body> bodies) {
   return census;
 }
 
-std::string of(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+std::string of(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string pairs_of(std::size_t n) { return of(n * (n - (n > 0 ? 1 : 0)) / 2, "pair"); }
+std::string pairs_of(std::size_t n) { return of(n * (n - (n > 0 ? 1 : 0)) / 2, "pair", "pairs"); }
 
 }  // namespace
 
@@ -50,10 +50,10 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   const bool full = options.full_plan,
              swept = options.policy == TimePolicy::clamp || options.policy == TimePolicy::event_driven;
   Plan plan;
-  plan.full = full;
+  plan.full = plan.all_bounds = plan.resting_bounds = full;
   const auto line = [&](const std::string& what, bool could_go, const std::string& if_gone, const std::string& if_not) {
     const bool goes = could_go && !full;
-    plan.lines.push_back({what, goes, could_go ? if_gone : if_not});
+    plan.lines.push_back({what, goes, !could_go ? if_not : full ? "could go: " + if_gone : if_gone});
     return !goes;
   };
 
@@ -67,21 +67,19 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   const std::string by_auto(is_small ? "all_pairs" : best_of_many);
   plan.broad_phase = options.broad_phase == "auto" ? by_auto : options.broad_phase;
   line("broad phase", plan.broad_phase == "all_pairs",
-       of(census.with_shape, "shape") + ": the half loop over boxes is cheaper than to sort them",
+       of(census.with_shape, "shape", "shapes") + ": the half loop over boxes is cheaper than to sort them",
        plan.broad_phase + (options.broad_phase == "auto" ? ", as there are " : ", as asked for; there are ") +
-           of(census.with_shape, "shape"));
-  plan.all_bounds = line(
-      "pairs of disjoint boxes", census.with_shape > 1,
-      std::string("a body stays in its ") + (swept ? "swept box" : "box") + ": if two are disjoint, so are the bodies",
-      "there is no pair");
-  plan.static_pairs = line("static pairs", census.at_rest > 1, pairs_of(census.at_rest) + " of bodies that never move",
-                           of(census.at_rest, "static body") + " with a shape: no pair");
-  plan.masked_pairs = line("masked pairs", census.masks, "a mask leaves out a group that is there",
-                           "every mask has every group that is there");
-  plan.resting_bounds = line("motion of bodies at rest", census.at_rest > 0,
-                             of(census.at_rest, "box") + " stay as they are from step to step", "every body can move");
-  if (plan.all_bounds != full && census.with_shape <= 1) plan.all_bounds = full;
-  if (!full) plan.all_bounds = plan.static_pairs = plan.masked_pairs = plan.resting_bounds = false;
+           of(census.with_shape, "shape", "shapes"));
+  line("pairs of disjoint boxes", census.with_shape > 1,
+       std::string("a body stays in its ") + (swept ? "swept box" : "box") + ": if two are disjoint, so are the bodies",
+       "there is no pair");
+  line("static pairs", census.at_rest > 1, pairs_of(census.at_rest) + " of bodies that never move",
+       "fewer than two static bodies");
+  line("masked pairs", census.masks, "a mask leaves out a group that is there",
+       "every mask has every group that is there");
+  line("motion of bodies at rest", census.at_rest > 0,
+       "the boxes of " + of(census.at_rest, "static body", "static bodies") + " stay from step to step",
+       "every body can move");
 
   const bool only_two = census.shapes[3] + census.shapes[4] == 0;
   plan.sphere_aabb = !line("kernels of absent shapes", only_two, "spheres and axis-aligned boxes alone",

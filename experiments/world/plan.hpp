@@ -22,12 +22,10 @@ struct Plan {
   bool full = false;            ///< nothing is omitted
   std::string broad_phase;      ///< its name
   bool sphere_aabb = false;     ///< the kernels of spheres and axis-aligned boxes alone
-  bool static_pairs = false;    ///< pairs of bodies that never move are made, and dropped
-  bool masked_pairs = false;    ///< pairs that a mask forbids are made, and dropped
-  bool all_bounds = false;      ///< pairs whose swept boxes are disjoint are asked
-  bool resting_bounds = false;  ///< boxes of bodies that never move are computed anew in each step
+  bool all_bounds = false;      ///< every two bodies are asked, and what static or masked pairs find is dropped
+  bool resting_bounds = false;  ///< boxes and places of bodies that never move are computed anew in each step
   bool contacts = false;        ///< pairs are looked for at all
-  bool events = false;          ///< begin, stay and end are kept
+  bool events = false;          ///< begin, stay and end are kept, be it for nobody
   bool response = false;        ///< impulses are computed, be it to drop them
   std::vector<PlanLine> lines;  ///< the same for people
 };

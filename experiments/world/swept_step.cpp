@@ -117,6 +117,7 @@ void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepRe
     Motion& motion = motions_[ends[k]];
     if (!is_moved_by_impulses(scene_.bodies[ends[k]])) continue;
     changes[k] = bounces || !motion.waiting;
+    if (!changes[k]) continue;  // it waits already: what is known of it stays
     ++motion.version;
     if (!bounces || ++motion.events >= scene_.max_events) motion.waiting = true;  // it waits behind one that waits
   }

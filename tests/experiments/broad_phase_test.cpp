@@ -1,0 +1,198 @@
+/// The experiment broad_phase: its worlds, its verdicts and its words, never its times.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/discrete/broad_phase.hpp>
+#include <thinwall/experiments/broad_phase/crowd.hpp>
+#include <thinwall/experiments/broad_phase/finder.hpp>
+#include <thinwall/experiments/broad_phase/report.hpp>
+
+#include "experiments/broad_phase_run.hpp"
+
+namespace thinwall {
+namespace {
+
+const CrowdFactors uniform_crowd = {.clustered = false, .speed = 2, .density = 0.1, .count = 4000};
+
+TEST(BroadPhaseCrowd, fills_its_cube_at_the_density_and_moves_as_far_as_asked) {
+  const Crowd crowd = make_crowd(uniform_crowd, 1);
+  ASSERT_EQ(crowd.size(), 4000U);
+  const double side = std::cbrt(4000 / 0.1);
+  Vec3<double> mean = Vec3<double>::Zero(), mean_path = Vec3<double>::Zero();
+  for (const auto& ball : crowd) {
+    EXPECT_GE(ball.shape.center.minCoeff(), 0);
+    EXPECT_LT(ball.shape.center.maxCoeff(), side);
+    EXPECT_NEAR(ball.displacement.norm(), 2, 1e-12);
+    mean += ball.shape.center / 4000;
+    mean_path += ball.displacement / 4000;
+  }
+  const double deviation = 1 / std::sqrt(12.0 * 4000), bound = 5;  // of a uniform mean, in sides
+  EXPECT_LT((mean / side - Vec3<double>::Constant(0.5)).cwiseAbs().maxCoeff(), bound * deviation);
+  EXPECT_LT(mean_path.cwiseAbs().maxCoeff(), bound * 2 / std::sqrt(3.0 * 4000));
+}
+
+TEST(BroadPhaseCrowd, of_uniform_balls_has_as_many_pairs_as_probability_says) {
+  // Two boxes of sides w touch if their centers are within w on each axis: with no motion w = 1, and of n balls in a
+  // cube of side L the expected number is n (n - 1) / 2 times the cube of 2 w / L - (w / L)^2.
+  CrowdFactors still = uniform_crowd;
+  still.speed = 0;
+  const double share = 1 / std::cbrt(4000 / 0.1), one_axis = 2 * share - share * share;
+  const double expected = 4000.0 * 3999 / 2 * std::pow(one_axis, 3);
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    std::vector<ProxyPair> pairs;
+    find_pairs(UniformGrid{}, proxies_of(make_crowd(still, seed)), pairs);
+    sum += static_cast<double>(pairs.size());
+  }
+  EXPECT_NEAR(sum, 10 * expected, 5 * std::sqrt(10 * expected));  // counts of rare pairs scatter as Poisson's
+}
+
+TEST(BroadPhaseCrowd, heaps_have_more_pairs) {
+  CrowdFactors heaps = uniform_crowd;
+  heaps.clustered = true;
+  std::vector<ProxyPair> uniform_pairs, heap_pairs;
+  find_pairs(UniformGrid{}, proxies_of(make_crowd(uniform_crowd, 1)), uniform_pairs);
+  find_pairs(UniformGrid{}, proxies_of(make_crowd(heaps, 1)), heap_pairs);
+  EXPECT_GT(heap_pairs.size(), 3 * uniform_pairs.size());
+}
+
+TEST(BroadPhaseCrowd, boxes_hold_the_balls_and_the_next_step_begins_where_this_one_ends) {
+  const Crowd crowd = make_crowd(uniform_crowd, 2), next = next_step(crowd);
+  const std::vector<Proxy> proxies = proxies_of(crowd);
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    const Vec3<double> end = crowd[i].shape.center + crowd[i].displacement;
+    EXPECT_EQ(next[i].shape.center, end);
+    EXPECT_LE((proxies[i].low - end).maxCoeff(), -crowd_radius);
+    EXPECT_GE((proxies[i].high - end).minCoeff(), crowd_radius);
+  }
+}
+
+TEST(BroadPhase, counts_as_meetings_the_balls_that_touch_and_not_the_boxes) {
+  const Sphere<double> ball{{0, 0, 0}, 0.5};
+  const Crowd crowd = {{ball, {0, 0, 0}},
+                       {moved(ball, Vec3<double>(1, 0, 0)), {0, 0, 0}},
+                       {moved(ball, Vec3<double>(0.9, 0.9, 0)), {0, 0, 0}},
+                       {moved(ball, Vec3<double>(0, 0, 9)), {0, 0, -20}}};
+  EXPECT_EQ(count_meetings(crowd, {{0, 1}, {0, 2}, {1, 2}, {0, 3}}), 3);  // 0 and 2 pass each other's corner
+}
+
+TEST(BroadPhase, puts_every_broad_phase_of_the_list_to_every_world) {
+  const auto run = broad_phase_run(few_crowds);
+  const std::vector<Unit> units = run->units();
+  EXPECT_EQ(units.size(), 2U * 2 * 2);
+  for (const Unit& unit : units) {
+    const std::string line = unit.compute();
+    const Survey s = survey_from_line(line);
+    EXPECT_EQ(to_line(s), line);
+    for_each_type(BroadPhases{}, [&]<class Method>(TypeTag<Method>) {
+      const Finding* f = finding_of(s, std::string(Method::name));
+      ASSERT_NE(f, nullptr) << Method::name;
+      EXPECT_EQ(f->pairs, s.pairs);
+      EXPECT_TRUE(f->is_right());
+      EXPECT_EQ(f->milliseconds.size(), 3U);
+    });
+    EXPECT_EQ(finding_of(s, "bullet_step") != nullptr, has_bullet());
+    EXPECT_GT(s.pairs, 0);
+    EXPECT_LT(s.meetings, s.pairs);
+    for (const Finding& f : s.findings) EXPECT_TRUE(f.is_right()) << f.finder << " misses " << f.missing;
+  }
+}
+
+TEST(BroadPhase, says_the_same_of_pairs_in_every_run) {
+  const Outcome first = outcome_of(*broad_phase_run(few_crowds)), second = outcome_of(*broad_phase_run(few_crowds));
+  EXPECT_TRUE(first.self_test_passed);
+  const Table &a = table_of(first, "crowds"), &b = table_of(second, "crowds");
+  EXPECT_EQ(a.rows, b.rows);
+  EXPECT_FALSE(a.is_timing);
+  for (const Table& t : first.tables) {
+    for (const auto& row : t.rows) EXPECT_EQ(row.size(), t.columns.size()) << t.name;
+  }
+  EXPECT_TRUE(table_of(first, "timings").is_timing);
+  for (const Figure& f : first.figures) EXPECT_TRUE(f.is_timing);
+  EXPECT_NE(first.answer.find("finds all"), std::string::npos);
+}
+
+TEST(BroadPhase, summary_fits_the_terminal) {
+  std::vector<SurveyLine> lines;
+  for (const std::int64_t count : {10, 100, 10000, 31623, 100000, 316228, 1000000})
+    lines.push_back(made_up_line(count, {made_up_finding("all_ordered_pairs", 1e-4 * double(count)),
+                                         made_up_finding("uniform_grid", 1.5e-4 * double(count))}));
+  std::istringstream text(broad_phase_summary(lines));
+  for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(BroadPhase, self_test_fails_who_misses_a_pair_or_invents_one) {
+  std::vector<SurveyLine> lines = {made_up_line(10, {made_up_finding("r_tree", 1)})};
+  EXPECT_TRUE(all_right(lines));
+  Finding& f = lines[0].survey.findings[0];
+  f.extra = 1;
+  EXPECT_FALSE(all_right(lines));
+  f.is_exact = false;  // Bullet's boxes have a margin
+  EXPECT_TRUE(all_right(lines));
+  f.missing = 1;
+  EXPECT_FALSE(all_right(lines));
+  EXPECT_NE(broad_phase_summary(lines).find("r_tree misses 1"), std::string::npos);
+}
+
+TEST(BroadPhase, finds_the_exponent_of_a_power_and_no_interval_where_it_is_exact) {
+  std::vector<GrowthPoint> points;
+  for (const double n : {1e4, 1e5, 1e6}) points.push_back({n, 3 * std::pow(n, 1.25)});
+  const Growth growth = fit_growth(points).value();
+  EXPECT_NEAR(growth.exponent, 1.25, 1e-12);
+  EXPECT_NEAR(growth.interval.upper - growth.interval.lower, 0, 1e-6);
+  points[1].cost *= 2;
+  EXPECT_GT(fit_growth(points)->interval.upper, 1.5);
+  points.pop_back();
+  EXPECT_FALSE(fit_growth(points));
+}
+
+TEST(BroadPhase, fits_only_counts_beyond_the_fixed_costs_and_sees_where_the_loop_ends) {
+  std::vector<SurveyLine> lines;
+  for (const std::int64_t count : {10, 100, 10000, 100000, 1000000}) {
+    const double loop = 1e-6 * double(count) * double(count), grid = 1e-3 * double(count) + (count < 10000 ? 1 : 0);
+    lines.push_back(made_up_line(count, {made_up_finding("all_pairs", loop), made_up_finding("uniform_grid", grid)}));
+  }
+  EXPECT_EQ(loop_is_best_up_to(lines), 100);
+  const std::vector<Course> all = courses(lines);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NEAR(all[0].growth.value().exponent, 2, 1e-9);
+  EXPECT_NEAR(all[1].growth.value().exponent, 1, 1e-9);
+}
+
+TEST(BroadPhase, refuses_what_is_no_survey) {
+  EXPECT_THROW(survey_from_line("nonsense"), std::runtime_error);
+  EXPECT_THROW(survey_from_line("3 1;r_tree 1 3"), std::runtime_error);
+}
+
+std::string complaint(std::string_view text) {
+  try {
+    broad_phase_run(text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(BroadPhase, names_the_setting_that_is_out_of_range) {
+  for (const auto& [key, text] : {std::pair{"count", "count = [0]"},
+                                  {"count", "count = []"},
+                                  {"speed", "speed = [-1]"},
+                                  {"density", "density = 0"},
+                                  {"placement", "placement = [\"heaps\"]"},
+                                  {"broad_phase", "broad_phase = [\"octree\"]"},
+                                  {"rounds", "rounds = 0"},
+                                  {"seconds", "seconds = -1"},
+                                  {"loops_up_to", "loops_up_to = -1"},
+                                  {"sweep_up_to", "sweep_up_to = -1"},
+                                  {"broad_phase", "broad_phase = [\"all_pairs\"]\nloops_up_to = 5\ncount = [6]"}}) {
+    const std::string said = complaint(text);
+    EXPECT_NE(said.find(key), std::string::npos) << text << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace thinwall
