@@ -30,6 +30,12 @@ struct Section {
   std::string text;  ///< plain paragraphs, separated by a blank line
 };
 
+/// A file that is neither table nor figure: a recording, for one.
+struct TextFile {
+  std::string name;  ///< of the file, in the result folder itself
+  std::string text;
+};
+
 struct Outcome {
   std::string answer;             ///< the question's answer in a sentence or two, with its numbers
   std::string summary;            ///< a table for the terminal, plain text, at most 100 columns
@@ -37,6 +43,7 @@ struct Outcome {
   std::vector<Figure> figures;    ///< the first one is the headline
   std::vector<Section> sections;  ///< method, oracle, self-test, limits
   bool self_test_passed = true;
+  std::vector<TextFile> files = {};
 };
 
 /// A configured run. `units` is fixed by the settings and the seed alone.
@@ -51,6 +58,7 @@ class Run {
 struct RunOptions {
   std::uint64_t seed = 0;
   std::optional<std::int64_t> trials;  ///< > 0: overrides the settings' own
+  int threads = 1;                     ///< >= 1: for a run whose units have parts; of no effect on any result
 };
 
 struct Experiment {

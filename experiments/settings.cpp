@@ -94,9 +94,13 @@ void lay_over(toml::table& defaults, const toml::table& user) {
 
 struct Settings::Impl {
   std::string file;
-  toml::table user, defaults;
+  std::string path = {};                    // of the keys, before their names: `body.`
+  std::uint32_t line = 1;                   // where the table begins
+  std::shared_ptr<toml::table> owner = {};  // of everything the user wrote; copies of a node forget their line
+  toml::table* user = nullptr;
+  toml::table defaults = {};
 
-  toml::table parse(std::string_view text, const std::string& name) const {
+  static toml::table parse(std::string_view text, const std::string& name) {
     try {
       return toml::parse(text, name);
     } catch (const toml::parse_error& error) {
@@ -116,15 +120,16 @@ struct Settings::Impl {
   };
 
   Entry entry(std::string_view key) const {
-    if (const toml::node* node = find(user, key)) return {node, true};
+    if (const toml::node* node = find(*user, key)) return {node, true};
     if (const toml::node* node = find(defaults, key)) return {node, false};
-    throw UsageError(fmt::format("{}:1: key '{}': missing", file, key));
+    throw UsageError(fmt::format("{}:{}: key '{}{}': missing", file, line, path, key));
   }
 
   [[noreturn]] void complain(std::string_view key, const toml::node& node, std::string_view what,
                              std::string_view allowed) const {
     const bool by_user = entry(key).by_user;
-    throw UsageError(fmt::format("{}: key '{}': {}; {}", where(node, by_user), one_line(key), what, allowed));
+    throw UsageError(
+        fmt::format("{}: key '{}': {}; {}", where(node, by_user), one_line(path + std::string(key)), what, allowed));
   }
 
   [[noreturn]] void refuse(std::string_view key, const toml::node& node, std::string_view allowed) const {
@@ -157,16 +162,16 @@ struct Settings::Impl {
     return values;
   }
 
-  void reject_unknown(const toml::table& given, const toml::table& known, const std::string& path) const {
+  void reject_unknown(const toml::table& given, const toml::table& known, const std::string& inner) const {
     std::vector<std::string_view> names;
     for (const auto& [key, value] : known) names.push_back(key.str());
     for (const auto& [key, value] : given) {
-      const std::string full = path + std::string(key.str());
+      const std::string full = inner + std::string(key.str());
       const toml::node* below = known.get(key.str());
-      if (!below && path.empty() && key.str() == "experiment") continue;  // says what the file is
+      if (!below && path.empty() && inner.empty() && key.str() == "experiment") continue;  // says what the file is
       if (!below) {
-        throw UsageError(fmt::format("{}:{}: key '{}': unknown key; {}", file, key.source().begin.line, one_line(full),
-                                     spelling_hint(key.str(), names)));
+        throw UsageError(fmt::format("{}:{}: key '{}': unknown key; {}", file, key.source().begin.line,
+                                     one_line(path + full), spelling_hint(key.str(), names)));
       }
       if (below->is_table() && !value.is_table()) refuse(full, value, "a table");
       if (below->is_table()) reject_unknown(*value.as_table(), *below->as_table(), full + ".");
@@ -177,15 +182,26 @@ struct Settings::Impl {
 Settings::Settings(std::string_view text, const std::string& file, std::string_view defaults)
     : impl_(std::make_unique<Impl>()) {
   impl_->file = one_line(file);
-  impl_->user = impl_->parse(text, impl_->file);
-  impl_->defaults = impl_->parse(defaults, "built-in defaults");
+  impl_->owner = std::make_shared<toml::table>(Impl::parse(text, impl_->file));
+  impl_->user = impl_->owner.get();
+  impl_->defaults = Impl::parse(defaults, "built-in defaults");
 }
+
+Settings::Settings(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 Settings::~Settings() = default;
 Settings::Settings(Settings&&) noexcept = default;
 Settings& Settings::operator=(Settings&&) noexcept = default;
 
-bool Settings::has(std::string_view key) const { return find(impl_->user, key) || find(impl_->defaults, key); }
+bool Settings::has(std::string_view key) const { return given(key) || find(impl_->defaults, key); }
+
+bool Settings::given(std::string_view key) const { return find(*impl_->user, key) != nullptr; }
+
+void Settings::require(std::string_view key, std::string_view what_is_needed) const {
+  if (given(key)) return;
+  throw UsageError(
+      fmt::format("{}:{}: key '{}{}': missing; {}", impl_->file, impl_->line, impl_->path, key, what_is_needed));
+}
 
 double Settings::number(std::string_view key, const Range& range) const {
   return impl_->one(
@@ -197,6 +213,22 @@ std::vector<double> Settings::numbers(std::string_view key, const Range& range) 
   return impl_->several(
       key, [&](const toml::node& node) { return in_range(node, range); },
       [&](const toml::node&) { return range_text("a list of numbers", range); });
+}
+
+std::vector<double> Settings::vector(std::string_view key, std::size_t size, const Range& range) const {
+  const auto read = [&](const toml::node& node) -> std::optional<std::vector<double>> {
+    const auto* const array = node.as_array();
+    if (!array || array->size() != size) return std::nullopt;
+    std::vector<double> values;
+    for (const toml::node& item : *array) {
+      const auto value = in_range(item, range);
+      if (!value) return std::nullopt;
+      values.push_back(*value);
+    }
+    return values;
+  };
+  return impl_->one(key, read,
+                    [&](const toml::node&) { return range_text(fmt::format("a list of {} numbers", size), range); });
 }
 
 std::int64_t Settings::integer(std::string_view key, std::int64_t lower, std::int64_t upper) const {
@@ -217,6 +249,18 @@ bool Settings::flag(std::string_view key) const {
       [](const toml::node&) { return "true or false"; });
 }
 
+std::string Settings::text(std::string_view key) const {
+  const std::size_t longest = 200;
+  return impl_->one(
+      key,
+      [longest](const toml::node& node) {
+        auto value = node.value_exact<std::string>();
+        const bool fits = value && value->size() <= longest && *value == one_line(*value);
+        return fits ? value : std::nullopt;
+      },
+      [longest](const toml::node&) { return fmt::format("a text of one line and at most {} bytes", longest); });
+}
+
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> allowed) const {
   return impl_->one(
       key, [&](const toml::node& node) { return one_of(node, allowed); },
@@ -229,15 +273,37 @@ std::vector<std::string> Settings::choices(std::string_view key, std::span<const
       [&](const toml::node& node) { return choice_text(node, allowed); });
 }
 
+std::vector<Settings> Settings::tables(std::string_view key, std::string_view defaults) const {
+  toml::node* const node = impl_->user->get(key);
+  if (!node) return {};
+  const std::string allowed = fmt::format("a list of tables, each below a line [[{}]]", key);
+  toml::array* const array = node->as_array();
+  if (!array) impl_->complain(key, *node, shown(*node) + " is not a list", allowed);
+  std::vector<Settings> all;
+  for (toml::node& item : *array) {
+    if (!item.is_table()) impl_->refuse(key, item, allowed);
+    all.push_back(Settings(std::make_unique<Impl>(Impl{.file = impl_->file,
+                                                       .path = impl_->path + std::string(key) + ".",
+                                                       .line = item.source().begin.line,
+                                                       .owner = impl_->owner,
+                                                       .user = item.as_table(),
+                                                       .defaults = Impl::parse(defaults, "built-in defaults")})));
+  }
+  return all;
+}
+
+void Settings::assign(std::string_view key, const std::string& text) { impl_->user->insert_or_assign(key, text); }
+void Settings::assign_flag(std::string_view key, bool flag) { impl_->user->insert_or_assign(key, flag); }
+
 void Settings::complain(std::string_view key, std::string_view what_is_allowed) const {
   impl_->refuse(key, *impl_->entry(key).node, what_is_allowed);
 }
 
-void Settings::reject_unknown_keys() const { impl_->reject_unknown(impl_->user, impl_->defaults, ""); }
+void Settings::reject_unknown_keys() const { impl_->reject_unknown(*impl_->user, impl_->defaults, ""); }
 
 std::string Settings::resolved_json() const {
   toml::table resolved = impl_->defaults;
-  lay_over(resolved, impl_->user);
+  lay_over(resolved, *impl_->user);
   return json_text(resolved);
 }
 

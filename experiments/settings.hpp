@@ -38,13 +38,28 @@ class Settings {
   /// True if the user's file or the defaults have the key.
   bool has(std::string_view key) const;
 
+  /// True if the user's file has the key.
+  bool given(std::string_view key) const;
+
+  /// Refuses what leaves out a key that has no sensible default.
+  void require(std::string_view key, std::string_view what_is_needed) const;
+
   double number(std::string_view key, const Range& range) const;
   std::vector<double> numbers(std::string_view key, const Range& range) const;  ///< non-empty, no value twice
+  std::vector<double> vector(std::string_view key, std::size_t size, const Range& range) const;  ///< exactly so many
   std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper) const;
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t lower, std::int64_t upper) const;
   bool flag(std::string_view key) const;
+  std::string text(std::string_view key) const;  ///< any, of one line and at most 200 bytes
   std::string choice(std::string_view key, std::span<const std::string_view> allowed) const;
   std::vector<std::string> choices(std::string_view key, std::span<const std::string_view> allowed) const;
+
+  /// The tables of the list `[[key]]`, each laid over `defaults`; complaints name this file, the line and `key.inner`.
+  std::vector<Settings> tables(std::string_view key, std::string_view defaults) const;
+
+  /// As if the user's file said so: for an option of the command line. The key must not have a dot.
+  void assign(std::string_view key, const std::string& text);
+  void assign_flag(std::string_view key, bool flag);
 
   /// The key a complaint should name, for a check that only the experiment can make.
   [[noreturn]] void complain(std::string_view key, std::string_view what_is_allowed) const;
@@ -57,6 +72,7 @@ class Settings {
 
  private:
   struct Impl;
+  explicit Settings(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/thin_wall/bounce_results.hpp>
 #include <thinwall/experiments/thin_wall/figures.hpp>
 #include <thinwall/experiments/thin_wall/summary.hpp>
 #include <thinwall/experiments/thin_wall/tables.hpp>
@@ -16,7 +17,7 @@ namespace {
 
 class ThinWallRun final : public Run {
  public:
-  explicit ThinWallRun(Plan plan) : plan_(std::move(plan)), stratified_(stratified_plan(plan_)) {}
+  explicit ThinWallRun(ShotPlan plan) : plan_(std::move(plan)), stratified_(stratified_plan(plan_)) {}
 
   /// First every cell at every detector, cell by cell, then the stratified cells.
   std::vector<Unit> units() const override {
@@ -45,14 +46,16 @@ class ThinWallRun final : public Run {
         self_test(counts_of(lines)),
         stratified_test(stratified_, {results.begin() + static_cast<std::ptrdiff_t>(count), results.end()}),
         lateness_test(lines)};
-    return {.answer = answer_text(sums),
-            .summary = summary_text(lines, sums, verdicts),
-            .tables = {bullet_table(lines), totals_table(sums), self_test_table(verdicts.counts),
-                       stratified_table(verdicts.stratified), lateness_table(verdicts.lateness), cells_table(lines),
-                       timings_table(lines)},
-            .figures = {probability_figure(lines), lateness_figure(lines), finite_figure(lines)},
-            .sections = report_sections(sums, verdicts),
-            .self_test_passed = verdicts.passed()};
+    Outcome outcome{.answer = answer_text(sums),
+                    .summary = summary_text(lines, sums, verdicts),
+                    .tables = {bullet_table(lines), totals_table(sums), self_test_table(verdicts.counts),
+                               stratified_table(verdicts.stratified), lateness_table(verdicts.lateness),
+                               cells_table(lines, plan_.response), timings_table(lines)},
+                    .figures = {probability_figure(lines), lateness_figure(lines), finite_figure(lines)},
+                    .sections = report_sections(sums, verdicts),
+                    .self_test_passed = verdicts.passed()};
+    if (plan_.response == Response::bounce) add_bounces(lines, outcome);
+    return outcome;
   }
 
  private:
@@ -66,6 +69,17 @@ class ThinWallRun final : public Run {
     return tally;
   }
 
+  /// The bounce comes first: it is what was asked for.
+  static void add_bounces(const std::vector<Line>& lines, Outcome& outcome) {
+    const std::vector<SelfTest> tests = self_test(through_counts(lines));
+    outcome.answer = bounce_answer(lines) + " " + outcome.answer;
+    outcome.summary = bounce_text(lines, tests) + outcome.summary;
+    outcome.tables.insert(outcome.tables.begin(), {bounce_table(lines), bounce_self_test_table(tests)});
+    outcome.figures.insert(outcome.figures.begin(), bounce_figure(lines));
+    outcome.sections.push_back(bounce_section(tests));
+    outcome.self_test_passed &= all_passed(tests) && ends_agree(lines);
+  }
+
   static std::vector<CellCount> counts_of(const std::vector<Line>& lines) {
     std::vector<CellCount> counts;
     for (const Line& line : lines) {
@@ -76,7 +90,7 @@ class ThinWallRun final : public Run {
     return counts;
   }
 
-  Plan plan_;
+  ShotPlan plan_;
   StratifiedPlan stratified_;
 };
 

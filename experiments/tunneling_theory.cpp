@@ -54,6 +54,16 @@ std::optional<double> miss_probability(const RoundedBox& box, const Vec3<double>
   return 1 - volume(box) / (spacing * shadow(box, direction));
 }
 
+std::optional<double> unturned_probability(const RoundedBox& box, const Vec3<double>& direction, double spacing) {
+  if (spacing < longest_chord(box, direction)) return std::nullopt;
+  const double h = box.half_extents[0], side = box.half_extents[1];
+  // Where the shortest way out is to a side: over that face, and in the roof of the box below it. Head-on the other two
+  // sides do the same, and so do the four edges between them.
+  const double beside = 2 * (box.radius * 4 * h * side + 4 * (side * h * h / 2 - h * h * h / 6));
+  const double across = direction[1] == 0 ? 2 * beside + pi * box.radius * box.radius * 2 * h : beside;
+  return 1 - (volume(box) - across) / (2 * spacing * shadow(box, direction));
+}
+
 std::optional<double> center_ray_miss_probability(const RoundedBox& box, double step) {
   const double chord = 2 * (box.half_extents[0] + box.radius);
   if (step < chord) return std::nullopt;

@@ -30,7 +30,12 @@ double longest_chord(const RoundedBox& box, const Vec3<double>& direction);  ///
 /// Empty where spacing < longest_chord, because there some lines cannot be missed and the average is another.
 std::optional<double> miss_probability(const RoundedBox& box, const Vec3<double>& direction, double spacing);
 
-/// The same for a ray from the ball's center, with an overlap test at the start of each step, head-on along the x axis:
+/// The chance that poses `spacing` apart see nothing, or see the ball first where the shortest way out of the wall does
+/// not lead back against its motion: ahead, or to a side across it. Averaged as above, and empty where that is. `box` is
+/// flat along x and square, at least as wide as thick, and `direction` lies in the plane of x and y.
+std::optional<double> unturned_probability(const RoundedBox& box, const Vec3<double>& direction, double spacing);
+
+/// The chance of a miss for a ray from the ball's center, with an overlap test at the start of each step, head-on along the x axis:
 /// the ray sees every line that meets the box itself; the overlap test gets the rest. Empty where step < longest chord.
 std::optional<double> center_ray_miss_probability(const RoundedBox& box, double step);
 

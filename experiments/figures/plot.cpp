@@ -87,7 +87,7 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
   const std::string steps = tics(axis, pixels, spacing);
   return fmt::format(
       "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} '{4}'\nset {0}tics autofreq\nset {0}tics {5}\n{6} m{0}tics\n",
-      name, rounded_text(axis.lower, 6), rounded_text(axis.upper, 6), axis.log ? "set" : "unset",
+      name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), axis.log ? "set" : "unset",
       !labeled ? ""
       : powers ? "10^{%T}"
                : "%g",
@@ -103,7 +103,8 @@ std::string named_axis_lines(std::string_view name, const Axis& axis, const std:
   const char* look = name == "x" ? " rotate by 90 right font ',11'" : name == "x2" ? " scale 0 font ',13'" : "";
   return fmt::format(
              "set {0}range [{1}:{2}]\nunset logscale {0}\nset {0}tics autofreq\nset {0}tics{3} noenhanced ({4})\n",
-             name, rounded_text(axis.lower, 6), rounded_text(axis.upper, 6), look, fmt::join(list, ", ")) +
+             name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), look,
+             fmt::join(list, ", ")) +
          (name == "x2" ? "" : fmt::format("unset m{}tics\n", name));
 }
 

@@ -43,7 +43,8 @@ Axis axis_around(std::span<const double> values, bool log) {
   if (!shown.empty()) {
     const auto [least, most] = std::ranges::minmax(shown);
     const double length = most - least;
-    const double pad = length > 0 ? air * length : (log || least == 0 ? 0.5 : std::abs(least) / 2);
+    const bool flat = rounded_text(least, axis_digits) == rounded_text(most, axis_digits);  // but for rounding
+    const double pad = !flat ? air * length : (log || least == 0 ? 0.5 : std::abs(least) / 2);
     lower = least - pad;
     upper = most + pad;
   }

@@ -7,6 +7,9 @@
 
 namespace thinwall {
 
+/// Significant digits of the ends of an axis in a script.
+inline constexpr int axis_digits = 6;
+
 struct Axis {
   bool log = false;
   double lower = 0, upper = 1;

@@ -1,5 +1,7 @@
 #include <thinwall/experiments/program/command_line.hpp>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 #include <string_view>
@@ -25,13 +27,34 @@ Examples:
   thinwall run thin_wall --dry-run            how large it is and how long it takes; writes nothing
   thinwall run my.toml --out results/mine     your own configuration, laid over the defaults
   thinwall run thin_wall --trials 1e6 --json  one JSON object on stdout, for scripts
+  thinwall run scene.toml --trace             a scene of your own, step by step; experiments/scenes/ has some
+  thinwall compare scene.toml                 discrete or swept, on that scene?
+  thinwall plan scene.toml                    what that scene does not need, and why
   thinwall validate ccd-queries               published queries against exact arithmetic
 )";
 
 constexpr const char* run_examples = R"(Examples:
   thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
+  thinwall run scene.toml --trace --plan full
 
+)";
+
+constexpr const char* compare_examples = R"(Examples:
+  thinwall compare experiments/scenes/bullet_against_bullet.toml
+  thinwall compare my_scene.toml --out results/mine --threads 1
+
+)";
+
+constexpr const char* plan_examples = R"(Examples:
+  thinwall plan experiments/scenes/rain.toml
+  thinwall plan my_scene.toml --json
+
+)";
+
+constexpr const char* compare_footer =
+    R"(The scene is stepped under every time policy and step that its [compare] names, and once more by events, with steps
+finer than the finest: the exact run that the others are held against. A folder is continued as by `run`.
 )";
 
 constexpr const char* validate_examples = R"(Examples:
@@ -113,6 +136,7 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   CommandLine out;
   out.argv = argv;
   std::string seed = "0", trials, threads;
+  constexpr std::array<std::string_view, 2> plans = {"lean", "full"};
 
   CLI::App app(root_help, "thinwall");
   app.footer(exit_codes);
@@ -126,21 +150,38 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   CLI::App* const run =
       app.add_subcommand("run", "Run an experiment; leave its data, figures, tables and report in a folder");
   run->footer("A folder that holds the same run, unfinished, is continued; one that holds another run is refused.\n");
-  run->add_option("experiment", out.target, "The name of an experiment, or a TOML file")->option_text("NAME|FILE.toml");
-  run->add_option("--out", out.out, "The result folder (default: results/NAME)")->option_text("DIR");
-  run->add_option("--seed", seed, "Chooses the random numbers (default: 0)")->option_text("N");
-  run->add_option("--trials", trials, "Overrides the number of trials in the configuration")->option_text("N");
-  run->add_option("--threads", threads, "Threads to compute with (default: all cores)")->option_text("N");
-  run->add_flag("--dry-run", out.dry_run, "Print the size and an estimate of the time, and write nothing")
-      ->disable_flag_override();
-  run->add_flag("--json", out.json, "Print one JSON object on stdout")->disable_flag_override();
+  run->add_option("experiment", out.target, "The name of an experiment, or a TOML file; of a scene too")
+      ->option_text("NAME|FILE.toml");
+  run->add_option("--trials", trials, "Overrides the number of trials in the configuration; of a scene, its steps")
+      ->option_text("N");
+  run->add_flag("--trace", out.trace, "Of a scene: write trace.jsonl, for a viewer")->disable_flag_override();
+
+  CLI::App* const compare =
+      app.add_subcommand("compare", "Step a scene under every time policy, and hold each against the exact run");
+  compare->footer(compare_footer);
+  compare->add_option("scene", out.target, "The TOML file of a scene")->option_text("FILE.toml");
+  for (CLI::App* command : {run, compare}) {
+    command->add_option("--out", out.out, "The result folder (default: results/NAME)")->option_text("DIR");
+    command->add_option("--threads", threads, "Threads to compute with (default: all cores)")->option_text("N");
+    command->add_flag("--dry-run", out.dry_run, "Print the size and an estimate of the time, and write nothing")
+        ->disable_flag_override();
+  }
+
+  CLI::App* const plan = app.add_subcommand("plan", "Print what a scene does not need, and why");
+  plan->add_option("scene", out.target, "The TOML file of a scene")->option_text("FILE.toml");
+  for (CLI::App* command : {run, compare, plan}) {
+    command->add_option("--seed", seed, "Chooses the random numbers (default: 0)")->option_text("N");
+    command->add_option("--plan", out.plan_kind, "Of a scene: full omits nothing; the outcome is the same to the bit")
+        ->option_text("lean|full");
+    command->add_flag("--json", out.json, "Print one JSON object on stdout")->disable_flag_override();
+  }
 
   CLI::App* const validate =
       app.add_subcommand("validate", "Check the verdicts of published queries against exact arithmetic");
   validate->footer(validate_footer);
   validate->add_option("folder", out.target, "Where the CSV files of queries are")->option_text("DIR");
   validate->add_flag("--json", out.json, "Print one JSON object on stdout")->disable_flag_override();
-  for (CLI::App* command : {list, run, validate}) command->allow_extras();
+  for (CLI::App* command : {list, run, compare, plan, validate}) command->allow_extras();
 
   const auto chosen = [&]() -> CLI::App& {
     const auto parsed = app.get_subcommands();
@@ -152,6 +193,8 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   } catch (const CLI::CallForHelp&) {
     const CLI::App& command = chosen();
     out.text = &command == run        ? run_examples + run->help("thinwall")
+               : &command == compare  ? compare_examples + compare->help("thinwall")
+               : &command == plan     ? plan_examples + plan->help("thinwall")
                : &command == validate ? validate_examples + validate->help("thinwall")
                                       : command.help();
     return out;
@@ -168,20 +211,34 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   }
   refuse_extras(chosen(), chosen().remaining());
   refuse_extras(app, app.remaining());
-  if (&chosen() == &app) throw UsageError("a command is missing; list, run or validate, see thinwall --help");
-  out.command = run->parsed() ? Command::run : validate->parsed() ? Command::validate : Command::list;
+  if (&chosen() == &app)
+    throw UsageError("a command is missing; list, run, compare, plan or validate, see thinwall --help");
+  out.command = run->parsed()        ? Command::run
+                : compare->parsed()  ? Command::compare
+                : plan->parsed()     ? Command::plan
+                : validate->parsed() ? Command::validate
+                                     : Command::list;
   if (validate->parsed() && out.target.empty()) {
     throw UsageError("validate: a folder of published queries is missing; see thinwall validate --help");
   }
-  if (!run->parsed()) return out;
+  if (list->parsed() || validate->parsed()) return out;
 
-  if (out.target.empty()) throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
+  if (run->parsed() && out.target.empty())
+    throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
+  if (out.target.empty())
+    throw UsageError(
+        fmt::format("{0}: the TOML file of a scene is missing; see thinwall {0} --help", chosen().get_name()));
+  if (chosen().count("--plan") > 0 && std::ranges::find(plans, out.plan_kind) == plans.end())
+    throw UsageError(
+        fmt::format("--plan: '{}' is not allowed; {}", one_line(out.plan_kind), spelling_hint(out.plan_kind, plans)));
   out.seed = parse_seed(seed);
+  out.threads = default_threads();
+  if (plan->parsed()) return out;
   if (run->count("--trials") > 0)
     out.trials = parse_positive("--trials", trials, std::numeric_limits<std::int64_t>::max());
-  out.threads = default_threads();
-  if (run->count("--threads") > 0) out.threads = static_cast<int>(parse_positive("--threads", threads, most_threads));
-  if (run->count("--out") > 0 && out.out.empty()) throw UsageError("--out: '' is not allowed; a folder");
+  if (chosen().count("--threads") > 0)
+    out.threads = static_cast<int>(parse_positive("--threads", threads, most_threads));
+  if (chosen().count("--out") > 0 && out.out.empty()) throw UsageError("--out: '' is not allowed; a folder");
   return out;
 }
 

@@ -8,19 +8,21 @@
 
 namespace thinwall {
 
-enum class Command { help, list, run, validate };
+enum class Command { help, list, run, compare, plan, validate };
 
 struct CommandLine {
   Command command = Command::help;
   std::string text;  ///< help: what to print
 
-  std::string target;  ///< run: an experiment's name, or a TOML file; validate: a folder
-  std::string out;     ///< run: the result folder; empty for the default
+  std::string target;  ///< run: an experiment's name, or a TOML file; compare, plan: a scene's; validate: a folder
+  std::string out;     ///< run, compare: the result folder; empty for the default
   std::uint64_t seed = 0;
   std::optional<std::int64_t> trials;
   int threads = 1;
   bool dry_run = false;
   bool json = false;
+  bool trace = false;     ///< run: of a scene, write what a viewer needs
+  std::string plan_kind;  ///< run, compare, plan: "lean" or "full"; empty: as the scene says
 
   std::vector<std::string> argv;  ///< as it was called
 };

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/scene.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/spelling.hpp>
@@ -18,6 +19,24 @@ namespace thinwall {
 namespace {
 
 namespace fs = std::filesystem;
+
+const Experiment* find_experiment(std::span<const Experiment> experiments, std::string_view name) {
+  const auto found = std::ranges::find(experiments, name, &Experiment::name);
+  return found == experiments.end() ? nullptr : &*found;
+}
+
+/// What the file is: the value of its key `experiment`; without one, a scene if it has the key `scene`.
+std::string experiment_named_in(const std::string& text, const std::string& file,
+                                std::span<const std::string_view> names) {
+  constexpr std::string_view key = "experiment";
+  const Settings settings(text, file, "");
+  if (settings.has(key)) return settings.choice(key, names);
+  if (settings.has("scene")) return "scene";
+  throw UsageError(fmt::format("{}:1: key '{}': missing; it says what the file is, as in {} = \"{}\"; {}",
+                               one_line(file), key, key, names.front(), spelling_hint("", names)));
+}
+
+}  // namespace
 
 std::string read_config(const std::string& file) {
   constexpr std::uintmax_t most = 16 << 20;  // [byte]; no configuration is as long
@@ -34,46 +53,50 @@ std::string read_config(const std::string& file) {
   return text;
 }
 
-const Experiment* find_experiment(std::span<const Experiment> experiments, std::string_view name) {
-  const auto found = std::ranges::find(experiments, name, &Experiment::name);
-  return found == experiments.end() ? nullptr : &*found;
-}
-
-std::string experiment_named_in(const std::string& text, const std::string& file,
-                                std::span<const std::string_view> names) {
-  constexpr std::string_view key = "experiment";
-  const Settings settings(text, file, "");
-  if (!settings.has(key)) {
-    throw UsageError(fmt::format("{}:1: key '{}': missing; it says what the file is, as in {} = \"{}\"; {}",
-                                 one_line(file), key, key, names.front(), spelling_hint("", names)));
-  }
-  return settings.choice(key, names);
-}
-
-}  // namespace
-
-ConfiguredRun configure_run(const std::string& target, const RunOptions& options,
+ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
                             std::span<const Experiment> experiments) {
+  std::vector<Experiment> all(experiments.begin(), experiments.end());
+  all.push_back(scene_experiment());
+  all.push_back(compare_experiment());
   std::vector<std::string_view> names;
-  for (const Experiment& experiment : experiments) names.push_back(experiment.name);
+  for (const Experiment& experiment : all) names.push_back(experiment.name);
 
-  ConfiguredRun out{.experiment = find_experiment(experiments, target), .run = nullptr, .config = {}};
+  const Experiment* chosen = request.compare ? nullptr : find_experiment(experiments, target);
   std::string text, file = std::string(target) + " (built-in)";
-  if (!out.experiment) {
+  if (!chosen) {
     const bool is_path = target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target);
-    if (!is_path) {
+    if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
-                                   spelling_hint(target, names)));
+                                   spelling_hint(target, std::span(names).first(experiments.size()))));
     }
     file = target;
     text = read_config(file);
-    out.experiment = find_experiment(experiments, experiment_named_in(text, file, names));
+    const std::string named = experiment_named_in(text, file, names);
+    chosen = find_experiment(all, request.compare && named == "scene" ? "compare" : named);
   }
-  const Settings settings(text, file, out.experiment->default_toml);
+  const bool is_scene = chosen->name == "scene" || chosen->name == "compare";
+  if (request.compare && chosen->name != "compare") {
+    throw UsageError(
+        fmt::format("{}: is a configuration of {}, not a scene; thinwall run it", one_line(file), chosen->name));
+  }
+  if (!is_scene && request.trace) throw UsageError("--trace: only a scene has a trace");
+  if (!is_scene && !request.plan_kind.empty()) throw UsageError("--plan: only a scene has a plan");
+
+  Settings settings(text, file, chosen->default_toml);
   settings.reject_unknown_keys();
-  out.run = out.experiment->configure(settings, options);
-  out.config = settings.resolved_json();
-  out.default_config = out.config == Settings("", "", out.experiment->default_toml).resolved_json();
+  if (is_scene) settings.assign("experiment", std::string(chosen->name));
+  if (request.trace) settings.assign_flag("trace", true);
+  if (!request.plan_kind.empty()) settings.assign("plan", request.plan_kind);
+  ConfiguredRun out{.experiment = *chosen,
+                    .name = std::string(chosen->name),
+                    .question = std::string(chosen->question),
+                    .run = chosen->configure(settings, request.options),
+                    .config = settings.resolved_json()};
+  out.default_config = out.config == Settings("", "", chosen->default_toml).resolved_json();
+  if (is_scene) {
+    out.name = (chosen->name == "compare" ? "compare_" : "") + settings.text("scene");
+    if (chosen->name == "scene") out.question = settings.text("question");
+  }
   return out;
 }
 

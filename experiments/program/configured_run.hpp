@@ -9,15 +9,29 @@
 
 namespace thinwall {
 
+/// What the command line says of a run beside its target.
+struct RunRequest {
+  RunOptions options;
+  bool compare = false;   ///< the target is a scene, to be compared
+  bool trace = false;     ///< of a scene
+  std::string plan_kind;  ///< of a scene; empty: as it says itself
+};
+
 struct ConfiguredRun {
-  const Experiment* experiment = nullptr;
+  Experiment experiment;
+  std::string name;      ///< of its result folder: the experiment's, or the scene's
+  std::string question;  ///< the experiment's, or the scene's
   std::unique_ptr<Run> run;
   std::string config;           ///< resolved, canonical JSON
   bool default_config = false;  ///< true if that is the experiment's own
 };
 
-/// `target` is an experiment's name or a TOML file whose key `experiment` names one. Throws UsageError.
-ConfiguredRun configure_run(const std::string& target, const RunOptions& options,
+/// The text of a TOML file. Throws UsageError.
+std::string read_config(const std::string& file);
+
+/// `target` is an experiment's name, or a TOML file: its key `experiment` names one, or its key `scene` says that it is a
+/// scene. Throws UsageError.
+ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
                             std::span<const Experiment> experiments);
 
 }  // namespace thinwall

@@ -8,6 +8,7 @@
 #include <thinwall/experiments/program/command_line.hpp>
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/json_reply.hpp>
+#include <thinwall/experiments/program/plan_command.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
 #include <thinwall/experiments/program/validate_command.hpp>
 #include <thinwall/experiments/settings.hpp>
@@ -35,7 +36,9 @@ int run_program(const std::vector<std::string>& argv, std::span<const Experiment
     switch (line.command) {
       case Command::help: out << line.text; return exit_done;
       case Command::list: out << (line.json ? list_reply(experiments) : list_text(experiments)); return exit_done;
-      case Command::run: return run_command(line, experiments, out, err);
+      case Command::run:
+      case Command::compare: return run_command(line, experiments, out, err);
+      case Command::plan: return plan_command(line, out);
       case Command::validate: return validate_command(line, out, err);
     }
     return exit_failed;

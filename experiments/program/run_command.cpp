@@ -64,12 +64,15 @@ int interrupted(const CommandLine& line, const std::string& kept, std::ostream& 
 
 int run_command(const CommandLine& given, std::span<const Experiment> experiments, std::ostream& out,
                 std::ostream& err) {
-  const ConfiguredRun chosen = configure_run(given.target, {given.seed, given.trials}, experiments);
+  const ConfiguredRun chosen = configure_run(
+      given.target,
+      {{given.seed, given.trials, given.threads}, given.command == Command::compare, given.trace, given.plan_kind},
+      experiments);
   const std::vector<Unit> units = chosen.run->units();
   CommandLine line = given;
-  if (line.out.empty()) line.out = "results/" + std::string(chosen.experiment->name);
-  RunRecord record{.experiment = std::string(chosen.experiment->name),
-                   .question = std::string(chosen.experiment->question),
+  if (line.out.empty()) line.out = "results/" + chosen.name;
+  RunRecord record{.experiment = std::string(chosen.experiment.name),
+                   .question = chosen.question,
                    .config = chosen.config,
                    .default_config = chosen.default_config,
                    .seed = line.seed,

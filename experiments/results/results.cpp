@@ -51,6 +51,7 @@ std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& ru
   parts.citation = bibtex(run);
   stage_tables(folder, run, outcome);
   stage_figures(folder, outcome, parts);
+  for (const TextFile& file : outcome.files) folder.stage(file.name, file.text);
   folder.stage("cite.bib", parts.citation);
   folder.stage("resolved.toml", resolved_toml(run));
 

@@ -17,18 +17,21 @@ namespace {
 
 /// One shot: step by step, pose k at start + k s, until the method sees a contact or the ball is past the wall.
 template <Scalar S, class Method>
-void fire_at(const Method& method, const Target& target, const Vec3<double>& start, Tally& tally) {
+void fire_at(const Method& method, const Target& target, const Vec3<double>& start, Response response, Tally& tally) {
   const Moving<Aabb<S>> wall = at_rest(Aabb<S>{Vec3<S>::Zero(), target.half_extents.cast<S>()});
-  const Vec3<S> displacement = target.displacement.cast<S>();
+  const auto query = [&](const Flight& at) {
+    const Sphere<S> ball{at.position.cast<S>(), static_cast<S>(target.radius)};
+    return time_of_impact(method, Moving<Sphere<S>>{ball, at.displacement.cast<S>()}, wall);
+  };
   ++tally.shots;
   for (std::int64_t k = 0;; ++k) {
     const Vec3<double> pose = start + static_cast<double>(k) * target.displacement;
     if (is_past(target, pose)) {
       ++tally.tunneled;
+      if (response == Response::bounce) ++tally.behind;
       return;
     }
-    const Moving<Sphere<S>> ball = {{pose.cast<S>(), static_cast<S>(target.radius)}, displacement};
-    const Toi<S> toi = time_of_impact(method, ball, wall);
+    const Toi<S> toi = query({pose, target.displacement});
     ++tally.queries;
     tally.evaluations += toi.evaluations;
     if (toi.status == ToiStatus::apart) continue;
@@ -41,7 +44,9 @@ void fire_at(const Method& method, const Target& target, const Vec3<double>& sta
     tally.lateness += std::llround(late / target.lateness_unit);
     tally.latest = std::max(tally.latest, late);
     tally.earliest = std::min(tally.earliest, late);
-    tally.widest = std::max(tally.widest, gap(target, start + steps * target.displacement));
+    const Flight seen = {start + steps * target.displacement, target.displacement};
+    tally.widest = std::max(tally.widest, gap(target, seen.position));
+    if (response == Response::bounce) fly_on(target, seen, toi.normal.template cast<double>(), query, tally);
     return;
   }
 }
@@ -65,15 +70,15 @@ template <Scalar S> std::string name_of(const Substeps<S>& m) { return fmt::form
 
 template <Scalar S>
 void append(std::string_view scalar, std::span<const std::string> methods, std::span<const std::int64_t> poses,
-            std::vector<Detector>& all) {
+            Response response, std::vector<Detector>& all) {
   for_each_type(Methods<S>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (serves<Method, Sphere<S>, Aabb<S>>) {
       if (std::find(methods.begin(), methods.end(), Method::name) == methods.end()) return;
       for (const Method& method : variants(Method{}, poses)) {
         all.push_back({name_of(method), std::string(scalar), poses_of(method),
                        static_cast<double>(std::numeric_limits<S>::epsilon()),
-                       [method](const Target& target, const Vec3<double>& start, Tally& tally) {
-                         fire_at<S>(method, target, start, tally);
+                       [method, response](const Target& target, const Vec3<double>& start, Tally& tally) {
+                         fire_at<S>(method, target, start, response, tally);
                        },
                        [method](const Cell& cell) { return theory_of(method, cell); }});
       }
@@ -92,11 +97,11 @@ std::vector<std::string_view> method_names() {
 }
 
 std::vector<Detector> detectors(std::span<const std::string> methods, std::span<const std::int64_t> substeps,
-                                std::span<const std::string> scalars) {
+                                std::span<const std::string> scalars, Response response) {
   std::vector<Detector> all;
   for (const std::string& scalar : scalars) {
-    if (scalar == "float") append<float>(scalar, methods, substeps, all);
-    if (scalar == "double") append<double>(scalar, methods, substeps, all);
+    if (scalar == "float") append<float>(scalar, methods, substeps, response, all);
+    if (scalar == "double") append<double>(scalar, methods, substeps, response, all);
   }
   return all;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/thin_wall/bounce.hpp>
 #include <thinwall/experiments/thin_wall/shots.hpp>
 #include <thinwall/experiments/thin_wall/tally.hpp>
 #include <thinwall/experiments/thin_wall/theory.hpp>
@@ -30,6 +31,6 @@ inline constexpr std::array<std::string_view, 2> scalar_names = {"float", "doubl
 
 /// By scalar, then in the order of the method list, then by the number of poses.
 std::vector<Detector> detectors(std::span<const std::string> methods, std::span<const std::int64_t> substeps,
-                                std::span<const std::string> scalars);
+                                std::span<const std::string> scalars, Response response = Response::none);
 
 }  // namespace thinwall

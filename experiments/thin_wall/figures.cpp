@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include <thinwall/experiments/thin_wall/bounce_results.hpp>
+
 namespace thinwall {
 
 namespace {
@@ -148,6 +150,29 @@ Figure probability_figure(const std::vector<Line>& lines) {
           "max(0, 1 - n (w + 2 r) / (v h cos(angle))) for n poses a step. Above: one cell in each sixth of a "
           "decade, methods that never tunnel taking turns on the zero line. Below: every cell in which at least 5 shots are expected to tunnel and 5 not to.",
       .panels = {std::move(top), std::move(bottom)}};
+}
+
+Figure bounce_figure(const std::vector<Line>& lines) {
+  const Number through = [](const Line& l) {
+    return static_cast<double>(went_through(l.tally)) / static_cast<double>(l.tally.shots);
+  };
+  const auto bars = [](const Line& l) { return wilson(went_through(l.tally), l.tally.shots); };
+  const std::vector<Line> infinite = drawn(lines, Wall::infinite, step_ratio);
+  Series unseen = theory_curves(infinite, [](double x) { return miss_probability(1, x); });
+  unseen.label = "theory, unseen alone";
+  unseen.mark = Mark::dashes;
+  Panel all = panel(step_ratio_label, "share that went through [1]",
+                    taking_turns(by_method(thinned(infinite, step_ratio), step_ratio, through, bars)),
+                    theory_curves(infinite, [](double x) { return miss_probability(0.5, x); }));
+  all.series.push_back(std::move(unseen));
+  return {
+      .name = "bounce",
+      .title = "How often a ball that should bounce goes through",
+      .caption =
+          "Infinite walls, double. Points are measured, with 95 % Wilson intervals: shots that went through unseen, "
+          "or were pushed out on the wrong side. The line is max(0, 1 - n (r + w / 2) / (v h cos(angle))) for n "
+          "poses a step; the dashes are those unseen alone. Seen is not saved: the step that is safe is half as long.",
+      .panels = {std::move(all)}};
 }
 
 Figure lateness_figure(const std::vector<Line>& lines) {

@@ -9,6 +9,7 @@
 namespace thinwall {
 
 Figure probability_figure(const std::vector<Line>& lines);  ///< infinite walls, with residuals: the headline
+Figure bounce_figure(const std::vector<Line>& lines);       ///< the same with a response, the wrong side included
 Figure lateness_figure(const std::vector<Line>& lines);     ///< infinite walls
 Figure finite_figure(const std::vector<Line>& lines);       ///< finite walls
 

@@ -26,7 +26,8 @@ bool can_be_judged(const Line& line) {
   return residual(line).has_value() && can_be_judged(line.tally.shots, *line.theory.probability);
 }
 
-std::vector<Line> make_lines(const Plan& plan, const std::vector<Tally>& tallies, const std::vector<double>& seconds) {
+std::vector<Line> make_lines(const ShotPlan& plan, const std::vector<Tally>& tallies,
+                             const std::vector<double>& seconds) {
   std::vector<Line> lines;
   lines.reserve(tallies.size());
   for (const Cell& cell : plan.cells) {

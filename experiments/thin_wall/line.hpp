@@ -27,6 +27,7 @@ std::optional<double> residual(const Line& line);       ///< standard errors fro
 bool can_be_judged(const Line& line);                   ///< by its residual
 
 /// `tallies[i]` and `seconds[i]` are of cell i / detectors and detector i % detectors. `plan` must outlive the lines.
-std::vector<Line> make_lines(const Plan& plan, const std::vector<Tally>& tallies, const std::vector<double>& seconds);
+std::vector<Line> make_lines(const ShotPlan& plan, const std::vector<Tally>& tallies,
+                             const std::vector<double>& seconds);
 
 }  // namespace thinwall

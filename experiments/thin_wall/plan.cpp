@@ -89,11 +89,12 @@ std::vector<Cell> make_cells(const Settings& settings) {
 
 }  // namespace
 
-Plan make_plan(const Settings& settings, const RunOptions& options) {
-  Plan plan;
+ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
+  ShotPlan plan;
   plan.cells = make_cells(settings);
+  plan.response = settings.choice("response", response_names) == "bounce" ? Response::bounce : Response::none;
   plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", 2, 1000),
-                             settings.choices("scalar", scalar_names));
+                             settings.choices("scalar", scalar_names), plan.response);
   plan.shots = options.trials.value_or(settings.integer("shots", 1, std::int64_t(1) << 30));
   plan.seed = options.seed;
   return plan;

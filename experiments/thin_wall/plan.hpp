@@ -21,14 +21,15 @@ inline constexpr Cell bullet = {.speed = 10,
                                 .wall = Wall::infinite,
                                 .wall_size = 0};
 
-struct Plan {
+struct ShotPlan {
   std::vector<Cell> cells;  ///< the bullet first, then every combination of the settings' factors
   std::vector<Detector> detectors;
   std::int64_t shots;  ///< of each cell and detector
   std::uint64_t seed;
+  Response response;
 };
 
 /// Throws UsageError.
-Plan make_plan(const Settings& settings, const RunOptions& options);
+ShotPlan make_plan(const Settings& settings, const RunOptions& options);
 
 }  // namespace thinwall

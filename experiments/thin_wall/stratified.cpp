@@ -10,7 +10,7 @@
 
 namespace thinwall {
 
-StratifiedPlan stratified_plan(const Plan& plan) {
+StratifiedPlan stratified_plan(const ShotPlan& plan) {
   StratifiedPlan stratified;
   for (const Cell& cell : plan.cells) {
     if (cell.wall == Wall::infinite) stratified.cells.push_back(cell);

@@ -21,7 +21,7 @@ struct StratifiedPlan {
   std::vector<Cell> cells;
   std::vector<Detector> detectors;
 };
-StratifiedPlan stratified_plan(const Plan& plan);
+StratifiedPlan stratified_plan(const ShotPlan& plan);
 
 /// The number that tunneled, by detector, as one line of text.
 std::string stratified_counts(const Cell& cell, const std::vector<Detector>& detectors, std::uint64_t seed);

@@ -3,6 +3,8 @@
 #include <functional>
 #include <string>
 
+#include <thinwall/experiments/thin_wall/bounce_results.hpp>
+
 namespace thinwall {
 
 namespace {
@@ -85,6 +87,25 @@ std::vector<Field> lateness_and_cost() {
   };
 }
 
+std::vector<Field> bounces() {
+  using enum ColumnType;
+  const auto through = [](const Line& l) { return wilson(went_through(l.tally), l.tally.shots); };
+  return {
+      {{"wrong_side", integer, "1", "Shots seen where the least penetration pushes them ahead or sideways, not back."},
+       [](const Line& l) { return l.tally.wrong_side; }},
+      {{"behind", integer, "1", "Shots that flew away behind the wall in the end, the tunneled included."},
+       [](const Line& l) { return l.tally.behind; }},
+      {{"through", number, "1", "(tunneled + wrong_side) / shots."},
+       [](const Line& l) { return static_cast<double>(went_through(l.tally)) / static_cast<double>(l.tally.shots); }},
+      {{"through_lower", number, "1", "Lower end of the 95 % Wilson interval."},
+       [through](const Line& l) { return through(l).lower; }},
+      {{"through_upper", number, "1", "Upper end of the 95 % Wilson interval."},
+       [through](const Line& l) { return through(l).upper; }},
+      {{"through_theory", number, "1", "The same by theory; missing where no formula holds."},
+       [](const Line& l) { return maybe(l.theory.through); }},
+  };
+}
+
 Table make_table(const std::vector<std::vector<Field>>& groups, const std::vector<Line>& lines) {
   Table table;
   for (const auto& group : groups) {
@@ -103,8 +124,10 @@ Table make_table(const std::vector<std::vector<Field>>& groups, const std::vecto
 
 }  // namespace
 
-Table cells_table(const std::vector<Line>& lines) {
-  Table table = make_table({factors(), counts(), lateness_and_cost()}, lines);
+Table cells_table(const std::vector<Line>& lines, Response response) {
+  std::vector<std::vector<Field>> groups = {factors(), counts(), lateness_and_cost()};
+  if (response == Response::bounce) groups.push_back(bounces());
+  Table table = make_table(groups, lines);
   table.name = "cells";
   table.description = "Every cell at every method and scalar: how often the ball tunnels, how late it is detected.";
   return table;

@@ -8,8 +8,8 @@
 
 namespace thinwall {
 
-Table cells_table(const std::vector<Line>& lines);    ///< every line
-Table bullet_table(const std::vector<Line>& lines);   ///< the lines of the textbook's bullet
-Table timings_table(const std::vector<Line>& lines);  ///< the one that differs from run to run
+Table cells_table(const std::vector<Line>& lines, Response response);  ///< every line
+Table bullet_table(const std::vector<Line>& lines);                    ///< the lines of the textbook's bullet
+Table timings_table(const std::vector<Line>& lines);                   ///< the one that differs from run to run
 
 }  // namespace thinwall

@@ -9,16 +9,16 @@
 namespace thinwall {
 
 std::string to_line(const Tally& t) {
-  return fmt::format("{} {} {} {} {} {} {:a} {:a} {:a}", t.shots, t.tunneled, t.undecided, t.queries, t.evaluations,
-                     t.lateness, t.latest, t.earliest, t.widest);
+  return fmt::format("{} {} {} {} {} {} {} {} {:a} {:a} {:a}", t.shots, t.tunneled, t.undecided, t.queries,
+                     t.evaluations, t.lateness, t.wrong_side, t.behind, t.latest, t.earliest, t.widest);
 }
 
 Tally tally_from_line(const std::string& line) {
   std::istringstream in(line);
   Tally t;
   std::string latest, earliest, widest;
-  in >> t.shots >> t.tunneled >> t.undecided >> t.queries >> t.evaluations >> t.lateness >> latest >> earliest >>
-      widest;
+  in >> t.shots >> t.tunneled >> t.undecided >> t.queries >> t.evaluations >> t.lateness >> t.wrong_side >> t.behind >>
+      latest >> earliest >> widest;
   if (!in || !(in >> std::ws).eof()) throw std::runtime_error("not a tally: " + line);
   t.latest = std::strtod(latest.c_str(), nullptr);  // streams do not read hexadecimal or infinity
   t.earliest = std::strtod(earliest.c_str(), nullptr);

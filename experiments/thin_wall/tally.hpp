@@ -15,6 +15,8 @@ struct Tally {
   std::int64_t queries = 0;      ///< steps asked about
   std::int64_t evaluations = 0;  ///< what the queries say they cost
   std::int64_t lateness = 0;     ///< sum over the detected, in whole units of Target::lateness_unit
+  std::int64_t wrong_side = 0;   ///< of a bounce: seen first where the way out leads ahead or sideways, not back
+  std::int64_t behind = 0;       ///< of a bounce: ended flying away behind the wall, tunneled ones included
   double latest = -std::numeric_limits<double>::infinity();   ///< [m] past first contact, of the detected
   double earliest = std::numeric_limits<double>::infinity();  ///< [m] the least of them
   double widest = -std::numeric_limits<double>::infinity();   ///< [m] gap at detection; > 0: a hit where there is none

@@ -9,10 +9,11 @@
 namespace thinwall {
 
 struct Theory {
-  std::optional<double> probability;  ///< of tunneling
-  std::optional<Lateness> lateness;   ///< [m] along the path, of the detected
-  std::optional<double> latest;       ///< [m] the most there can be, where nothing is said of its mean
-  double widest = 0;                  ///< [m] how far from the wall a detection may be, rounding aside
+  std::optional<double> probability;   ///< of tunneling
+  std::optional<Lateness> lateness;    ///< [m] along the path, of the detected
+  std::optional<double> latest;        ///< [m] the most there can be, where nothing is said of its mean
+  double widest = 0;                   ///< [m] how far from the wall a detection may be, rounding aside
+  std::optional<double> through = {};  ///< of a bounce: of tunneling or being pushed out on the wrong side
 
   std::optional<double> largest_lateness() const { return lateness ? std::optional(lateness->largest) : latest; }
 };

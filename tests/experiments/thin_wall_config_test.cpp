@@ -62,7 +62,7 @@ TEST(ThinWallConfig, default_fires_ten_million_shots_over_the_whole_range) {
   for (const Unit& unit : configured("")->units()) shots += unit.trials;
   EXPECT_GE(shots, 10'000'000);
   const Experiment experiment = thin_wall_experiment();
-  const Plan plan = make_plan(Settings("", "test.toml", experiment.default_toml), {});
+  const ShotPlan plan = make_plan(Settings("", "test.toml", experiment.default_toml), {});
   const auto has = [&](const std::function<bool(const Cell&)>& test) {
     return std::any_of(plan.cells.begin(), plan.cells.end(), test);
   };

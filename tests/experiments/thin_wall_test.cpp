@@ -67,7 +67,7 @@ bool self_test_passes(double (*theory)(const Cell&)) {
     shots = 10000
     method = ["end_of_step"])",
                           "test.toml", experiment.default_toml);
-  const Plan plan = make_plan(settings, {.seed = 1, .trials = {}});
+  const ShotPlan plan = make_plan(settings, {.seed = 1, .trials = {}});
   const std::vector<std::string> results =
       results_of(experiment.configure(settings, {.seed = 1, .trials = {}})->units());
   std::vector<Tally> tallies;

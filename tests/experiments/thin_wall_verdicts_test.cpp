@@ -13,12 +13,12 @@
 namespace thinwall {
 namespace {
 
-Plan small_plan() {
+ShotPlan small_plan() {
   return make_plan(Settings(small, "test.toml", thin_wall_experiment().default_toml), {.seed = 1, .trials = {}});
 }
 
 /// One line of the bullet for each detector, all detected exactly on time.
-std::vector<Line> punctual(const Plan& plan) {
+std::vector<Line> punctual(const ShotPlan& plan) {
   const Tally tally = {.shots = 100, .latest = 0, .earliest = 0, .widest = 0};
   const std::size_t count = plan.cells.size() * plan.detectors.size();
   std::vector<Line> lines = make_lines(plan, std::vector<Tally>(count, tally), std::vector<double>(count));
@@ -31,7 +31,7 @@ const LatenessTest& of(const std::vector<LatenessTest>& tests, const std::string
 }
 
 TEST(LatenessTest, wants_the_closed_form_on_time_and_poses_late) {
-  const Plan plan = small_plan();
+  const ShotPlan plan = small_plan();
   const auto tests = lateness_test(punctual(plan));
   EXPECT_TRUE(of(tests, "closed_form").passed());
   EXPECT_FALSE(of(tests, "end_of_step").passed());  // its mean cannot be 0
@@ -39,7 +39,7 @@ TEST(LatenessTest, wants_the_closed_form_on_time_and_poses_late) {
 
 /// A method that always says "hit" would never tunnel.
 TEST(LatenessTest, catches_false_hits) {
-  const Plan plan = small_plan();
+  const ShotPlan plan = small_plan();
   std::vector<Line> lines = punctual(plan);
   for (Line& line : lines) line.tally.widest = 1e-3;
   EXPECT_EQ(of(lateness_test(lines), "closed_form").false_cells, 1);
@@ -47,7 +47,7 @@ TEST(LatenessTest, catches_false_hits) {
 }
 
 TEST(LatenessTest, catches_what_is_later_than_it_can_be) {
-  const Plan plan = small_plan();
+  const ShotPlan plan = small_plan();
   std::vector<Line> lines = punctual(plan);
   for (Line& line : lines) line.tally.latest = 0.0501;  // end_of_step: at most 5 cm
   EXPECT_EQ(of(lateness_test(lines), "end_of_step").late_cells, 1);

@@ -1,0 +1,127 @@
+#include <thinwall/experiments/scenes/comparison.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/scenes/playback.hpp>
+
+namespace thinwall {
+
+namespace {
+
+constexpr double most_steps = 1e7;  // of one run
+
+}  // namespace
+
+std::string Contender::label() const {
+  std::string text(name_of(policy));
+  if (policy == TimePolicy::substeps) text += fmt::format("_{}", substeps);
+  return text;
+}
+
+Comparison read_comparison(const Settings& settings, const RunOptions& options) {
+  Comparison out;
+  out.scene = read_scene(settings, options);
+  out.scene.options.threads = 1;  // contenders run side by side, and each is timed
+  std::vector<double> steps =
+      settings.numbers("compare.dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
+  std::sort(steps.begin(), steps.end());
+  for (const std::string& policy : settings.choices("compare.policy", policy_names())) {
+    for (const double dt : steps) out.contenders.push_back({policy_named(policy), out.scene.options.substeps, dt});
+  }
+  const auto finer = static_cast<double>(settings.integer("compare.finer", 1, 1000));
+  out.repeats = static_cast<int>(settings.integer("compare.repeats", 1, 100));
+  out.exact = {TimePolicy::event_driven, 1, steps.front() / finer};
+  if (steps.back() > out.scene.duration())
+    settings.complain("compare.dt", fmt::format("at most the scene's {} s", out.scene.duration()));
+  if (out.scene.duration() / out.exact.dt > most_steps)
+    settings.complain("compare.dt", fmt::format("at most {:.0f} steps of the exact run", most_steps));
+  return out;
+}
+
+Scene scene_for(const Comparison& comparison, const Contender& contender) {
+  Scene scene = comparison.scene;
+  scene.options.policy = contender.policy;
+  scene.options.substeps = contender.substeps;
+  scene.dt = contender.dt;
+  scene.steps = std::max<std::int64_t>(1, std::llround(comparison.scene.duration() / contender.dt));
+  return scene;
+}
+
+bool Trial::same_outcome(const Trial& other) const {
+  return meetings == other.meetings && tunneled == other.tunneled && hits == other.hits && hash == other.hash;
+}
+
+Trial run_trial(const Scene& scene) {
+  Trial trial;
+  const Playback playback = play(scene, [&trial](const World& world) {
+    for (const CollisionEvent& event : world.events().events()) {
+      if (event.kind == CollisionEventKind::begin) trial.meetings.try_emplace({event.first, event.second}, event.time);
+    }
+  });
+  for (const StepRow& row : playback.rows) {
+    trial.hits += row.hits;
+    trial.sweeps += row.sweeps;
+  }
+  trial.tunneled = playback.all_missed;
+  trial.energy = playback.energy;
+  trial.energy_end = playback.rows.back().energy;
+  trial.hash = playback.hash;
+  trial.seconds = playback.phases.back().total;
+  return trial;
+}
+
+std::string to_line(const Trial& t) {
+  nlohmann::json out = {
+      {"tunneled", t.tunneled},     {"hits", t.hits}, {"sweeps", t.sweeps},   {"energy", t.energy},
+      {"energy_end", t.energy_end}, {"hash", t.hash}, {"seconds", t.seconds}, {"meetings", nlohmann::json::array()}};
+  for (const auto& [pair, time] : t.meetings) out["meetings"].push_back({pair.first, pair.second, time});
+  return out.dump();
+}
+
+Trial trial_from_line(const std::string& line) {
+  try {
+    const auto in = nlohmann::json::parse(line);
+    Trial t;
+    t.tunneled = in.at("tunneled");
+    t.hits = in.at("hits");
+    t.sweeps = in.at("sweeps");
+    t.energy = in.at("energy");
+    t.energy_end = in.at("energy_end");
+    t.hash = in.at("hash");
+    t.seconds = in.at("seconds");
+    for (const auto& m : in.at("meetings"))
+      t.meetings.emplace(std::pair<std::uint32_t, std::uint32_t>(m.at(0), m.at(1)), m.at(2));
+    return t;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("not a trial: ") + error.what());
+  }
+}
+
+Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration) {
+  Contest out;
+  out.contender = &contender;
+  out.trial = repeats.front();
+  for (const Trial& repeat : repeats) {
+    out.seconds.push_back(repeat.seconds);
+    out.repeated_alike &= repeat.same_outcome(out.trial);
+  }
+  for (const auto& [pair, time] : exact.meetings) {
+    const auto found = out.trial.meetings.find(pair);
+    if (found != out.trial.meetings.end()) {
+      ++out.met;
+      out.errors.push_back(std::abs(found->second - time));
+    } else if (time <= duration - contender.dt) {
+      ++out.unmet;
+    }
+  }
+  out.extra = static_cast<std::int64_t>(out.trial.meetings.size()) - out.met;
+  std::sort(out.errors.begin(), out.errors.end());
+  return out;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,133 @@
+#include <thinwall/experiments/world/stepping.hpp>
+
+#include <chrono>
+#include <cmath>
+
+#include <thinwall/experiments/world/boxes.hpp>
+#include <thinwall/experiments/world/checks.hpp>
+
+namespace thinwall {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+}  // namespace
+
+PhaseClock::PhaseClock(double& seconds) : seconds_(&seconds), start_(now()) {}
+PhaseClock::~PhaseClock() { *seconds_ += now() - start_; }
+
+Stepper::Stepper(const WorldOptions& options, const Plan& plan)
+    : options_(options),
+      plan_(plan),
+      finder_(plan.broad_phase),
+      narrow_(make_narrow_phase(plan.sphere_aabb, options.threads)) {}
+
+void Stepper::run(std::span<const Body> bodies, double dt, bool changed_by_hand) {
+  bodies_ = bodies;
+  counts_ = {};
+  touches_.clear();
+  begin(dt, changed_by_hand);
+  switch (options_.policy) {
+    case TimePolicy::discrete: sampled_step(1); break;
+    case TimePolicy::substeps: sampled_step(options_.substeps); break;
+    case TimePolicy::clamp:
+    case TimePolicy::event_driven: swept_step(); break;
+  }
+  finish();
+}
+
+void Stepper::begin(double dt, bool changed_by_hand) {
+  const PhaseClock clock(counts_.seconds.integrate);
+  dt_ = dt;
+  all_anew_ = !ready_ || changed_by_hand || plan_.resting_bounds || proxies_.size() != bodies_.size();
+  ready_ = false;
+  motions_.assign(bodies_.size(), Motion{});
+  proxies_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    motions_[i].velocity = bodies_[i].velocity;
+    motions_[i].speed = bodies_[i].velocity.cwiseAbs().sum();
+  }
+}
+
+/// Gravity for `dt` [s]: the velocity at the end of a stretch is the one it is walked at (semi-implicit Euler), so that a body
+/// that a contact holds does not move.
+void Stepper::fall(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!is_moved_by_impulses(bodies_[i])) continue;
+    Motion& motion = motions_[i];
+    motion.velocity += options_.gravity * (bodies_[i].gravity_scale * dt);
+    motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
+  }
+}
+
+/// The boxes from the anchors to the end of a stretch of `dt` [s].
+void Stepper::box(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!can_move(bodies_[i]) && !all_anew_) continue;
+    require_in_the_world(i, moving_at(motions_[i]) * dt);
+    if (plan_.contacts) proxies_[i] = proxy_of(bodies_[i], motions_[i], dt);
+  }
+}
+
+void Stepper::require_in_the_world(std::size_t which, const Vec3<double>& displacement) const {
+  const Motion& motion = motions_[which];
+  const Vec3<double> way = motion.offset.cwiseAbs() + displacement.cwiseAbs();
+  if (is_in_the_world(bodies_[which].shape, way) && is_finite(motion.velocity)) return;
+  throw LeftTheWorld(called(bodies_[which]) +
+                     " left the representable world: its place or its velocity is out of range");
+}
+
+void Stepper::count(const Asked& asked) {
+  counts_.sweeps += asked.pairs;
+  counts_.gated += asked.gated;
+}
+
+void Stepper::finish() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Motion& motion = motions_[i];
+    if (motion.waiting) ++counts_.waiting;
+    if (can_move(bodies_[i])) require_in_the_world(i, Vec3<double>::Zero());
+  }
+  counts_.hits = touches_.size();
+  counts_.bytes = bytes();
+  ready_ = true;
+}
+
+std::size_t Stepper::bytes() const {
+  return motions_.capacity() * sizeof(Motion) + proxies_.capacity() * sizeof(Proxy) +
+         pairs_.capacity() * sizeof(ProxyPair) + (touches_.capacity() + found_.capacity()) * sizeof(Touch) +
+         narrow_->bytes() + neighbors_.bytes();
+}
+
+/// Hands all pairs that may touch to `ask`: those that the broad phase finds, or, where nothing is omitted, every two
+/// bodies, a bounded number at a time; then what they may not do to each other is dropped.
+void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask) {
+  if (!plan_.all_bounds) {
+    {
+      const PhaseClock clock(counts_.seconds.broad);
+      finder_.find(proxies_, pairs_, options_.max_pairs);
+    }
+    counts_.pairs += pairs_.size();
+    const PhaseClock clock(counts_.seconds.narrow);
+    count(ask(pairs_));
+    return;
+  }
+  const PhaseClock clock(counts_.seconds.narrow);
+  constexpr std::size_t at_a_time = 1U << 16;
+  pairs_.clear();
+  const auto flush = [&] {
+    counts_.pairs += pairs_.size();
+    count(ask(pairs_));
+    pairs_.clear();
+  };
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    for (std::uint32_t j = i + 1; j < bodies_.size(); ++j) {
+      pairs_.push_back({i, j});
+      if (pairs_.size() == at_a_time) flush();
+    }
+  }
+  flush();
+  std::erase_if(found_, [&](const Touch& touch) { return !may_meet(proxies_[touch.first], proxies_[touch.second]); });
+}
+
+}  // namespace thinwall

@@ -1,0 +1,91 @@
+/// Time policies on one scene, held against the exact run.
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include <thinwall/experiments/scenes/comparison.hpp>
+
+#include "experiments/scenes/scene_text.hpp"
+#include "support/described_tables.hpp"
+#include "support/experiment_run.hpp"
+
+namespace thinwall {
+namespace {
+
+const std::string compared = "\n[compare]\ndt = [0.02, 0.001]\nrepeats = 2\nfiner = 2\n";
+
+Comparison comparison_from(const std::string& text) { return read_comparison(scene_settings(text), {}); }
+
+TEST(Comparison, names_every_policy_and_step_and_an_exact_run_finer_than_any) {
+  const Comparison comparison = comparison_from(bullet_text() + compared);
+  ASSERT_EQ(comparison.contenders.size(), 8U);
+  EXPECT_EQ(comparison.contenders[0].dt, 0.001);
+  EXPECT_EQ(comparison.contenders[3].label(), "substeps_4");
+  EXPECT_EQ(comparison.exact.dt, 0.0005);
+  EXPECT_EQ(scene_for(comparison, comparison.contenders[1]).steps, 5);
+  EXPECT_EQ(scene_for(comparison, comparison.contenders[1]).options.policy, TimePolicy::discrete);
+}
+
+TEST(Comparison, refuses_steps_that_do_not_fit) {
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [1]\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [0]\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [1e-9]\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\npolicy = ['sweep']\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeats = 0\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeat = 1\n"), UsageError);
+}
+
+/// Made-up meetings: one in both, one missed, one missed in the last step, one here alone.
+TEST(Comparison, counts_pairs_that_met_in_one_run_alone) {
+  const Contender contender{TimePolicy::discrete, 1, 0.5};
+  Trial exact, run;
+  exact.meetings = {{{1, 2}, 1.0}, {{1, 3}, 2.0}, {{1, 4}, 9.75}};
+  run.meetings = {{{1, 2}, 1.25}, {{2, 3}, 3.0}};
+  run.seconds = 2;
+  Trial other = run;
+  other.seconds = 4;
+  const Contest c = contest(contender, {run, other}, exact, 10);
+  EXPECT_EQ(c.met, 1);
+  EXPECT_EQ(c.unmet, 1);
+  EXPECT_EQ(c.extra, 1);
+  EXPECT_EQ(c.errors, std::vector<double>{0.25});
+  EXPECT_EQ(c.seconds, (std::vector<double>{2, 4}));
+  EXPECT_TRUE(c.repeated_alike);
+  other.hash = 7;
+  EXPECT_FALSE(contest(contender, {run, other}, exact, 10).repeated_alike);
+}
+
+TEST(Comparison, a_trial_survives_its_line) {
+  const Trial trial = run_trial(scene_from(bullet_text()));
+  EXPECT_EQ(trial.meetings.size(), 1U);
+  const Trial again = trial_from_line(to_line(trial));
+  EXPECT_TRUE(again.same_outcome(trial));
+  EXPECT_EQ(again.seconds, trial.seconds);
+  EXPECT_EQ(again.energy_end, trial.energy_end);
+  EXPECT_THROW(trial_from_line("{}"), std::runtime_error);
+}
+
+/// The question itself: with steps of 20 ms the discrete one is through; the swept ones are on time at any step.
+TEST(Comparison, tells_discrete_from_swept) {
+  const Outcome outcome = outcome_of(*run_of(compare_experiment(), bullet_text() + compared));
+  EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
+  expect_described_tables(outcome);
+  const Table& table = table_of(outcome, "compare");
+  ASSERT_EQ(table.rows.size(), 8U);
+  EXPECT_EQ(value_of(table, 1, "policy"), Value(std::string("discrete")));
+  EXPECT_EQ(value_of(table, 1, "tunneled"), Value(std::int64_t(1)));
+  EXPECT_EQ(value_of(table, 1, "unmet"), Value(std::int64_t(1)));
+  EXPECT_EQ(value_of(table, 0, "tunneled"), Value(std::int64_t(0)));  // 4 cm a step: it is seen
+  EXPECT_GT(std::get<double>(value_of(table, 0, "error_median")), 1e-6);
+  for (const std::size_t row : {4U, 5U, 6U, 7U}) {
+    EXPECT_EQ(value_of(table, row, "met"), Value(std::int64_t(1))) << row;
+    EXPECT_EQ(value_of(table, row, "tunneled"), Value(std::int64_t(0))) << row;
+    EXPECT_LT(std::get<double>(value_of(table, row, "error_largest")), 1e-12) << row;
+  }
+  std::istringstream summary(outcome.summary);
+  for (std::string line; std::getline(summary, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+}  // namespace
+}  // namespace thinwall

@@ -1,0 +1,149 @@
+// What holds in every world: nothing that is left out changes an outcome, nor does the way the work is done.
+
+#include <map>
+
+#include <thinwall/discrete/dispatch.hpp>
+#include <thinwall/experiments/world/pair_finder.hpp>
+
+#include "experiments/world/random_world.hpp"
+#include "support/property.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+struct Outcome {
+  std::vector<std::uint64_t> hashes;
+  std::vector<double> times;
+  std::vector<std::vector<CollisionEvent>> events;
+  std::vector<StepReport> reports;
+};
+
+Outcome outcome_of(const DrawnWorld& drawn, const std::vector<Body>& bodies, const WorldOptions& options) {
+  World world(bodies, options);
+  Outcome outcome;
+  for (int k = 0; k < drawn.steps; ++k) {
+    outcome.reports.push_back(world.step(drawn.dt));
+    outcome.hashes.push_back(world.state_hash());
+    outcome.events.push_back(world.events().events());
+    for (const Hit& hit : world.hits()) {
+      outcome.times.push_back(hit.time);
+      outcome.times.push_back(hit.normal.sum());
+      outcome.times.push_back(hit.point.sum());
+    }
+  }
+  return outcome;
+}
+
+std::string difference(const Outcome& a, const Outcome& b) {
+  if (a.hashes != b.hashes) return "states differ";
+  if (a.events != b.events) return "events differ";
+  return a.times == b.times ? "" : "hits differ";
+}
+
+/// Empty, or what is wrong with the world of this seed.
+std::string complaint(std::uint64_t seed) {
+  const DrawnWorld drawn = drawn_world(seed);
+  const Outcome planned = outcome_of(drawn, drawn.bodies, drawn.options);
+  const auto against = [&](const std::string& what, const std::vector<Body>& bodies, const auto& change) {
+    WorldOptions options = drawn.options;
+    change(options);
+    const std::string wrong = difference(planned, outcome_of(drawn, bodies, options));
+    return wrong.empty() ? "" : what + ": " + wrong + "; ";
+  };
+  std::string wrong;
+  const bool is_asked = drawn.options.response || drawn.options.events;  // else the full plan finds hits for nobody
+  if (is_asked) wrong += against("full plan", drawn.bodies, [](WorldOptions& o) { o.full_plan = true; });
+  wrong += against("another order", shuffled(drawn.bodies, seed), [](WorldOptions&) {});
+  const auto& names = PairFinder::names();
+  const std::string name(names[seed % names.size()]);
+  wrong += against(name, drawn.bodies, [&](WorldOptions& o) { o.broad_phase = name; });
+  if (seed % 8 == 0) {  // threads take long to start
+    wrong += against("2 threads", drawn.bodies, [](WorldOptions& o) { o.threads = 2; });
+    wrong += against("3 threads", drawn.bodies, [](WorldOptions& o) { o.threads = 3; });
+  }
+  return wrong;
+}
+
+TEST(WorldProperties, no_plan_thread_order_or_broad_phase_changes_an_outcome) {
+  check_property(10000, [] {
+    const auto seed = static_cast<std::uint64_t>(draw_integer(0, 1 << 30));
+    const std::string wrong = complaint(seed);
+    if (!wrong.empty()) RC_FAIL("seed " + std::to_string(seed) + ": " + wrong);
+  });
+}
+
+TEST(WorldProperties, begins_and_ends_pair_up_and_nothing_is_ever_nan) {
+  check_property(2000, [] {
+    const auto seed = static_cast<std::uint64_t>(draw_integer(0, 1 << 30));
+    const DrawnWorld drawn = drawn_world(seed);
+    WorldOptions options = drawn.options;
+    options.events = true;
+    World world(drawn.bodies, options);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, bool> open;
+    std::string wrong;
+    world.events().listen([&](const CollisionEvent& event) {
+      bool& is_open = open[{event.first, event.second}];
+      if (is_open == (event.kind == CollisionEventKind::begin)) wrong = "an event out of turn";
+      is_open = event.kind != CollisionEventKind::end;
+    });
+    for (int k = 0; k < 6; ++k) {
+      const StepReport& report = world.step(drawn.dt);
+      const std::size_t count = world.bodies().size();
+      if (report.impulses > count * static_cast<std::size_t>(options.max_events) +
+                                count * count * static_cast<std::size_t>(options.contact_rounds + 1) * 3) {
+        wrong = "too many impulses";
+      }
+      for (const Body& body : world.bodies()) {
+        if (!is_finite(body.velocity) || !is_finite(position(body))) wrong = called(body) + " is not finite";
+      }
+      if (!is_finite(world.energy())) wrong = "the energy is not finite";
+      if (k == 3 && !world.bodies().empty()) world.remove(world.bodies()[world.bodies().size() / 2].id);
+    }
+    while (!world.bodies().empty()) world.remove(world.bodies().front().id);
+    world.step(drawn.dt);
+    for (const auto& [pair, is_open] : open) {
+      if (is_open) wrong = "a contact that never ends";
+    }
+    if (!wrong.empty()) RC_FAIL("seed " + std::to_string(seed) + ": " + wrong);
+  });
+}
+
+/// Bodies that begin apart and are swept never overlap by more than rounding, whatever hits them.
+TEST(WorldProperties, swept_bodies_never_sink_into_each_other) {
+  check_property(2000, [] {
+    const auto seed = static_cast<std::uint64_t>(draw_integer(0, 1 << 30));
+    DrawnWorld drawn = drawn_world(seed);
+    drawn.options.policy = seed % 2 == 0 ? TimePolicy::clamp : TimePolicy::event_driven;
+    drawn.options.response = true;
+    drawn.options.gate = 0;
+    std::vector<Body> apart;
+    for (Body body : drawn.bodies) {
+      if (std::holds_alternative<std::monostate>(body.shape)) continue;
+      if (body.mass > 1e9) body.mass = 1;  // what nothing stops may overrun a body that waits
+      const bool overlaps_one = std::any_of(apart.begin(), apart.end(), [&](const Body& other) {
+        return separation(body.shape, other.shape)->distance <= 1e-6;
+      });
+      body.mask = ~0U;
+      body.group = 1;
+      if (!overlaps_one) apart.push_back(body);
+    }
+    World world(apart, drawn.options);
+    for (int k = 0; k < 5; ++k) {
+      world.step(drawn.dt);
+      const auto& bodies = world.bodies();
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+          if (bodies[i].is_static && bodies[j].is_static) continue;
+          const double distance = separation(bodies[i].shape, bodies[j].shape)->distance;
+          if (distance < -1e-11) {
+            RC_FAIL("seed " + std::to_string(seed) + ": " + called(bodies[i]) + " is " + std::to_string(-distance) +
+                    " deep in " + called(bodies[j]) + " after step " + std::to_string(k));
+          }
+        }
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace thinwall::testing
