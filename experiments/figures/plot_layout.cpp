@@ -6,7 +6,8 @@ namespace thinwall {
 namespace {
 
 // [pixel], for text of 15 pixels
-constexpr double letter_width = 7.6, legend_sample = 70, legend_row = 23;
+constexpr double letter_width = 7.6, legend_sample = 60, legend_row = 23;
+constexpr double reserved_letter = 10.5;         // what gnuplot sets apart for a letter of the legend
 constexpr double panel_height = 360;             // of a panel of height 1
 constexpr double shared_gap = 16, own_gap = 74;  // between panels that share their x axis, and others
 constexpr double bottom_margin = 66;
@@ -22,10 +23,13 @@ double room_for_names(const std::vector<Panel>& panels) {
   return longest == 0 ? 0 : 56 + letter_width * static_cast<double>(longest);
 }
 
+/// The last column needs room for its text alone; those before it are as wide as gnuplot makes them.
 std::size_t columns_that_fit(const std::vector<SeriesStyle>& styles, double width) {
   std::size_t longest = 0;
   for (const SeriesStyle& style : styles) longest = std::max(longest, style.label.size());
-  const auto fit = static_cast<std::size_t>(width / (legend_sample + letter_width * static_cast<double>(longest)));
+  const double letters = static_cast<double>(longest);
+  const double last = legend_sample + letter_width * letters, column = legend_sample + reserved_letter * letters;
+  const auto fit = width < last ? std::size_t{1} : static_cast<std::size_t>(1 + (width - last) / column);
   return std::clamp<std::size_t>(fit, 1, std::max<std::size_t>(styles.size(), 1));
 }
 

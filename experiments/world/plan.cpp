@@ -9,7 +9,7 @@
 namespace thinwall {
 namespace {
 
-constexpr std::size_t half_loop_until = 64;  ///< bodies with a shape; measured by bench/world
+constexpr std::size_t half_loop_until = 128;  ///< bodies with a shape; measured by bench/world
 constexpr std::string_view best_of_many = "uniform_grid";
 
 /// What a scene is made of, as far as a plan looks.
