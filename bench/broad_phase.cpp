@@ -83,9 +83,10 @@ class Goals : public MedianTimes {
       goal("exponent, best, 1e4 to 1e6", exponent("uniform_grid", speed), 1.15, "");
       goal("exponent, r_tree, 1e4 to 1e6", exponent("r_tree", speed), 1.3, "");
       const double build = at("bullet_build", speed, 100000), step = at("bullet_step", speed, 100000);
-      if (build > 0 && step > 0 && grid > 0)
+      if (build > 0 && step > 0 && grid > 0) {
         std::printf("  %-30s %8.3g x faster (goal: at least 2)\n", "best against Bullet's quicker",
                     std::min(build, step) / grid);
+      }
     }
   }
 
