@@ -66,6 +66,8 @@ TYPED_TEST(EveryBroadPhase, counts_touching_as_a_pair_and_the_next_number_as_non
   EXPECT_EQ(pairs_of<TypeParam>({cube(std::nextafter(1.0, 2.0)), cube(0)}), Pairs{});
   EXPECT_EQ(pairs_of<TypeParam>({cube(0), box({1, 1, 1}, {1, 1, 1})}), (Pairs{{0, 1}}));  // a point at a corner
   EXPECT_EQ(pairs_of<TypeParam>({cube(0, 0), cube(0, 0)}), (Pairs{{0, 1}}));              // two points at one place
+  const Vec3<double> zero = Vec3<double>::Zero(), minus_zero = -zero;
+  EXPECT_EQ(pairs_of<TypeParam>({box(zero, minus_zero), box(minus_zero, zero)}), (Pairs{{0, 1}}));
 }
 
 TYPED_TEST(EveryBroadPhase, knows_a_touch_far_from_the_origin) {
