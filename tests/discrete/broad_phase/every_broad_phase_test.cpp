@@ -138,6 +138,7 @@ TYPED_TEST(EveryBroadPhase, stops_when_pairs_explode_with_bounded_memory) {
   EXPECT_LE(pairs.capacity(), 3 * 5000U);
   find_pairs(TypeParam{}, proxies, pairs, 499500, memory);  // as many as there are: allowed
   EXPECT_EQ(pairs.size(), 499500U);
+  EXPECT_THROW(find_pairs(TypeParam{}, proxies, pairs, 499499, memory), TooManyPairs);
   try {
     find_pairs(TypeParam{}, proxies, pairs, 7, memory);
     FAIL() << "no complaint";
