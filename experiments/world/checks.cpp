@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/experiments/world/pair_finder.hpp>
+#include <thinwall/experiments/world/step/pair_finder.hpp>
 
 namespace thinwall {
 
