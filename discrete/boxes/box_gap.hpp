@@ -123,9 +123,7 @@ template <Scalar S> LeastOverlap<S> least_overlap(const BoxPair<S>& pair) {
   return least;
 }
 
-/// The gap from A to B in A's axes, with B's point relative to B's center. The normal is that of a plane that parts the boxes
-/// by all of the gap: beside nearly parallel faces or edges many points are as near as rounding can tell, and the line through
-/// two of them may lean; then an axis parts them more.
+/// The gap from A to B in A's axes, with B's point relative to B's center.
 /// Degenerate: among axes of equal overlap the first wins: A's faces, B's faces, edges; coincident centers go positive.
 template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
   CoreGap<S> gap;
@@ -135,16 +133,25 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
     gap.distance = safe_norm<S>(points.on_b - points.on_a);
     gap.normal = safe_unit<S>(points.on_b - points.on_a);
   }
-  const LeastOverlap<S> axis = least_overlap(pair);
   if (gap.distance <= box_noise(pair)) {
-    gap.normal = axis.normal;
-    points = deepest_points(pair, axis.axis_a, axis.axis_b, gap.normal);
-    gap.distance = -axis.overlap;
-  } else if (axis.overlap < pair.overlap(gap.normal)) {
-    gap.normal = axis.normal;
+    const LeastOverlap<S> least = least_overlap(pair);
+    gap.normal = least.normal;
+    points = deepest_points(pair, least.axis_a, least.axis_b, gap.normal);
+    gap.distance = -least.overlap;
   }
   gap.local_a = points.on_a;
   gap.local_b = points.on_b - pair.between;
+  return gap;
+}
+
+/// The same with the normal of a plane that parts the boxes by all of the gap. Beside nearly parallel faces or edges many
+/// points are as near as rounding can tell, and the line through two of them may lean: then an axis parts them more.
+template <Scalar S> CoreGap<S> parting_gap(const BoxPair<S>& pair) {
+  CoreGap<S> gap = box_gap(pair);
+  if (gap.distance > S(0)) {
+    const LeastOverlap<S> axis = least_overlap(pair);
+    if (axis.overlap < pair.overlap(gap.normal)) gap.normal = axis.normal;
+  }
   return gap;
 }
 

@@ -67,7 +67,7 @@ template <Scalar S> Entry<S> rounded_boxes_entry(const MovingBoxPair<S>& moving,
   const auto support = [&](const Vec3<S>& x) {  // no two planes are taken for the same part
     BoxPair<S> there = moving.pair;
     there.between = x;
-    const CoreGap<S> gap = box_gap(there);
+    const CoreGap<S> gap = parting_gap(there);
     CorePart<S> plane{++count, CorePart<S>::face, x - gap.normal * gap.distance, gap.normal, gap.normal};
     if (gap.distance > S(0)) {
       plane.gap = gap.normal * gap.distance;
