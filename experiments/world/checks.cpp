@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/experiments/world/pair_finder.hpp>
 #include <thinwall/experiments/world/plan.hpp>
+#include <thinwall/experiments/world/step/pair_finder.hpp>
 
 namespace thinwall {
 

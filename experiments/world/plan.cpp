@@ -4,7 +4,7 @@
 #include <array>
 
 #include <thinwall/experiments/world/checks.hpp>
-#include <thinwall/experiments/world/pair_finder.hpp>
+#include <thinwall/experiments/world/step/pair_finder.hpp>
 
 namespace thinwall {
 namespace {

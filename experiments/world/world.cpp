@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <thinwall/experiments/world/checks.hpp>
-#include <thinwall/experiments/world/stepping.hpp>
+#include <thinwall/experiments/world/step/stepping.hpp>
 
 namespace thinwall {
 

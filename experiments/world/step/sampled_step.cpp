@@ -1,6 +1,6 @@
 /// The policies that look at poses: what happens between them is not seen, and a fast body passes a thin wall.
 
-#include <thinwall/experiments/world/stepping.hpp>
+#include <thinwall/experiments/world/step/stepping.hpp>
 
 namespace thinwall {
 

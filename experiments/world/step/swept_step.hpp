@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include <thinwall/experiments/world/narrow_phase.hpp>
-#include <thinwall/experiments/world/neighbors.hpp>
 #include <thinwall/experiments/world/options.hpp>
+#include <thinwall/experiments/world/step/narrow_phase.hpp>
+#include <thinwall/experiments/world/step/neighbors.hpp>
 #include <thinwall/experiments/world/step_report.hpp>
 
 namespace thinwall {

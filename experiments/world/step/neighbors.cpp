@@ -1,9 +1,9 @@
-#include <thinwall/experiments/world/neighbors.hpp>
+#include <thinwall/experiments/world/step/neighbors.hpp>
 
 #include <algorithm>
 
 #include <thinwall/discrete/broad_phase/r_tree.hpp>
-#include <thinwall/experiments/world/boxes.hpp>
+#include <thinwall/experiments/world/step/boxes.hpp>
 
 namespace thinwall {
 namespace {

@@ -1,10 +1,10 @@
-#include <thinwall/experiments/world/swept_step.hpp>
+#include <thinwall/experiments/world/step/swept_step.hpp>
 
 #include <algorithm>
 
-#include <thinwall/experiments/world/boxes.hpp>
 #include <thinwall/experiments/world/checks.hpp>
-#include <thinwall/experiments/world/stepping.hpp>
+#include <thinwall/experiments/world/step/boxes.hpp>
+#include <thinwall/experiments/world/step/stepping.hpp>
 
 namespace thinwall {
 

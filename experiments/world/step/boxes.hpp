@@ -3,7 +3,7 @@
 
 #include <thinwall/discrete/broad_phase/proxy.hpp>
 #include <thinwall/experiments/world/body.hpp>
-#include <thinwall/experiments/world/impulse.hpp>
+#include <thinwall/experiments/world/step/impulse.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 
 namespace thinwall {

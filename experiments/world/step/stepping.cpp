@@ -1,10 +1,10 @@
-#include <thinwall/experiments/world/stepping.hpp>
+#include <thinwall/experiments/world/step/stepping.hpp>
 
 #include <chrono>
 #include <cmath>
 
-#include <thinwall/experiments/world/boxes.hpp>
 #include <thinwall/experiments/world/checks.hpp>
+#include <thinwall/experiments/world/step/boxes.hpp>
 
 namespace thinwall {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include <thinwall/experiments/world/narrow_phase.hpp>
-#include <thinwall/experiments/world/neighbors.hpp>
-#include <thinwall/experiments/world/pair_finder.hpp>
+#include <thinwall/experiments/world/step/narrow_phase.hpp>
+#include <thinwall/experiments/world/step/neighbors.hpp>
+#include <thinwall/experiments/world/step/pair_finder.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {

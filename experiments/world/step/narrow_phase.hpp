@@ -9,7 +9,7 @@
 
 #include <thinwall/discrete/broad_phase/proxy.hpp>
 #include <thinwall/experiments/world/body.hpp>
-#include <thinwall/experiments/world/impulse.hpp>
+#include <thinwall/experiments/world/step/impulse.hpp>
 
 namespace thinwall {
 

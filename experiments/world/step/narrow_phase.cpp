@@ -1,4 +1,4 @@
-#include <thinwall/experiments/world/narrow_phase.hpp>
+#include <thinwall/experiments/world/step/narrow_phase.hpp>
 
 #include <algorithm>
 #include <optional>

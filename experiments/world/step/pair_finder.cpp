@@ -1,4 +1,4 @@
-#include <thinwall/experiments/world/pair_finder.hpp>
+#include <thinwall/experiments/world/step/pair_finder.hpp>
 
 #include <stdexcept>
 #include <string>
