@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <thinwall/experiments/plan/report.hpp>
 
 namespace thinwall {
@@ -65,7 +67,7 @@ Figure gate_figure(const std::vector<GateLine>& shots) {
     panel.log_x = true;
     for (const GateLine& line : shots) {
       if (line.cell.target != target) continue;
-      const std::string label = "gate " + Series{}.label + std::to_string(line.cell.gate).substr(0, 4);
+      const std::string label = fmt::format("gate {:g}", line.cell.gate);
       auto found = std::find_if(panel.series.begin(), panel.series.end(),
                                 [&](const Series& s) { return s.label == label && s.mark == Mark::points; });
       if (found == panel.series.end()) {
