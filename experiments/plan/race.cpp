@@ -103,7 +103,8 @@ PlanRace race_plans(const PlanScene& scene, const PlanRaceOptions& options) {
     all.push_back(way);
   };
   add(lean_way, scene.options);
-  for (const PlanLine& line : plan(scene.bodies, scene.options).lines) {
+  const Plan lean = plan(scene.bodies, scene.options);
+  for (const PlanLine& line : lean.lines) {
     if (!line.omitted) continue;
     race.plan += (race.plan.empty() ? "" : ", ") + line.what;
     WorldOptions kept = scene.options;

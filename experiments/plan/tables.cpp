@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <thinwall/experiments/plan/report.hpp>
 
 namespace thinwall {
