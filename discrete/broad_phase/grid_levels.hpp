@@ -49,7 +49,7 @@ inline int size_class_of(const Vec3<double>& sides) {
   const double widest = std::max(sides[0], std::max(sides[1], sides[2]));
   const double sum = sides[0] + sides[1] + sides[2];  // NaN for a box that lies at infinity
   if (!(sum < 0x1p1000)) return unbounded_class;
-  return static_cast<int>(std::bit_cast<std::uint64_t>(widest) >> 52) - 1023;
+  return static_cast<int>(std::bit_cast<std::uint64_t>(widest + 0.0) >> 52) - 1023;  // + 0.0: the zero without a sign
 }
 
 /// Tells apart the bodies that never meet their like: static ones, and those of a group that their own mask leaves out,

@@ -66,6 +66,8 @@ TYPED_TEST(EveryBroadPhase, counts_touching_as_a_pair_and_the_next_number_as_non
   EXPECT_EQ(pairs_of<TypeParam>({cube(std::nextafter(1.0, 2.0)), cube(0)}), Pairs{});
   EXPECT_EQ(pairs_of<TypeParam>({cube(0), box({1, 1, 1}, {1, 1, 1})}), (Pairs{{0, 1}}));  // a point at a corner
   EXPECT_EQ(pairs_of<TypeParam>({cube(0, 0), cube(0, 0)}), (Pairs{{0, 1}}));              // two points at one place
+  const Vec3<double> zero = Vec3<double>::Zero(), minus_zero = -zero;
+  EXPECT_EQ(pairs_of<TypeParam>({box(zero, minus_zero), box(minus_zero, zero)}), (Pairs{{0, 1}}));
 }
 
 TYPED_TEST(EveryBroadPhase, knows_a_touch_far_from_the_origin) {
@@ -136,6 +138,7 @@ TYPED_TEST(EveryBroadPhase, stops_when_pairs_explode_with_bounded_memory) {
   EXPECT_LE(pairs.capacity(), 3 * 5000U);
   find_pairs(TypeParam{}, proxies, pairs, 499500, memory);  // as many as there are: allowed
   EXPECT_EQ(pairs.size(), 499500U);
+  EXPECT_THROW(find_pairs(TypeParam{}, proxies, pairs, 499499, memory), TooManyPairs);
   try {
     find_pairs(TypeParam{}, proxies, pairs, 7, memory);
     FAIL() << "no complaint";
