@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <thinwall/experiments/world/plan.hpp>
 #include <thinwall/experiments/world/step/pair_finder.hpp>
 
 namespace thinwall {
@@ -54,6 +55,10 @@ void require_valid(const WorldOptions& options) {
   require(options.gate >= 0 && is_finite(options.gate), "gate must be finite and >= 0; 0 is off");
   require(options.threads >= 1, "threads must be >= 1");
   require(options.max_pairs >= 1, "max_pairs must be >= 1");
+  for (const std::string& kept : options.keep) {
+    const auto names = omission_names();
+    require(std::find(names.begin(), names.end(), kept) != names.end(), "there is no omission '" + kept + "' to keep");
+  }
   if (options.broad_phase == "auto") return;
   std::string names = "auto";
   for (const std::string_view name : PairFinder::names()) {

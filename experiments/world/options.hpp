@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <thinwall/discrete/scalar.hpp>
 
@@ -33,7 +34,8 @@ struct WorldOptions {
   double gate = 0;                   ///< [1] >= 0: a pair of which neither moves more than this part of its least half
                                      ///< width is not swept but tested at the start of the step. 0: off
   bool full_plan = false;            ///< true: omit nothing, to show that what is omitted changes no outcome
-  int threads = 1;                   ///< >= 1; of no effect on any result
+  std::vector<std::string> keep = {};  ///< omissions not to make, by `PlanLine::what`: what one alone saves
+  int threads = 1;                     ///< >= 1; of no effect on any result
   std::size_t max_pairs =
       std::size_t{1} << 24;  ///< >= 1: more candidate pairs than this stop the step with TooManyPairs
 };

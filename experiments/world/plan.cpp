@@ -39,6 +39,10 @@ std::string of(std::size_t count, const std::string& one, const std::string& man
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+bool contains(const std::vector<std::string>& list, std::string_view wanted) {
+  return std::find(list.begin(), list.end(), wanted) != list.end();
+}
+
 std::string pairs_of(std::size_t n) { return of(n * (n - (n > 0 ? 1 : 0)) / 2, "pair", "pairs"); }
 
 }  // namespace
@@ -50,10 +54,10 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   const bool full = options.full_plan,
              swept = options.policy == TimePolicy::clamp || options.policy == TimePolicy::event_driven;
   Plan plan;
-  plan.full = plan.all_bounds = plan.resting_bounds = full;
+  plan.full = full;
   const auto line = [&](const std::string& what, bool could_go, const std::string& if_gone, const std::string& if_not) {
-    const bool goes = could_go && !full;
-    plan.lines.push_back({what, goes, !could_go ? if_not : full ? "could go: " + if_gone : if_gone});
+    const bool goes = could_go && !full && !contains(options.keep, what);
+    plan.lines.push_back({what, goes, !could_go ? if_not : goes ? if_gone : "could go: " + if_gone});
     return !goes;
   };
 
@@ -64,27 +68,46 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   plan.response = line("response", !options.response, "not asked for: every path is straight", "asked for");
 
   const bool is_small = census.with_shape <= half_loop_until;
-  const std::string by_auto(is_small ? "all_pairs" : best_of_many);
+  const std::string by_auto(is_small && !contains(options.keep, "broad phase") ? "all_pairs" : best_of_many);
   plan.broad_phase = options.broad_phase == "auto" ? by_auto : options.broad_phase;
-  line("broad phase", plan.broad_phase == "all_pairs",
+  line("broad phase", plan.broad_phase == "all_pairs" || (is_small && options.broad_phase == "auto"),
        of(census.with_shape, "shape", "shapes") + ": the half loop over boxes is cheaper than to sort them",
        plan.broad_phase + (options.broad_phase == "auto" ? ", as there are " : ", as asked for; there are ") +
            of(census.with_shape, "shape", "shapes"));
-  line("pairs of disjoint boxes", census.with_shape > 1,
-       std::string("a body stays in its ") + (swept ? "swept box" : "box") + ": if two are disjoint, so are the bodies",
-       "there is no pair");
-  line("static pairs", census.at_rest > 1, pairs_of(census.at_rest) + " of bodies that never move",
-       "fewer than two static bodies");
-  line("masked pairs", census.masks, "a mask leaves out a group that is there",
-       "every mask has every group that is there");
-  line("motion of bodies at rest", census.at_rest > 0,
-       "the boxes of " + of(census.at_rest, "static body", "static bodies") + " stay from step to step",
-       "every body can move");
+  plan.all_bounds = line("pairs of disjoint boxes", census.with_shape > 1,
+                         std::string("a body stays in its ") + (swept ? "swept box" : "box") +
+                             ": if two are disjoint, so are the bodies",
+                         "there is no pair") &&
+                    census.with_shape > 1;
+  plan.static_pairs = line("static pairs", census.at_rest > 1, pairs_of(census.at_rest) + " of bodies that never move",
+                           "fewer than two static bodies") &&
+                      census.at_rest > 1;
+  plan.masked_pairs = line("masked pairs", census.masks, "a mask leaves out a group that is there",
+                           "every mask has every group that is there") &&
+                      census.masks;
+  plan.resting_bounds =
+      line("motion of bodies at rest", census.at_rest > 0,
+           "the boxes of " + of(census.at_rest, "static body", "static bodies") + " stay from step to step",
+           "every body can move") &&
+      census.at_rest > 0;
 
   const bool only_two = census.shapes[3] + census.shapes[4] == 0;
   plan.sphere_aabb = !line("kernels of absent shapes", only_two, "spheres and axis-aligned boxes alone",
                            "there are oriented boxes or capsules");
   return plan;
+}
+
+std::span<const std::string_view> omission_names() {
+  static constexpr std::array<std::string_view, 9> names = {"contacts",
+                                                            "events",
+                                                            "response",
+                                                            "broad phase",
+                                                            "pairs of disjoint boxes",
+                                                            "static pairs",
+                                                            "masked pairs",
+                                                            "motion of bodies at rest",
+                                                            "kernels of absent shapes"};
+  return names;
 }
 
 std::string to_text(const Plan& plan) {

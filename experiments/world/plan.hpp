@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/world/body.hpp>
@@ -22,7 +23,9 @@ struct Plan {
   bool full = false;            ///< nothing is omitted
   std::string broad_phase;      ///< its name
   bool sphere_aabb = false;     ///< the kernels of spheres and axis-aligned boxes alone
-  bool all_bounds = false;      ///< every two bodies are asked, and what static or masked pairs find is dropped
+  bool all_bounds = false;      ///< every two bodies are asked, whatever their boxes
+  bool static_pairs = false;    ///< pairs of two static bodies are asked, and what they find is dropped
+  bool masked_pairs = false;    ///< the same for pairs that a mask leaves out
   bool resting_bounds = false;  ///< boxes and places of bodies that never move are computed anew in each step
   bool contacts = false;        ///< pairs are looked for at all
   bool events = false;          ///< begin, stay and end are kept, be it for nobody
@@ -32,6 +35,9 @@ struct Plan {
 
 /// Throws what World's constructor throws for the same scene.
 Plan plan(std::span<const Body> bodies, const WorldOptions& options);
+
+/// What a plan may omit: the `what` of its lines, in their order.
+std::span<const std::string_view> omission_names();
 
 /// What it omits, what it keeps, and why; ends with a newline.
 std::string to_text(const Plan& plan);

@@ -99,17 +99,35 @@ std::size_t Stepper::bytes() const {
          narrow_->bytes() + neighbors_.bytes();
 }
 
-/// Hands all pairs that may touch to `ask`: those that the broad phase finds, or, where nothing is omitted, every two
+/// The boxes as the broad phase is to see them: static and masked pairs are pairs like others where they are not left out.
+void Stepper::mark_proxies(bool as_they_are) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (plan_.static_pairs) proxies_[i].is_static = as_they_are && bodies_[i].is_static;
+    if (plan_.masked_pairs) {
+      proxies_[i].group = as_they_are ? bodies_[i].group : 1;
+      proxies_[i].mask = as_they_are ? bodies_[i].mask : 1;
+    }
+  }
+}
+
+/// Hands all pairs that may touch to `ask`: those that the broad phase finds, or, where disjoint boxes are not left out, every two
 /// bodies, a bounded number at a time; then what they may not do to each other is dropped.
 void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask) {
+  const bool drops = plan_.static_pairs || plan_.masked_pairs;
+  const auto has_no_say = [&](const auto& pair) { return !may_meet(proxies_[pair.first], proxies_[pair.second]); };
   if (!plan_.all_bounds) {
     {
       const PhaseClock clock(counts_.seconds.broad);
+      if (drops) mark_proxies(false);
       finder_.find(proxies_, pairs_, options_.max_pairs);
+      if (drops) mark_proxies(true);
     }
     counts_.pairs += pairs_.size();
     const PhaseClock clock(counts_.seconds.narrow);
     count(ask(pairs_));
+    if (!drops) return;
+    std::erase_if(pairs_, has_no_say);
+    std::erase_if(found_, has_no_say);
     return;
   }
   const PhaseClock clock(counts_.seconds.narrow);
@@ -120,14 +138,18 @@ void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)
     count(ask(pairs_));
     pairs_.clear();
   };
+  if (drops) mark_proxies(false);
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     for (std::uint32_t j = i + 1; j < bodies_.size(); ++j) {
+      if (!may_meet(proxies_[i], proxies_[j])) continue;
       pairs_.push_back({i, j});
       if (pairs_.size() == at_a_time) flush();
     }
   }
   flush();
-  std::erase_if(found_, [&](const Touch& touch) { return !may_meet(proxies_[touch.first], proxies_[touch.second]); });
+  if (!drops) return;
+  mark_proxies(true);
+  std::erase_if(found_, has_no_say);
 }
 
 }  // namespace thinwall

@@ -35,6 +35,7 @@ class Stepper {
   void require_in_the_world(std::size_t which, const Vec3<double>& displacement) const;
   void finish();
   void find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask);
+  void mark_proxies(bool as_they_are);
   void count(const Asked& asked);
   // sampled_step.cpp
   void sampled_step(int parts);
