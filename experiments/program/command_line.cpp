@@ -141,6 +141,7 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
   CLI::App app(root_help, "thinwall");
   app.footer(exit_codes);
   app.allow_extras();
+  app.require_subcommand(0, 1);  // so that the second word of `run plan` is an experiment
   app.set_help_flag("-h,--help", "Print this");
   app.set_version_flag("--version", version_text(), "Print the version, the commit and the compiler");
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <thinwall/experiments/program/command_line.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/world.hpp>
 
@@ -142,6 +143,13 @@ TEST(Plan, says_the_same_of_outcomes_in_every_run_and_fits_the_terminal) {
   EXPECT_NE(first.answer.find("No omission changes a bit"), std::string::npos);
   std::istringstream text(first.summary);
   for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(Plan, is_an_experiment_after_run_and_a_command_alone) {
+  const CommandLine line = parse_command_line({"thinwall", "run", "plan"});
+  EXPECT_EQ(line.command, Command::run);
+  EXPECT_EQ(line.target, "plan");
+  EXPECT_EQ(parse_command_line({"thinwall", "plan", "a.toml"}).command, Command::plan);
 }
 
 TEST(Plan, refuses_what_is_no_line_of_it) {
