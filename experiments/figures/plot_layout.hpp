@@ -14,7 +14,7 @@ struct PanelBox {
 
 struct PlotLayout {
   double width = 760, height = 0;
-  double left = 88, right = 736;       ///< of every panel: stacked panels are aligned
+  double left = 104, right = 736;      ///< of every panel: stacked panels are aligned
   double title_y = 24, legend_y = 44;  ///< middle of the title, top of the legend
   std::size_t legend_rows = 1;
   double below = 50;     ///< from the panel's lower edge to the middle of its x label

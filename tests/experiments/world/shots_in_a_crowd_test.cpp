@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "random_world.hpp"
+#include "experiments/world/random_world.hpp"
 
 namespace thinwall::testing {
 namespace {
