@@ -250,15 +250,15 @@ bool Settings::flag(std::string_view key) const {
 }
 
 std::string Settings::text(std::string_view key) const {
-  const std::size_t longest = 200;
+  static constexpr std::size_t longest = 200;
   return impl_->one(
       key,
-      [longest](const toml::node& node) {
+      [](const toml::node& node) {
         auto value = node.value_exact<std::string>();
         const bool fits = value && value->size() <= longest && *value == one_line(*value);
         return fits ? value : std::nullopt;
       },
-      [longest](const toml::node&) { return fmt::format("a text of one line and at most {} bytes", longest); });
+      [](const toml::node&) { return fmt::format("a text of one line and at most {} bytes", longest); });
 }
 
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> allowed) const {
