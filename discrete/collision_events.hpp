@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+#include <thinwall/discrete/raised_flag.hpp>
+
 namespace thinwall {
 
 enum class CollisionEventKind { begin, stay, end };
@@ -84,13 +86,14 @@ class CollisionEvents {
   struct Met {
     Pair pair;
     double time;  // [s]
-    auto operator<=>(const Met&) const = default;
+    bool operator<(const Met& other) const { return pair < other.pair || (pair == other.pair && time < other.time); }
   };
   struct Live {
     Pair pair;
     int apart;  // consecutive steps
   };
 
+  void tell(const CollisionEvent& event);
   void tell_from(std::size_t first);
 
   int end_after_;
@@ -148,22 +151,22 @@ inline void CollisionEvents::remove(std::uint32_t id, double time) {
   if (telling_) return;  // whoever is telling comes to them
   const std::vector<CollisionEvent> ends(ends_.begin() + static_cast<std::ptrdiff_t>(first), ends_.end());
   for (const CollisionEvent& end : ends) {
-    for (std::size_t k = 0; k < listeners_.size(); ++k) Listener(listeners_[k].second)(end);
+    tell(end);
   }
 }
 
-/// A listener may remove bodies, which adds events, and add or forget listeners.
+/// To all listeners there are by then: one may add others or forget them, itself included.
+inline void CollisionEvents::tell(const CollisionEvent& event) {
+  std::size_t next = 0;
+  while (next < listeners_.size()) Listener(listeners_[next++].second)(event);
+}
+
+/// A listener may remove bodies, which adds events.
 inline void CollisionEvents::tell_from(std::size_t first) {
-  struct Telling {
-    bool& flag;
-    explicit Telling(bool& f) : flag(f) { flag = true; }
-    Telling(const Telling&) = delete;
-    Telling& operator=(const Telling&) = delete;
-    ~Telling() { flag = false; }
-  } const telling(telling_);
+  const RaisedFlag telling(telling_);
   for (std::size_t i = first; i < events_.size(); ++i) {
     const CollisionEvent event = events_[i];
-    for (std::size_t k = 0; k < listeners_.size(); ++k) Listener(listeners_[k].second)(event);
+    tell(event);
   }
 }
 

@@ -34,7 +34,8 @@ std::vector<Body> bodies_of(const GateCell& cell, std::uint64_t seed) {
   std::vector<Body> bodies;
   for (std::int64_t i = 0; i < cell.shots; ++i) {
     const RandomWords words = random_words(stream, static_cast<std::uint64_t>(i), 0);
-    const Vec3<double> middle(0, lane * static_cast<double>(i % side), lane * static_cast<double>(i / side));
+    const std::int64_t row = i / side;
+    const Vec3<double> middle(0, lane * static_cast<double>(i % side), lane * static_cast<double>(row));
     const double offset = 2 * std::sqrt(uniform(words[0]));  // uniform over the disk
     Body ball, target;
     ball.id = static_cast<std::uint32_t>(2 * i + 1);

@@ -55,8 +55,9 @@ std::vector<Body> movers(std::int64_t count, std::int64_t kinds, double speed, s
   for (std::int64_t i = 0; i < count; ++i) {
     const auto trial = static_cast<std::uint64_t>(i);
     const RandomWords place_words = random_words(stream, trial, 0), velocity_words = random_words(stream, trial, 1);
-    const Vec3<double> corner(static_cast<double>(i % side), static_cast<double>(i / side % side),
-                              static_cast<double>(i / side / side));
+    const auto row = i / side, layer = row / side;
+    const Vec3<double> corner(static_cast<double>(i % side), static_cast<double>(row % side),
+                              static_cast<double>(layer));
     Body body;
     body.id = static_cast<std::uint32_t>(i + 1);
     body.shape = shape_at(spacing * corner + jitter * centered(place_words), i % kinds, 3 * uniform(place_words[3]));
@@ -73,8 +74,9 @@ void add_tiles(std::vector<Body>& bodies, std::int64_t count) {
   const double width = spacing * static_cast<double>(cube_side(static_cast<std::int64_t>(bodies.size())) + 2);
   const double tile = width / static_cast<double>(side);
   for (std::int64_t i = 0; i < side * side; ++i) {
+    const std::int64_t row = i / side;
     const Vec3<double> place((static_cast<double>(i % side) + 0.5) * tile - 1.5 * spacing, -1.1,
-                             (static_cast<double>(i / side) + 0.5) * tile - 1.5 * spacing);
+                             (static_cast<double>(row) + 0.5) * tile - 1.5 * spacing);
     Body body;
     body.id = static_cast<std::uint32_t>(bodies.size() + 1);
     body.shape = Aabb<double>{place, {tile / 2, 0.1, tile / 2}};

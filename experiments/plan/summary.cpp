@@ -122,9 +122,10 @@ std::string plan_answer(const PlanResults& results) {
     if (best == nullptr || full == nullptr) continue;
     text += fmt::format(" {}: {} times as long without any omission", race.scene,
                         rounded_text(saved_by(race, *full).ratio, 3));
-    if (const Saved saved = saved_by(race, *best); saved.ratio > 1 + noise)
+    if (const Saved saved = saved_by(race, *best); saved.ratio > 1 + noise) {
       text +=
           fmt::format(", {} times with the omission of {} alone taken back", rounded_text(saved.ratio, 3), best->name);
+    }
     text += ".";
   }
   for (const PlanRace& race : results.races) {

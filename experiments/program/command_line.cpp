@@ -226,12 +226,14 @@ CommandLine parse_command_line(std::vector<std::string> argv) {
 
   if (run->parsed() && out.target.empty())
     throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
-  if (out.target.empty())
+  if (out.target.empty()) {
     throw UsageError(
         fmt::format("{0}: the TOML file of a scene is missing; see thinwall {0} --help", chosen().get_name()));
-  if (chosen().count("--plan") > 0 && std::ranges::find(plans, out.plan_kind) == plans.end())
+  }
+  if (chosen().count("--plan") > 0 && std::ranges::find(plans, out.plan_kind) == plans.end()) {
     throw UsageError(
         fmt::format("--plan: '{}' is not allowed; {}", one_line(out.plan_kind), spelling_hint(out.plan_kind, plans)));
+  }
   out.seed = parse_seed(seed);
   out.threads = default_threads();
   if (plan->parsed()) return out;

@@ -92,8 +92,7 @@ Table bodies_table(const Scene& scene, const Playback& playback) {
   std::vector<std::pair<std::uint32_t, std::string>> names;  // by id, for a scene of many
   for (const Body& body : scene.bodies) names.emplace_back(body.id, body.name);
   std::sort(names.begin(), names.end());
-  for (std::size_t i = 0; i < playback.places.size(); ++i) {
-    const auto& [id, at] = playback.places[i];
+  for (const auto& [id, at] : playback.places) {
     const auto found = std::lower_bound(names.begin(), names.end(), std::pair<std::uint32_t, std::string>(id, ""));
     table.rows.push_back(
         {static_cast<std::int64_t>(id), found == names.end() ? "" : found->second, at[0], at[1], at[2]});

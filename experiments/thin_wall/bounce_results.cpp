@@ -43,10 +43,10 @@ std::vector<BounceTotal> bounce_totals(const std::vector<Line>& lines) {
   return all;
 }
 
-std::string percent(double share) { return fmt::format("{:.2f} %", 100 * share); }
+std::string percent_of(double share) { return fmt::format("{:.2f} %", 100 * share); }
 
 std::string share_of(std::int64_t part, std::int64_t whole) {
-  return percent(static_cast<double>(part) / static_cast<double>(whole));
+  return percent_of(static_cast<double>(part) / static_cast<double>(whole));
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ std::string bounce_text(const std::vector<Line>& lines, const std::vector<SelfTe
     text += fmt::format("{:<25}{:>9} {:>10} {:>10} {:>10} {:>18} {:>10}\n", line.detector->method, grouped_text(shots),
                         share_of(line.tally.tunneled, shots), share_of(line.tally.wrong_side, shots),
                         share_of(through, shots), fmt::format("[{:.2f}, {:.2f}] %", 100 * bars.lower, 100 * bars.upper),
-                        line.theory.through ? percent(*line.theory.through) : "-");
+                        line.theory.through ? percent_of(*line.theory.through) : "-");
   }
   text += fmt::format("\nAll cells ({}). Share and theory: of the shots for which there is a formula.\n", scalar);
   text += fmt::format("{:<25}{:>11} {:>12} {:>12} {:>12} {:>10} {:>10}\n", "method", "shots", "tunneled", "wrong side",
@@ -129,7 +129,7 @@ std::string bounce_text(const std::vector<Line>& lines, const std::vector<SelfTe
     text += fmt::format("{:<25}{:>11} {:>12} {:>12} {:>12} {:>10} {:>10}\n", t.method, grouped_text(t.shots),
                         grouped_text(t.tunneled), grouped_text(t.wrong_side), grouped_text(t.behind),
                         known ? share_of(t.theory_through, t.theory_shots) : "-",
-                        known ? percent(t.theory_expected / static_cast<double>(t.theory_shots)) : "-");
+                        known ? percent_of(t.theory_expected / static_cast<double>(t.theory_shots)) : "-");
   }
   return text + fmt::format("Self-test of the bounce: counts {}, ends {}.\n\n", all_passed(tests) ? "passed" : "FAILED",
                             ends_agree(lines) ? "passed" : "FAILED");
@@ -144,7 +144,7 @@ std::string bounce_answer(const std::vector<Line>& lines) {
           "Testing only the end of the step, {} of {} balls that should have bounced went through (theory {}): "
           "{} of all shots unseen, {} seen and pushed out on the wrong side. ",
           share_of(t.theory_through, t.theory_shots), grouped_text(t.theory_shots),
-          percent(t.theory_expected / static_cast<double>(t.theory_shots)), share_of(t.tunneled, t.shots),
+          percent_of(t.theory_expected / static_cast<double>(t.theory_shots)), share_of(t.tunneled, t.shots),
           share_of(t.wrong_side, t.shots));
     }
     if (t.method == "closed_form") {

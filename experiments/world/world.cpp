@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include <thinwall/discrete/raised_flag.hpp>
 #include <thinwall/experiments/world/checks.hpp>
 #include <thinwall/experiments/world/step/stepping.hpp>
 
@@ -47,13 +48,7 @@ void World::Impl::step(double dt) {
   stepper.run(bodies, dt, changed_by_hand);  // throws, or all of the step is known
   const double start = time;
   commit(dt);
-  struct Stepping {
-    bool& flag;
-    explicit Stepping(bool& f) : flag(f) { flag = true; }
-    Stepping(const Stepping&) = delete;
-    Stepping& operator=(const Stepping&) = delete;
-    ~Stepping() { flag = false; }
-  } const guard(stepping);
+  const RaisedFlag guard(stepping);
   tell(start, dt);
 }
 
@@ -63,7 +58,7 @@ void World::Impl::commit(double dt) {
   const PhaseClock clock(report.seconds.integrate);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!can_move(bodies[i])) continue;
-    const Motion& motion = stepper.motions()[i];
+    const BodyMotion& motion = stepper.motions()[i];
     bodies[i].velocity = motion.velocity;
     std::visit(
         [&](auto& shape) {

@@ -9,7 +9,7 @@
 namespace thinwall {
 
 /// From the motion's anchor to the end of the step of dt [s], rounded outward.
-inline Proxy proxy_of(const Body& body, const Motion& motion, double dt) {
+inline Proxy proxy_of(const Body& body, const BodyMotion& motion, double dt) {
   Proxy proxy;
   proxy.group = body.group;
   proxy.mask = body.mask;

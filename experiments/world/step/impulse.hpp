@@ -17,7 +17,7 @@ inline double share_of(const Body& a, const Body& b) {
 inline bool is_moved_by_impulses(const Body& body) { return inverse_mass(body) > 0; }
 
 /// How a body moves within a step: where it is at `anchor`, relative to its place at the start, and at what velocity.
-struct Motion {
+struct BodyMotion {
   Vec3<double> offset = Vec3<double>::Zero();    ///< [m] at `anchor`
   Vec3<double> velocity = Vec3<double>::Zero();  ///< [m/s]
   double anchor = 0;                             ///< [1] part of the step
@@ -28,13 +28,13 @@ struct Motion {
 };
 
 /// [m/s] In effect: zero while it waits.
-inline Vec3<double> moving_at(const Motion& motion) {
+inline Vec3<double> moving_at(const BodyMotion& motion) {
   return motion.waiting ? Vec3<double>(Vec3<double>::Zero()) : motion.velocity;
 }
 
 /// [m/s] What rounding alone may make of a closing speed of zero, once an impulse has made it zero: 16 epsilon of the
 /// speeds there were. Source: derived in docs/world.md.
-inline double closing_noise(const Motion& a, const Motion& b) {
+inline double closing_noise(const BodyMotion& a, const BodyMotion& b) {
   return 16 * std::numeric_limits<double>::epsilon() * (a.speed + b.speed);
 }
 
@@ -44,12 +44,12 @@ inline double closing_speed(const Vec3<double>& normal, const Vec3<double>& a, c
 }
 
 /// Lets the two bounce if they approach by more than rounding. True if it did.
-inline bool bounce(const Body& body_a, const Body& body_b, Motion& a, Motion& b, const Vec3<double>& normal) {
+inline bool bounce(const Body& body_a, const Body& body_b, BodyMotion& a, BodyMotion& b, const Vec3<double>& normal) {
   if (!is_moved_by_impulses(body_a) && !is_moved_by_impulses(body_b)) return false;
   const double closing = closing_speed(normal, a.velocity, b.velocity);
   if (!(closing > closing_noise(a, b))) return false;
   const double change = (1 + std::max(body_a.restitution, body_b.restitution)) * closing;
-  const auto push = [&](const Body& body, const Body& other, Motion& motion, double way) {
+  const auto push = [&](const Body& body, const Body& other, BodyMotion& motion, double way) {
     if (!is_moved_by_impulses(body)) return;
     motion.velocity += normal * (way * change * share_of(body, other));
     motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
@@ -61,8 +61,8 @@ inline bool bounce(const Body& body_a, const Body& body_b, Motion& a, Motion& b,
 }
 
 /// Undoes `part` [1] of a penetration [m], the lighter body moving more.
-inline void part_bodies(const Body& body_a, const Body& body_b, Motion& a, Motion& b, const Vec3<double>& normal,
-                        double penetration, double part) {
+inline void part_bodies(const Body& body_a, const Body& body_b, BodyMotion& a, BodyMotion& b,
+                        const Vec3<double>& normal, double penetration, double part) {
   if (!is_moved_by_impulses(body_a) && !is_moved_by_impulses(body_b)) return;
   const double way = penetration * part;
   if (is_moved_by_impulses(body_a)) a.offset -= normal * (way * share_of(body_a, body_b));

@@ -95,7 +95,7 @@ template <class Held> class Kernels final : public NarrowPhase {
  public:
   explicit Kernels(int threads) : arena_(threads), threads_(threads) {}
 
-  void place(std::span<const Body> bodies, std::span<const Motion> motions, double dt, bool resting_too) override {
+  void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, double dt, bool resting_too) override {
     const bool is_new = list_.size() != bodies.size();
     list_.resize(bodies.size());
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -103,7 +103,7 @@ template <class Held> class Kernels final : public NarrowPhase {
     }
   }
 
-  void place_one(std::uint32_t which, const Body& body, const Motion& motion, double time, double dt) override {
+  void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, double time, double dt) override {
     Moving<Held>& placed = list_[which];
     placed.shape = as_held<Held>(body.shape);
     const Vec3<double> offset = offset_at(motion, time, dt);

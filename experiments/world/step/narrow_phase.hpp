@@ -39,9 +39,10 @@ class NarrowPhase {
 
   /// As many bodies as given, where their motions' anchors are. Those that cannot move keep their old place unless
   /// `resting_too`.
-  virtual void place(std::span<const Body> bodies, std::span<const Motion> motions, double dt, bool resting_too) = 0;
+  virtual void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, double dt,
+                     bool resting_too) = 0;
   /// One of them, at `time` [1].
-  virtual void place_one(std::uint32_t which, const Body& body, const Motion& motion, double time, double dt) = 0;
+  virtual void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, double time, double dt) = 0;
 
   /// Appends the pairs that come into contact in what is left of the step from `start` [1] on, in the order of `pairs`.
   /// All must be placed at that time. gate [1]: see WorldOptions.
@@ -56,7 +57,7 @@ class NarrowPhase {
 std::unique_ptr<NarrowPhase> make_narrow_phase(bool sphere_aabb, int threads);
 
 /// [m] Where a body is at `time` [1], relative to its place at the start of the step of dt [s].
-inline Vec3<double> offset_at(const Motion& motion, double time, double dt) {
+inline Vec3<double> offset_at(const BodyMotion& motion, double time, double dt) {
   if (time == motion.anchor) return motion.offset;
   return motion.offset + moving_at(motion) * (dt * (time - motion.anchor));
 }

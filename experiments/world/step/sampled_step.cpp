@@ -6,7 +6,8 @@ namespace thinwall {
 
 void Stepper::sampled_step(int parts) {
   const double part = dt_ / parts;
-  for (Motion& motion : motions_) motion.anchor = 1;  // nothing is left to move: a box, a place is that of an instant
+  for (BodyMotion& motion : motions_)
+    motion.anchor = 1;  // nothing is left to move: a box, a place is that of an instant
   for (int k = 1; k <= parts; ++k) {
     {
       const PhaseClock clock(counts_.seconds.integrate);
@@ -32,7 +33,7 @@ void Stepper::sampled_step(int parts) {
       respond_at_instant(motions_);
     } else {
       const std::size_t impulses = counts_.impulses;
-      std::vector<Motion> dropped = motions_;
+      std::vector<BodyMotion> dropped = motions_;
       respond_at_instant(dropped);
       counts_.impulses = impulses;
     }
@@ -40,7 +41,7 @@ void Stepper::sampled_step(int parts) {
 }
 
 /// Impulses in the order of the pairs, until nobody approaches or the rounds are over, then every penetration undone.
-void Stepper::respond_at_instant(std::vector<Motion>& motions) {
+void Stepper::respond_at_instant(std::vector<BodyMotion>& motions) {
   bool any = true;
   for (int round = 0; round <= options_.contact_rounds && any; ++round) {
     any = false;

@@ -41,7 +41,7 @@ void Stepper::begin(double dt, bool changed_by_hand) {
   dt_ = dt;
   all_anew_ = !ready_ || changed_by_hand || plan_.resting_bounds || proxies_.size() != bodies_.size();
   ready_ = false;
-  motions_.assign(bodies_.size(), Motion{});
+  motions_.assign(bodies_.size(), BodyMotion{});
   proxies_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     motions_[i].velocity = bodies_[i].velocity;
@@ -54,7 +54,7 @@ void Stepper::begin(double dt, bool changed_by_hand) {
 void Stepper::fall(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!is_moved_by_impulses(bodies_[i])) continue;
-    Motion& motion = motions_[i];
+    BodyMotion& motion = motions_[i];
     motion.velocity += options_.gravity * (bodies_[i].gravity_scale * dt);
     motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
   }
@@ -70,7 +70,7 @@ void Stepper::box(double dt) {
 }
 
 void Stepper::require_in_the_world(std::size_t which, const Vec3<double>& displacement) const {
-  const Motion& motion = motions_[which];
+  const BodyMotion& motion = motions_[which];
   const Vec3<double> way = motion.offset.cwiseAbs() + displacement.cwiseAbs();
   if (is_in_the_world(bodies_[which].shape, way) && is_finite(motion.velocity)) return;
   throw LeftTheWorld(called(bodies_[which]) +
@@ -84,7 +84,7 @@ void Stepper::count(const Asked& asked) {
 
 void Stepper::finish() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Motion& motion = motions_[i];
+    BodyMotion& motion = motions_[i];
     if (motion.waiting) ++counts_.waiting;
     if (can_move(bodies_[i])) require_in_the_world(i, Vec3<double>::Zero());
   }
@@ -94,7 +94,7 @@ void Stepper::finish() {
 }
 
 std::size_t Stepper::bytes() const {
-  return motions_.capacity() * sizeof(Motion) + proxies_.capacity() * sizeof(Proxy) +
+  return motions_.capacity() * sizeof(BodyMotion) + proxies_.capacity() * sizeof(Proxy) +
          pairs_.capacity() * sizeof(ProxyPair) + (touches_.capacity() + found_.capacity()) * sizeof(Touch) +
          narrow_->bytes() + neighbors_.bytes();
 }

@@ -22,9 +22,9 @@ class Stepper {
   /// A step of dt [s]. `changed_by_hand`: bodies came, went or were moved since the last one.
   void run(std::span<const Body> bodies, double dt, bool changed_by_hand);
 
-  const std::vector<Motion>& motions() const { return motions_; }  ///< each at its end: `anchor` is 1
-  const std::vector<Touch>& touches() const { return touches_; }   ///< in the order they were processed
-  const StepReport& counts() const { return counts_; }             ///< no step, no time
+  const std::vector<BodyMotion>& motions() const { return motions_; }  ///< each at its end: `anchor` is 1
+  const std::vector<Touch>& touches() const { return touches_; }       ///< in the order they were processed
+  const StepReport& counts() const { return counts_; }                 ///< no step, no time
   std::size_t bytes() const;
 
  private:
@@ -39,10 +39,10 @@ class Stepper {
   void count(const Asked& asked);
   // sampled_step.cpp
   void sampled_step(int parts);
-  void respond_at_instant(std::vector<Motion>& motions);
+  void respond_at_instant(std::vector<BodyMotion>& motions);
   // swept_step.cpp
   void swept_step();
-  void play(std::vector<Motion>& motions, std::vector<Touch>& processed, StepReport& counts);
+  void play(std::vector<BodyMotion>& motions, std::vector<Touch>& processed, StepReport& counts);
 
   WorldOptions options_;
   Plan plan_;
@@ -53,7 +53,7 @@ class Stepper {
   double dt_ = 0;
   bool ready_ = false;    // the last step came to its end
   bool all_anew_ = true;  // the boxes and places of bodies at rest too
-  std::vector<Motion> motions_;
+  std::vector<BodyMotion> motions_;
   std::vector<Proxy> proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<Touch> touches_, found_;

@@ -32,7 +32,7 @@ bool EventLoop::is_free(std::uint32_t which) const {
 }
 
 void EventLoop::advance(std::uint32_t which, double time) {
-  Motion& motion = motions_[which];
+  BodyMotion& motion = motions_[which];
   motion.offset = offset_at(motion, time, scene_.dt);
   motion.anchor = time;
 }
@@ -91,7 +91,7 @@ void EventLoop::ask(double time, StepReport& counts) {
 /// on parting them.
 void EventLoop::schedule(const Touch& touch) {
   if (!is_free(touch.first) && !is_free(touch.second)) return;
-  const Motion &a = motions_[touch.first], &b = motions_[touch.second];
+  const BodyMotion &a = motions_[touch.first], &b = motions_[touch.second];
   if (touch.at_start && !(closing_speed(touch.normal, moving_at(a), moving_at(b)) > closing_noise(a, b))) return;
   queue_.push({touch, a.version, b.version});
 }
@@ -99,7 +99,7 @@ void EventLoop::schedule(const Touch& touch) {
 void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepReport& counts) {
   const Touch& touch = event.touch;
   const std::uint32_t ends[2] = {touch.first, touch.second};
-  Motion &a = motions_[ends[0]], &b = motions_[ends[1]];
+  BodyMotion &a = motions_[ends[0]], &b = motions_[ends[1]];
   if (!touch.at_start || touch.time > 0) processed.push_back(touch);  // of the others it is known
   const double noise = closing_noise(a, b);
   const bool bounces = closing_speed(touch.normal, a.velocity, b.velocity) > noise;
@@ -114,7 +114,7 @@ void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepRe
     ++counts.impulses;
   }
   for (int k = 0; k < 2; ++k) {
-    Motion& motion = motions_[ends[k]];
+    BodyMotion& motion = motions_[ends[k]];
     if (!is_moved_by_impulses(scene_.bodies[ends[k]])) continue;
     changes[k] = bounces || !motion.waiting;
     if (!changes[k]) continue;  // it waits already: what is known of it stays
@@ -131,7 +131,7 @@ void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepRe
 
 void EventLoop::change_course(std::uint32_t which) {
   const Body& body = scene_.bodies[which];
-  const Motion& motion = motions_[which];
+  const BodyMotion& motion = motions_[which];
   const Vec3<double> rest = moving_at(motion) * (scene_.dt * (1 - motion.anchor));
   if (!is_in_the_world(body.shape, motion.offset.cwiseAbs() + rest.cwiseAbs()) || !is_finite(motion.velocity)) {
     throw LeftTheWorld(called(body) + " left the representable world: a hit made its velocity too large");
@@ -177,7 +177,7 @@ void Stepper::swept_step() {
     if (options_.response) {
       play(motions_, touches_, counts_);
     } else {  // to show that leaving it out changes nothing
-      std::vector<Motion> motions = motions_;
+      std::vector<BodyMotion> motions = motions_;
       std::vector<Touch> processed;
       StepReport counts;
       play(motions, processed, counts);
@@ -192,7 +192,7 @@ void Stepper::swept_step() {
 }
 
 /// The events of the step, then the correction of what overlapped at its start and still does at its end.
-void Stepper::play(std::vector<Motion>& motions, std::vector<Touch>& processed, StepReport& counts) {
+void Stepper::play(std::vector<BodyMotion>& motions, std::vector<Touch>& processed, StepReport& counts) {
   has_links_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) has_links_[i] = is_moved_by_impulses(bodies_[i]);
   neighbors_.begin(proxies_, plan_.all_bounds ? std::span<const ProxyPair>() : std::span<const ProxyPair>(pairs_),

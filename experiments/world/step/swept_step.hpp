@@ -26,7 +26,7 @@ class EventLoop {
     Neighbors& neighbors;  ///< begun
   };
 
-  EventLoop(const Scene& scene, std::vector<Motion>& motions) : scene_(scene), motions_(motions) {}
+  EventLoop(const Scene& scene, std::vector<BodyMotion>& motions) : scene_(scene), motions_(motions) {}
 
   /// Bounces and moves the bodies through the step, given what touches on the paths they start with. Appends the contacts that
   /// come about to `processed`.
@@ -55,7 +55,7 @@ class EventLoop {
   bool is_free(std::uint32_t which) const;
 
   const Scene& scene_;
-  std::vector<Motion>& motions_;
+  std::vector<BodyMotion>& motions_;
   std::priority_queue<Event> queue_;
   std::vector<bool> changed_;  // by the contacts at the start
   std::vector<ProxyPair> pairs_;
