@@ -1,7 +1,11 @@
 #include <thinwall/experiments/program/plan_command.hpp>
 
+#include <array>
+#include <memory>
 #include <ostream>
 
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/program/configured_run.hpp>
@@ -26,17 +30,59 @@ std::string json_reply(const Scene& scene, const Plan& plan) {
   return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
+struct PlanText {
+  std::string target;
+  OptionText seed, plan;
+  bool json = false;
+};
 
-int plan_command(const CommandLine& line, std::ostream& out) {
-  Settings settings(read_config(line.target), line.target, scene_experiment().default_toml);
+int print_plan(const PlanText& text, std::ostream& out) {
+  require_scene_target("plan", text.target);
+  const std::string kind = parse_plan_kind(text.plan);
+  const std::uint64_t seed = parse_seed(text.seed);
+  Settings settings(read_config(text.target), text.target, scene_experiment().default_toml);
   settings.reject_unknown_keys();
   settings.require("scene", "its name; without one the file is not a scene");
-  if (!line.plan_kind.empty()) settings.assign("plan", line.plan_kind);
-  const Scene scene = read_scene(settings, {.seed = line.seed, .trials = {}});
+  if (!kind.empty()) settings.assign("plan", kind);
+  const Scene scene = read_scene(settings, {.seed = seed, .trials = {}});
   const Plan made = plan(scene.bodies, scene.options);
-  out << (line.json ? json_reply(scene, made) : to_text(made));
+  out << (text.json ? json_reply(scene, made) : to_text(made));
   return exit_done;
 }
+
+constexpr const char* examples = R"(  thinwall plan experiments/scenes/rain.toml
+  thinwall plan my_scene.toml --json
+)";
+
+Action declare_plan(CLI::App& self) {
+  const auto text = std::make_shared<PlanText>();
+  add_scene_target(self, text->target);
+  add_seed(self, text->seed);
+  add_plan_kind(self, text->plan);
+  add_json(self, text->json);
+  return [text](const Call& call) { return print_plan(*text, call.out); };
+}
+
+}  // namespace
+
+void add_scene_target(CLI::App& self, std::string& target) {
+  add_target(self, "scene", target, "The TOML file of a scene", "FILE.toml");
+}
+
+void add_plan_kind(CLI::App& self, OptionText& plan) {
+  add_text(self, "--plan", plan, "Of a scene: full omits nothing; the outcome is the same to the bit", "lean|full");
+}
+
+void require_scene_target(const char* command, const std::string& target) {
+  if (!target.empty()) return;
+  throw UsageError(fmt::format("{0}: the TOML file of a scene is missing; see thinwall {0} --help", command));
+}
+
+std::string parse_plan_kind(const OptionText& plan) {
+  constexpr std::array<std::string_view, 2> kinds = {"lean", "full"};
+  return parse_choice("--plan", plan, kinds);
+}
+
+Command plan_command() { return {"plan", "Print what a scene does not need, and why", examples, declare_plan}; }
 
 }  // namespace thinwall

@@ -1,123 +1,60 @@
 #include <thinwall/experiments/program/run_command.hpp>
 
-#include <filesystem>
-#include <numeric>
-#include <ostream>
+#include <limits>
 
-#include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
-#include <thinwall/experiments/program/configured_run.hpp>
-#include <thinwall/experiments/program/exit_codes.hpp>
-#include <thinwall/experiments/program/json_reply.hpp>
-#include <thinwall/experiments/program/progress_bar.hpp>
-#include <thinwall/experiments/results/results.hpp>
-#include <thinwall/experiments/run/runner.hpp>
-#include <thinwall/experiments/run/stop_signal.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/settings.hpp>
 
 namespace thinwall {
 namespace {
 
-using Clock = std::chrono::system_clock;
+constexpr const char* examples = R"(  thinwall run thin_wall
+  thinwall run my.toml --seed 7 --out results/mine
+  thinwall run scene.toml --trace --plan full
+)";
 
-std::string plural(std::int64_t count, const std::string& noun) {
-  return grouped_text(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-std::string size_text(const RunRecord& run) {
-  return fmt::format("{}: {}, {} on {}", run.experiment, plural(static_cast<std::int64_t>(run.units), "unit"),
-                     plural(run.total_trials, "trial"), plural(run.threads, "thread"));
-}
-
-int dry_run(const CommandLine& line, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
-  const double seconds = estimate_seconds(units, line.threads);
-  if (line.json) {
-    out << dry_run_reply(run, line.out, seconds);
-  } else {
-    out << fmt::format("{}\nabout {}; results would go to {}\n", size_text(run), duration_text(seconds), line.out);
-  }
-  return exit_done;
-}
-
-int reply(const CommandLine& line, const RunRecord& run, const Outcome& outcome, std::ostream& out, std::ostream& err) {
-  const std::string report = (std::filesystem::path(line.out) / "report.html").string();
-  if (line.json) {
-    out << run_reply(run, line.out, outcome, report);
-  } else {
-    if (!outcome.summary.empty()) out << outcome.summary << (outcome.summary.ends_with('\n') ? "\n" : "\n\n");
-    out << outcome.answer << "\n\nreport: " << report << "\n";
-  }
-  out.flush();
-  if (outcome.self_test_passed) return exit_done;
-  err << "the self-test failed: do not trust these numbers; the report says more. Chance fails one correct run in a hundred or "
-         "fewer: another --seed tells\n";
-  return exit_failed;
-}
-
-int interrupted(const CommandLine& line, const std::string& kept, std::ostream& err) {
-  err << fmt::format("interrupted: {} in {}; to continue:\n{}\n", kept, line.out, shell_line(line.argv));
-  return exit_interrupted;
+Action declare_run(CLI::App& self) {
+  const auto text = std::make_shared<RunText>();
+  self.footer("A folder that holds the same run, unfinished, is continued; one that holds another run is refused.\n");
+  add_target(self, "experiment", text->wish.target, "The name of an experiment, or a TOML file; of a scene too",
+             "NAME|FILE.toml");
+  add_text(self, "--trials", text->trials, "Overrides the number of trials in the configuration; of a scene, its steps",
+           "N");
+  add_flag(self, "--trace", text->wish.request.trace, "Of a scene: write trace.jsonl, for a viewer");
+  add_run_options(self, *text);
+  return [text](const Call& call) {
+    if (text->wish.target.empty())
+      throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
+    return perform_run(parse_run(*text), call);
+  };
 }
 
 }  // namespace
 
-int run_command(const CommandLine& given, std::span<const Experiment> experiments, std::ostream& out,
-                std::ostream& err) {
-  const ConfiguredRun chosen = configure_run(
-      given.target,
-      {{given.seed, given.trials, given.threads}, given.command == Command::compare, given.trace, given.plan_kind},
-      experiments);
-  const std::vector<Unit> units = chosen.run->units();
-  CommandLine line = given;
-  if (line.out.empty()) line.out = "results/" + chosen.name;
-  RunRecord record{.experiment = std::string(chosen.experiment.name),
-                   .question = chosen.question,
-                   .config = chosen.config,
-                   .default_config = chosen.default_config,
-                   .seed = line.seed,
-                   .trials = line.trials,
-                   .argv = line.argv,
-                   .threads = line.threads,
-                   .units = units.size(),
-                   .started = Clock::now(),
-                   .finished = {},
-                   .build = this_build(),
-                   .machine = this_machine()};
-  for (const Unit& unit : units) record.total_trials += unit.trials;
-  if (line.dry_run) return dry_run(line, record, units, out);
+void add_run_options(CLI::App& self, RunText& text) {
+  add_out(self, text.out);
+  add_threads(self, text.threads);
+  add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
+  add_seed(self, text.seed);
+  add_plan_kind(self, text.plan);
+  add_json(self, text.wish.json);
+}
 
-  ResultFolder folder(line.out, {record.experiment, record.config, line.seed, line.trials, this_program_sha256()});
-  for (const std::string& note : folder.notes()) err << note << "\n";
-  if (const auto& kept = folder.complete()) {
-    Outcome outcome;
-    outcome.answer = kept->answer;
-    outcome.summary = kept->summary;
-    outcome.self_test_passed = kept->self_test_passed;
-    return reply(line, record, outcome, out, err);
-  }
+RunWish parse_run(const RunText& text) {
+  RunWish wish = text.wish;
+  wish.request.plan_kind = parse_plan_kind(text.plan);
+  RunOptions& options = wish.request.options;
+  options.seed = parse_seed(text.seed);
+  if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
+  options.threads = parse_threads(text.threads);
+  wish.out = parse_folder(text.out);
+  return wish;
+}
 
-  watch_for_stop();
-  err << size_text(record) << std::endl;
-  UnitResults results;
-  {
-    ProgressBar bar(stderr_is_terminal());
-    results =
-        compute_units(units, folder.journal(),
-                      {.threads = line.threads, .stop = stop_requested, .on_progress = [&](const Progress& progress) {
-                         bar.show(progress);
-                       }});
-  }
-  if (!results.complete) return interrupted(line, "finished units are kept", err);
-  record.resumed_units = results.resumed;
-  if (results.resumed > 0)
-    err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
-
-  const Outcome outcome = chosen.run->finish(results.results, results.seconds);
-  record.finished = Clock::now();
-  const auto notes = write_results(folder, record, outcome);
-  for (const std::string& note : notes) err << note << "\n";
-  return reply(line, record, outcome, out, err);
+Command run_command() {
+  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", examples, declare_run};
 }
 
 }  // namespace thinwall

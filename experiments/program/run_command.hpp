@@ -1,16 +1,26 @@
 #pragma once
-/// `thinwall run`.
+/// `thinwall run`, and what `thinwall compare` shares with it.
 
-#include <iosfwd>
-#include <span>
+#include <memory>
 
-#include <thinwall/experiments/experiment.hpp>
-#include <thinwall/experiments/program/command_line.hpp>
+#include <thinwall/experiments/program/command.hpp>
+#include <thinwall/experiments/program/options.hpp>
+#include <thinwall/experiments/program/perform_run.hpp>
 
 namespace thinwall {
 
-/// Returns the exit code. Results go to `out`, all else to `err`. Throws UsageError for what the user must mend.
-int run_command(const CommandLine& given, std::span<const Experiment> experiments, std::ostream& out,
-                std::ostream& err);
+/// Options of a run as they were typed.
+struct RunText {
+  RunWish wish;
+  OptionText out, seed, trials, threads, plan;
+};
+
+/// --out, --threads, --seed, --plan, --dry-run and --json.
+void add_run_options(CLI::App& self, RunText& text);
+
+/// What the text means. Throws UsageError.
+RunWish parse_run(const RunText& text);
+
+Command run_command();
 
 }  // namespace thinwall

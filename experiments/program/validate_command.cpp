@@ -1,12 +1,16 @@
 #include <thinwall/experiments/program/validate_command.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/program/exit_codes.hpp>
+#include <thinwall/experiments/program/options.hpp>
+#include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall/experiments/validate/validate.hpp>
 
@@ -82,14 +86,43 @@ std::string json_reply(const Validation& validation) {
   return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+constexpr const char* examples = R"(  thinwall validate ccd-queries                 every CSV file below the folder
+  thinwall validate ccd-queries/unit-tests --json
+)";
+
+constexpr const char* footer =
+    R"(A file has 8 rows a query and lies in a folder named vertex-face or edge-edge. Queries whose two primitives translate
+rigidly are checked, the others counted. Exit code 1: a verdict is wrong.
+)";
+
+struct ValidateText {
+  std::string folder;
+  bool json = false;
+};
+
+int print_validation(const ValidateText& text, const Call& call) {
+  if (text.folder.empty()) {
+    throw UsageError("validate: a folder of published queries is missing; see thinwall validate --help");
+  }
+  const Validation validation = validate(text.folder);
+  call.out << (text.json ? json_reply(validation) : text_reply(validation));
+  call.out.flush();
+  for (const std::string& wrong : validation.wrongs) call.err << wrong << "\n";
+  return validation.total.wrong() == 0 ? exit_done : exit_failed;
+}
+
+Action declare_validate(CLI::App& self) {
+  const auto text = std::make_shared<ValidateText>();
+  self.footer(footer);
+  add_target(self, "folder", text->folder, "Where the CSV files of queries are", "DIR");
+  add_json(self, text->json);
+  return [text](const Call& call) { return print_validation(*text, call); };
+}
+
 }  // namespace
 
-int validate_command(const CommandLine& line, std::ostream& out, std::ostream& err) {
-  const Validation validation = validate(line.target);
-  out << (line.json ? json_reply(validation) : text_reply(validation));
-  out.flush();
-  for (const std::string& wrong : validation.wrongs) err << wrong << "\n";
-  return validation.total.wrong() == 0 ? exit_done : exit_failed;
+Command validate_command() {
+  return {"validate", "Check the verdicts of published queries against exact arithmetic", examples, declare_validate};
 }
 
 }  // namespace thinwall

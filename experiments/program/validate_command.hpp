@@ -1,13 +1,11 @@
 #pragma once
 /// `thinwall validate`.
 
-#include <iosfwd>
-
-#include <thinwall/experiments/program/command_line.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
 namespace thinwall {
 
-/// Returns the exit code: 1 if any verdict is wrong. Throws UsageError for what the user must mend.
-int validate_command(const CommandLine& line, std::ostream& out, std::ostream& err);
+/// Its exit code is 1 if any verdict is wrong.
+Command validate_command();
 
 }  // namespace thinwall

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/program/command_line.hpp>
+#include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/world.hpp>
 
@@ -146,10 +146,12 @@ TEST(Plan, says_the_same_of_outcomes_in_every_run_and_fits_the_terminal) {
 }
 
 TEST(Plan, is_an_experiment_after_run_and_a_command_alone) {
-  const CommandLine line = parse_command_line({"thinwall", "run", "plan"});
-  EXPECT_EQ(line.command, Command::run);
-  EXPECT_EQ(line.target, "plan");
-  EXPECT_EQ(parse_command_line({"thinwall", "plan", "a.toml"}).command, Command::plan);
+  const std::vector<Experiment> experiments = {plan_experiment()};
+  std::ostringstream out, err;
+  EXPECT_EQ(run_program({"thinwall", "run", "plan", "--dry-run"}, experiments, out, err), 0) << err.str();
+  EXPECT_EQ(out.str().substr(0, 5), "plan:");
+  EXPECT_EQ(run_program({"thinwall", "plan", "no_such_file.toml"}, experiments, out, err), 2);
+  EXPECT_EQ(err.str(), "no_such_file.toml: there is no such file\n");
 }
 
 TEST(Plan, refuses_what_is_no_line_of_it) {

@@ -1,0 +1,23 @@
+#include <array>
+
+#include <thinwall/experiments/program/command.hpp>
+#include <thinwall/experiments/program/compare_command.hpp>
+#include <thinwall/experiments/program/list_command.hpp>
+#include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/program/run_command.hpp>
+#include <thinwall/experiments/program/validate_command.hpp>
+
+namespace thinwall {
+
+std::span<const Command> commands() {
+  static const std::array all = {
+      list_command(),      //
+      run_command(),       //
+      compare_command(),   //
+      plan_command(),      //
+      validate_command(),  //
+  };
+  return all;
+}
+
+}  // namespace thinwall
