@@ -95,6 +95,10 @@ int perform_run(const RunWish& given, const Call& call) {
   }
 
   watch_for_stop();
+  std::optional<StopGuard> guard(std::in_place, std::chrono::milliseconds(500), [&] {  // a unit may be long
+    if (stderr_is_terminal()) call.err << "\r\x1b[K";  // the progress bar
+    std::_Exit(interrupted(wish, "finished units are kept", call));
+  });
   call.err << size_text(record) << std::endl;
   UnitResults results;
   {
@@ -105,6 +109,7 @@ int perform_run(const RunWish& given, const Call& call) {
                          bar.show(progress);
                        }});
   }
+  guard.reset();
   if (!results.complete) return interrupted(wish, "finished units are kept", call);
   record.resumed_units = results.resumed;
   if (results.resumed > 0)
