@@ -12,7 +12,7 @@ namespace thinwall {
 /// Options of a run as they were typed.
 struct RunText {
   RunWish wish;
-  OptionText out, seed, trials, threads, plan;
+  OptionText out, seed, trials, threads, plan, shard;
 };
 
 /// --out, --threads, --seed, --plan, --dry-run and --json.
