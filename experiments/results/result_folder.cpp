@@ -59,7 +59,8 @@ ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(s
   } catch (const std::system_error& error) {
     const std::string why = "cannot be written: " + error.code().message();
     if (error.code() != std::errc::no_space_on_device) refuse(why);
-    throw std::runtime_error(fmt::format("--out {}: {}", one_line(path_.string()), why));  // no fault of the user's words
+    throw std::runtime_error(
+        fmt::format("--out {}: {}", one_line(path_.string()), why));  // no fault of the user's words
   }
 }
 

@@ -38,7 +38,8 @@ void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& pa
     const std::string trouble = draw(folder.staging() / "plots", figure.name);
     if (!trouble.empty()) {
       parts.why_no_svg = trouble;
-      folder.stage("plots/" + figure.name + ".svg", std::string(room_for_a_figure, ' '));  // throws if that was the trouble
+      folder.stage("plots/" + figure.name + ".svg",
+                   std::string(room_for_a_figure, ' '));  // throws if that was the trouble
       std::filesystem::remove(folder.staging() / "plots" / (figure.name + ".svg"));
       continue;
     }
