@@ -3,6 +3,7 @@
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/compare_command.hpp>
 #include <thinwall/experiments/program/list_command.hpp>
+#include <thinwall/experiments/program/merge_command.hpp>
 #include <thinwall/experiments/program/plan_command.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
 #include <thinwall/experiments/program/validate_command.hpp>
@@ -14,6 +15,7 @@ std::span<const Command> commands() {
       list_command(),      //
       run_command(),       //
       compare_command(),   //
+      merge_command(),     //
       plan_command(),      //
       validate_command(),  //
   };

@@ -43,8 +43,9 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
   std::vector<std::uint8_t> open(units_.size());
   std::size_t known = 0;
   for (std::size_t i = 0; i < units_.size(); ++i) {
-    open[i] = journal.finished().contains(units_[i].key) ? 0 : 1;
-    known += open[i] ? 0 : 1;
+    const bool done = journal.finished().contains(units_[i].key);
+    open[i] = done ? 0 : 1;
+    known += done ? 1U : 0U;
   }
   ranks_.share(open);
   told_ = true;

@@ -58,7 +58,8 @@ RunWish parse_run(const RunText& text) {
 }
 
 Command run_command() {
-  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", examples, declare_run, true};
+  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", examples, declare_run,
+          true};
 }
 
 }  // namespace thinwall

@@ -29,8 +29,9 @@ constexpr const char* rank_journal_prefix = "journal.rank-";
 constexpr const char* old_journal_name = "journal.old.tsv";  // begun by another build of the program
 
 /// What a result is made of: where none of ours lies, none of these may either.
-constexpr std::array result_names = {
-    manifest_name, seal_name, "datapackage.json", "report.html", "resolved.toml", "cite.bib", "data", "plots", "tables"};
+constexpr std::array result_names = {manifest_name, seal_name,       "datapackage.json",
+                                     "report.html", "resolved.toml", "cite.bib",
+                                     "data",        "plots",         "tables"};
 
 std::string read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -104,8 +104,7 @@ ShardSet read_shards(std::span<const std::string> folders, const std::string& pr
   const auto twice = std::ranges::adjacent_find(
       found, [](const SealedFolder& a, const SealedFolder& b) { return a.seal.shard == b.seal.shard; });
   if (twice != found.end()) {
-    refuse(std::next(twice)->name,
-           fmt::format("is shard {}, and so is {}", to_text(twice->seal.shard), twice->name));
+    refuse(std::next(twice)->name, fmt::format("is shard {}, and so is {}", to_text(twice->seal.shard), twice->name));
   }
   check_missing(found);
   if (found.front().seal.identity.program != program) {

@@ -65,7 +65,8 @@ template <class Body> void parallel_for_each_index(std::size_t count, int thread
 int default_threads() {
   const int ours = oneapi::tbb::info::default_concurrency(), neighbors = launch_of_this_process().neighbors;
   if (neighbors <= 1) return ours;
-  const int fair = static_cast<int>(std::thread::hardware_concurrency()) / neighbors;  // mpirun may bind ranks to cores or not
+  const int fair =
+      static_cast<int>(std::thread::hardware_concurrency()) / neighbors;  // mpirun may bind ranks to cores or not
   return std::max(1, std::min(ours, fair));
 }
 

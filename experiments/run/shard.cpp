@@ -23,8 +23,9 @@ Shard parse_shard(std::string_view text) {
       return {static_cast<int>(*index), static_cast<int>(*count)};
     }
   }
-  throw UsageError(fmt::format("--shard: '{}' is not allowed; i/N, the i-th of N shards: whole numbers with 1 <= i <= N <= {}",
-                               one_line(text), most));
+  throw UsageError(
+      fmt::format("--shard: '{}' is not allowed; i/N, the i-th of N shards: whole numbers with 1 <= i <= N <= {}",
+                  one_line(text), most));
 }
 
 std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
