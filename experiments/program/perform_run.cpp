@@ -1,8 +1,13 @@
 #include <thinwall/experiments/program/perform_run.hpp>
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <ostream>
+#include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -62,7 +67,7 @@ int interrupted(const RunWish& wish, const std::string& kept, const Call& call) 
 
 }  // namespace
 
-int perform_run(const RunWish& given, const Call& call) {
+int perform_run(const RunWish& given, const Call& call) try {
   const RunOptions& options = given.request.options;
   const ConfiguredRun chosen = configure_run(given.target, given.request, call.experiments);
   const std::vector<Unit> units = chosen.run->units();
@@ -95,6 +100,10 @@ int perform_run(const RunWish& given, const Call& call) {
   }
 
   watch_for_stop();
+  std::optional<StopGuard> guard(std::in_place, std::chrono::milliseconds(500), [&] {  // a unit may be long
+    if (stderr_is_terminal()) call.err << "\r\x1b[K";                                  // the progress bar
+    std::_Exit(interrupted(wish, "finished units are kept", call));
+  });
   call.err << size_text(record) << std::endl;
   UnitResults results;
   {
@@ -105,7 +114,10 @@ int perform_run(const RunWish& given, const Call& call) {
                          bar.show(progress);
                        }});
   }
-  if (!results.complete) return interrupted(wish, "finished units are kept", call);
+  if (!results.complete) {
+    guard.reset();
+    return interrupted(wish, "finished units are kept", call);
+  }
   record.resumed_units = results.resumed;
   if (results.resumed > 0)
     call.err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
@@ -113,8 +125,13 @@ int perform_run(const RunWish& given, const Call& call) {
   const Outcome outcome = chosen.run->finish(results.results, results.seconds);
   record.finished = Clock::now();
   const auto notes = write_results(folder, record, outcome);
+  guard.reset();
   for (const std::string& note : notes) call.err << note << "\n";
   return reply(wish, record, outcome, call);
+} catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
+  const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  throw std::runtime_error(fmt::format("{}; what was finished is kept: mend this, and the same command goes on",
+                                       file ? file->path1().string() + ": " + error.code().message() : error.what()));
 }
 
 }  // namespace thinwall

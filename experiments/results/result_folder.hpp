@@ -3,7 +3,7 @@
 ///
 /// While a run lasts the folder holds its journal. Results are written under another name and moved into place when all
 /// of them are there, the manifest last; then the journal goes. So whatever has its own name is whole, and a folder with a
-/// manifest is complete.
+/// manifest is complete, also after the end of the process or of the power at any moment.
 
 #include <filesystem>
 #include <map>
@@ -36,6 +36,7 @@ class FolderLock {
 class ResultFolder {
  public:
   /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
+  /// Throws std::runtime_error if the disk is full.
   ResultFolder(std::filesystem::path path, const RunIdentity& identity);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -67,6 +68,7 @@ class ResultFolder {
  private:
   void look_at_manifest(const RunIdentity& identity);
   void look_at_journal(const RunIdentity& identity);
+  void clear_up() const;  // of what a complete folder does not need
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::filesystem::path path_;

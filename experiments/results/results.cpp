@@ -14,6 +14,8 @@
 namespace thinwall {
 namespace {
 
+constexpr std::size_t room_for_a_figure = 1 << 20;  // [byte]
+
 void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
   for (const Table& table : outcome.tables) {
     folder.stage("data/" + table.name + ".csv", csv_text(table));
@@ -36,6 +38,8 @@ void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& pa
     const std::string trouble = draw(folder.staging() / "plots", figure.name);
     if (!trouble.empty()) {
       parts.why_no_svg = trouble;
+      folder.stage("plots/" + figure.name + ".svg",
+                   std::string(room_for_a_figure, ' '));  // throws if that was the trouble
       std::filesystem::remove(folder.staging() / "plots" / (figure.name + ".svg"));
       continue;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -61,6 +62,15 @@ double parse_seconds(const std::string& text) {
   throw std::system_error(errno, std::generic_category(), file.string());
 }
 
+/// Empty if there is no such file; one that cannot be read is an error, lest it be taken for an empty one.
+std::string text_of(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in && errno == ENOENT) return {};
+  if (!in) fail(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 }  // namespace
 
 std::string Journal::identity_in(const std::filesystem::path& file) {
@@ -72,17 +82,27 @@ std::string Journal::identity_in(const std::filesystem::path& file) {
 }
 
 Journal::Journal(std::filesystem::path file, const std::string& identity) : file_(std::move(file)) {
-  const std::string good_rows = header_row(identity) + read();
-  std::error_code none;
-  if (std::filesystem::file_size(file_, none) == good_rows.size() && !none) {
+  const std::string text = text_of(file_);
+  const std::string good_rows = header_row(identity) + read(text);
+  if (text.starts_with(good_rows)) {  // what follows is torn; cutting it off needs no space, also where there is none
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (descriptor_ < 0) fail(file_);
+    if (text.size() > good_rows.size() && ::ftruncate(descriptor_, static_cast<off_t>(good_rows.size())) != 0)
+      fail(file_);
     return;
   }
   const std::filesystem::path fresh = file_.string() + ".new";
   descriptor_ = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(fresh);
-  write(good_rows);
+  try {
+    write(good_rows);
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) fail(fresh);
+  } catch (const std::system_error&) {
+    ::close(descriptor_);
+    std::error_code none;
+    std::filesystem::remove(fresh, none);
+    throw;
+  }
   std::filesystem::rename(fresh, file_);
 }
 
@@ -90,9 +110,7 @@ Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::string Journal::read() {
-  std::ifstream in(file_, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+std::string Journal::read(std::string_view text) {
   std::string_view rest = text;
   std::string good_rows;
   for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {  // a last row without its end is torn
@@ -116,6 +134,11 @@ void Journal::add(const std::string& key, const Row& row) {
   const std::string text = unit_row(key, row);
   const std::scoped_lock lock(mutex_);
   write(text);
+  constexpr auto pause = std::chrono::seconds(1);
+  const auto now = Clock::now();
+  if (now - synced_ < pause) return;
+  synced_ = now;
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) fail(file_);  // EINVAL: a device that keeps nothing
 }
 
 void Journal::write(const std::string& text) {

@@ -5,10 +5,12 @@
 /// and a checksum, separated by tabs. A row is written whole, at once, when its unit ends. A torn last row is dropped; a
 /// damaged row is named and its unit is computed again.
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thinwall {
@@ -36,11 +38,15 @@ class Journal {
   /// A line for each damaged row: which, and what becomes of it.
   const std::vector<std::string>& damage() const { return damage_; }
 
-  /// Thread-safe. The row is in the file when this returns; throws std::system_error if it cannot be.
+  /// Thread-safe. The row is in the file when this returns, so that the end of the process loses none; the file is
+  /// flushed to the disk about once a second, which is what a power failure may cost. Throws std::system_error if the
+  /// row cannot be written.
   void add(const std::string& key, const Row& row);
 
  private:
-  std::string read();  // fills finished_ and damage_; returns the undamaged rows of units
+  using Clock = std::chrono::steady_clock;
+
+  std::string read(std::string_view text);  // fills finished_ and damage_; returns the undamaged rows of units
   void write(const std::string& text);
 
   std::filesystem::path file_;
@@ -49,6 +55,7 @@ class Journal {
   std::mutex mutex_;
   int descriptor_ = -1;
   int broken_ = 0;  // the errno of a failed write
+  Clock::time_point synced_ = Clock::now();
 };
 
 }  // namespace thinwall
