@@ -1,5 +1,6 @@
 #include <array>
 
+#include <thinwall/experiments/program/cite_command.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/compare_command.hpp>
 #include <thinwall/experiments/program/list_command.hpp>
@@ -16,6 +17,7 @@ std::span<const Command> commands() {
       compare_command(),   //
       plan_command(),      //
       validate_command(),  //
+      cite_command(),      //
   };
   return all;
 }
