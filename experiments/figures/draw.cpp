@@ -28,10 +28,17 @@ std::set<std::string> ids_in(const std::string& svg) {
 
 }  // namespace
 
-std::string draw(const std::filesystem::path& folder, const std::string& name) {
-  const ProcessResult gnuplot = run_process({"gnuplot", "--default-settings", name + ".gp"}, folder);
+std::vector<std::string> drawn_files(const std::string& name, const std::string& format) {
+  if (format == "tex") return {name + "-latex.tex", name + "-latex.pdf"};
+  return {name + "." + format};
+}
+
+std::string draw(const std::filesystem::path& folder, const std::string& name, const std::string& format) {
+  const ProcessResult gnuplot =
+      run_process({"gnuplot", "--default-settings", "-e", "format='" + format + "'", name + ".gp"}, folder);
   if (!gnuplot.found) return "gnuplot is not installed";
-  if (gnuplot.status == 0 && std::filesystem::exists(folder / (name + ".svg"))) return {};
+  const auto is_there = [&](const std::string& file) { return std::filesystem::exists(folder / file); };
+  if (gnuplot.status == 0 && std::ranges::all_of(drawn_files(name, format), is_there)) return {};
   const std::string first = gnuplot.output.substr(0, gnuplot.output.find_last_not_of(" \n") + 1);
   return fmt::format("gnuplot ended with {}: {}", gnuplot.status, one_line(first));
 }

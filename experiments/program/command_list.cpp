@@ -5,6 +5,7 @@
 #include <thinwall/experiments/program/compare_command.hpp>
 #include <thinwall/experiments/program/list_command.hpp>
 #include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/program/report_command.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
 #include <thinwall/experiments/program/validate_command.hpp>
 
@@ -17,6 +18,7 @@ std::span<const Command> commands() {
       compare_command(),   //
       plan_command(),      //
       validate_command(),  //
+      report_command(),    //
       cite_command(),      //
   };
   return all;

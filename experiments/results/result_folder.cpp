@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
@@ -140,6 +141,7 @@ std::map<std::string, std::string> ResultFolder::staged_hashes() const {
 void ResultFolder::publish() {
   const auto staged = staged_hashes();
   fs::remove(path_ / manifest_name);  // from here until the new one is there the folder is not complete
+  remove_drawn_figures(path_);
   const auto move = [&](const std::string& file) {
     fs::create_directories((path_ / file).parent_path());
     fs::rename(staging() / file, path_ / file);
