@@ -1,9 +1,11 @@
 #include <array>
 
+#include <thinwall/experiments/program/cite_command.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/compare_command.hpp>
 #include <thinwall/experiments/program/list_command.hpp>
 #include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/program/report_command.hpp>
 #include <thinwall/experiments/program/reproduce_command.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
 #include <thinwall/experiments/program/validate_command.hpp>
@@ -16,8 +18,10 @@ std::span<const Command> commands() {
       run_command(),        //
       compare_command(),    //
       plan_command(),       //
-      reproduce_command(),  //
       validate_command(),   //
+      report_command(),     //
+      reproduce_command(),  //
+      cite_command(),       //
   };
   return all;
 }

@@ -2,6 +2,7 @@
 /// What `thinwall run` and `thinwall compare` do: compute what is missing and leave a result folder.
 
 #include <string>
+#include <vector>
 
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/configured_run.hpp>
@@ -14,6 +15,7 @@ struct RunWish {
   RunRequest request;
   std::string out;  ///< the result folder; empty for the default
   bool dry_run = false, json = false;
+  std::vector<std::string> figures;  ///< formats to draw beside SVG
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.
