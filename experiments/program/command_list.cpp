@@ -4,6 +4,7 @@
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/compare_command.hpp>
 #include <thinwall/experiments/program/list_command.hpp>
+#include <thinwall/experiments/program/merge_command.hpp>
 #include <thinwall/experiments/program/plan_command.hpp>
 #include <thinwall/experiments/program/report_command.hpp>
 #include <thinwall/experiments/program/reproduce_command.hpp>
@@ -19,6 +20,7 @@ std::span<const Command> commands() {
       compare_command(),    //
       plan_command(),       //
       validate_command(),   //
+      merge_command(),      //
       report_command(),     //
       reproduce_command(),  //
       cite_command(),       //

@@ -12,7 +12,7 @@ namespace thinwall {
 /// Options of a run as they were typed.
 struct RunText {
   RunWish wish;
-  OptionText out, seed, trials, threads, plan, figures;
+  OptionText out, seed, trials, threads, plan, figures, shard;
 };
 
 /// --out, --threads, --seed, --plan, --figures, --dry-run and --json.

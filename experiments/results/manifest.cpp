@@ -23,7 +23,7 @@ ordered_json program(const BuildRecord& build) {
 
 std::string manifest_text(const RunRecord& run, const Outcome& outcome,
                           const std::map<std::string, std::string>& hashes, const std::vector<std::string>& unhashed) {
-  const ordered_json out = {
+  ordered_json out = {
       {"thinwall_manifest", format_version},
       {"experiment", run.experiment},
       {"question", run.question},
@@ -46,6 +46,14 @@ std::string manifest_text(const RunRecord& run, const Outcome& outcome,
       {"files", hashes},
       {"files_of_times", unhashed},
       {"summary", outcome.summary}};
+  if (run.ranks > 1) out["ranks"] = run.ranks;
+  for (const ShardRecord& shard : run.shards) {
+    out["shards"].push_back({{"shard", shard.shard},
+                             {"cpu", shard.cpu},
+                             {"system", shard.system},
+                             {"started", shard.started},
+                             {"finished", shard.finished}});
+  }
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
