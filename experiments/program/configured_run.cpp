@@ -98,16 +98,17 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
   std::vector<std::string_view> names;
   for (const Experiment& experiment : all) names.push_back(experiment.name);
 
-  const Experiment* chosen = request.compare ? nullptr : find_experiment(experiments, target);
+  const Experiment* chosen = request.compare || request.text ? nullptr : find_experiment(experiments, target);
   std::string text, file = std::string(target) + " (built-in)";
   if (!chosen) {
-    const bool is_path = target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target);
+    const bool is_path =
+        request.text || target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target);
     if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
                                    spelling_hint(target, std::span(names).first(experiments.size()))));
     }
     file = target;
-    text = read_config(file);
+    text = request.text ? *request.text : read_config(file);
     const std::string named = experiment_named_in(text, file, names);
     chosen = find_experiment(all, request.compare && named == "scene" ? "compare" : named);
   }

@@ -2,6 +2,7 @@
 /// From what the user named to a run that is ready to go.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -13,9 +14,10 @@ namespace thinwall {
 /// What the command line says of a run beside its target.
 struct RunRequest {
   RunOptions options;
-  bool compare = false;   ///< the target is a scene, to be compared
-  bool trace = false;     ///< of a scene
-  std::string plan_kind;  ///< of a scene; empty: as it says itself
+  bool compare = false;                  ///< the target is a scene, to be compared
+  bool trace = false;                    ///< of a scene
+  std::string plan_kind;                 ///< of a scene; empty: as it says itself
+  std::optional<std::string> text = {};  ///< in place of the target's content, for which the target is then only a name
 };
 
 struct ConfiguredRun {

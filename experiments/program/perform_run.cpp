@@ -15,6 +15,7 @@
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/json_reply.hpp>
 #include <thinwall/experiments/program/progress_bar.hpp>
+#include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/results.hpp>
 #include <thinwall/experiments/results/shard_seal.hpp>
 #include <thinwall/experiments/run/runner.hpp>
@@ -53,6 +54,7 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> uni
 
 int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, const Call& call) {
   auto& [experiments, argv, out, err] = call;
+  for (const std::string& trouble : draw_figures(wish.out, wish.figures).troubles) err << trouble << "\n";
   const std::string report = (std::filesystem::path(wish.out) / "report.html").string();
   if (wish.json) {
     out << run_reply(run, wish.out, outcome, report);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/program/report_command.hpp>
 #include <thinwall/experiments/settings.hpp>
 
 namespace thinwall {
@@ -42,6 +43,7 @@ void add_run_options(CLI::App& self, RunText& text) {
   add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
   add_seed(self, text.seed);
   add_plan_kind(self, text.plan);
+  add_figures(self, text.figures);
   add_json(self, text.wish.json);
 }
 
@@ -53,6 +55,7 @@ RunWish parse_run(const RunText& text) {
   if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
   options.threads = parse_threads(text.threads);
   wish.out = parse_folder(text.out);
+  wish.figures = parse_figures(text.figures);
   if (text.shard) wish.shard = parse_shard(*text.shard);
   return wish;
 }

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/durable.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
@@ -190,6 +191,7 @@ void ResultFolder::publish() {
   }
   const auto move = [&](const std::string& file) { fs::rename(staging() / file, path_ / file); };
   if (fs::exists(path_ / manifest_name)) fs::rename(path_ / manifest_name, path_ / old_manifest_name);
+  remove_drawn_figures(path_);  // they show the old result
   for (const auto& [file, hash] : staged) {
     if (file != manifest_name) move(file);
   }

@@ -24,7 +24,7 @@ template <Scalar S> struct ClosedForm {
 template <class A, class B, Scalar T>
 THINWALL_COLD T settled_near_end(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
   if (rounding(a.shape) + rounding(b.shape) + gap == T(0)) return entry.time;  // found without roundings, or settled
-  const Entry<T> last_word = settled(a, b, gap, entry);
+  const Entry<T> last_word = settled(a, b, gap, entry, 16);                    // round-off has moved it by less
   if (last_word.graze) return entry.time;
   return last_word.time <= T(1) ? std::min(T(1), entry.time) : last_word.time;
 }
@@ -67,7 +67,8 @@ THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, cons
 }
 
 /// The same for a pair whose coordinates were turned into a box's axes: three roundings more each, and axes that are
-/// orthonormal to rounding only. A hit is settled, and what may be a graze is asked in the wider scalar.
+/// orthonormal to rounding only. A hit is settled where that moves it by no more than a backward error of 4 u; all else, a graze too,
+/// is asked in the wider scalar.
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                      const Point& point) {
@@ -75,7 +76,7 @@ Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& 
   if constexpr (has_wider<T>) {
     if (found.inside || found.gave_up) return toi_of(a, b, gap, found, point);
     const bool may_hit = found.time <= T(1) + constant_power_of_two<T, -10>();
-    const Entry<T> entry = may_hit && !found.graze ? settled(a, b, gap, found) : found;
+    const Entry<T> entry = may_hit && !found.graze ? settled(a, b, gap, found, 2) : found;
     return entry.graze ? toi_by_wider<Method, A, B, T>(method, a, b) : toi_of(a, b, gap, entry, point);
   } else {
     return toi_of(a, b, gap, found, point);

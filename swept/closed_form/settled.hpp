@@ -9,9 +9,9 @@
 /// plane by a rounding of the face's size. So this brings an entry that has come through turned axes back to about one
 /// rounding, and decides whether a contact near the end of the step is still in it.
 ///
-/// Not for a graze: where the motion hardly closes the gap, the second order is not small. Nor where it would move the time by
-/// more than rounding: a corner met without a radius has an answer but no plane of its own, and a face that hardly closes would be
-/// reached when another has passed.
+/// Not for a graze: where the motion hardly closes the gap, the second order is not small. Nor where it would move the shapes by
+/// more than `trust`: a corner met without a radius has an answer but no plane of its own, a face that hardly closes would be
+/// reached when another has passed, and the plane of a normal that is not quite a long face's is early by what it is off.
 /// Source: derived in docs/closed_forms.md.
 
 #include <limits>
@@ -30,8 +30,9 @@ using Wider =
 template <Scalar S> inline constexpr bool has_wider = !std::is_same_v<Wider<S>, S>;
 
 /// An entry's time as settled by its normal (unit, from A to B), or as it was, with `graze` set, where that may not be done.
+/// `trust`: by how much the plane may move the shapes, in roundings of their size as `std::numeric_limits` names one.
 template <class A, class B, Scalar T>
-Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry) {
+Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry, int trust) {
   using W = Wider<T>;
   const auto a = cast<W>(narrow_a);
   const auto b = cast<W>(narrow_b);
@@ -46,7 +47,8 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const Vec3<T> paths = narrow_a.displacement.cwiseAbs() + narrow_b.displacement.cwiseAbs();
   const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
   const T size = entry.normal.cwiseAbs().dot(sizes) + gap, tiny = entry.time * constant_power_of_two<T, -40>();
-  const bool by_rounding = shift <= W(tiny) && shift * closing <= W(gap_noise(size));
+  const T trusted = T(trust) * std::numeric_limits<T>::epsilon() * size;
+  const bool by_rounding = shift <= W(tiny) && shift * closing <= W(trusted);
   entry.graze = !(closing > W(0)) || !second_order_is_small || !by_rounding;
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));
