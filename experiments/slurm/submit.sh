@@ -9,10 +9,10 @@
 # SBATCH_PARTITION=long, or into shard.sh. THINWALL names the program; it must be the same build on every node.
 set -euo pipefail
 
-(($# >= 3)) && [[ $1 =~ ^[1-9][0-9]*$ ]] || {
+if (($# < 3)) || [[ ! $1 =~ ^[1-9][0-9]*$ ]]; then
   sed -n '2,10s/^# \{0,1\}//p' "$0" >&2
   exit 2
-}
+fi
 shards=$1 out=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -30,6 +30,7 @@ for ((first = 0; first < shards; first += batch)); do
     "$here/shard.sh" "$first" "$shards" "$out.shards" "$@")")
 done
 dependency=$(IFS=:; echo "${jobs[*]}")
-merge=$(sbatch --parsable --dependency="afterok:$dependency" --job-name=thinwall-merge --open-mode=append \
-  --output="$out.shards/merge.log" --wrap="$(printf '%q ' "$THINWALL" merge) $(printf '%q' "$out.shards")/*-of-$shards --out $(printf '%q' "$out")")
+printf -v line '%q merge %q/*-of-%q --out %q' "$THINWALL" "$out.shards" "$shards" "$out"
+merge=$(sbatch --parsable --dependency="afterok:$dependency" --job-name=thinwall-merge --output="$out.shards/merge.log" \
+  --wrap="$line")
 echo "shards: job ${jobs[*]}; merge: job $merge; logs in $out.shards/"
