@@ -73,7 +73,11 @@ ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::spa
   Settings settings(resolved_toml(record), "configuration", chosen->default_toml);
   settings.reject_unknown_keys();
   ConfiguredRun out = configured(*chosen, settings, {identity.seed, identity.trials, threads});
-  if (out.config != identity.config) throw UsageError("the configuration reads back as another one");
+  RunIdentity again = identity;
+  again.config = out.config;  // JSON may spell a number otherwise
+  if (const std::string difference = identity_difference(identity_text(again), identity); !difference.empty()) {
+    throw UsageError(fmt::format("the configuration reads back as another one ({})", difference));
+  }
   return out;
 }
 

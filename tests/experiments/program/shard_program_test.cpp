@@ -85,6 +85,19 @@ TEST_F(ShardProgram, merged_are_the_bytes_of_one_run) {
   }
 }
 
+TEST_F(ShardProgram, of_a_configuration_of_its_own_are_merged_too) {
+  write_text(folder / "my.toml", "experiment = \"toy\"\nspeed = [0.0001, 1e300, 3]\ncells = 3\n");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
+  const auto whole = hashed_files(out);
+  const std::string id = manifest().at("run_id");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--shard", "1/1", "--out", shard(1, 1)}).status, 0);
+  out = folder / "merged";
+  const Reply reply = merge({shard(1, 1)});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(hashed_files(out), whole);
+  EXPECT_EQ(manifest().at("run_id"), id);
+}
+
 TEST_F(ShardProgram, merged_again_is_complete_already) {
   const auto folders = run_shards(2);
   ASSERT_EQ(merge(folders).status, 0);
