@@ -44,6 +44,15 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> uni
   return exit_done;
 }
 
+int list_cells(const RunWish& wish, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
+  if (wish.json) {
+    out << list_cells_reply(run, wish.out, units);
+  } else {
+    for (const Unit& unit : units) out << fmt::format("{:>12}  {}\n", unit.trials, one_line(unit.key));
+  }
+  return exit_done;
+}
+
 int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, const Call& call) {
   auto& [experiments, argv, out, err] = call;
   const std::string report = (std::filesystem::path(wish.out) / "report.html").string();
@@ -87,6 +96,7 @@ int perform_run(const RunWish& given, const Call& call) try {
                    .build = this_build(),
                    .machine = this_machine()};
   for (const Unit& unit : units) record.total_trials += unit.trials;
+  if (wish.list_cells) return list_cells(wish, record, units, call.out);
   if (wish.dry_run) return dry_run(wish, record, units, call.out);
 
   ResultFolder folder(wish.out, {record.experiment, record.config, record.seed, record.trials, this_program_sha256()});

@@ -13,7 +13,7 @@ struct RunWish {
   std::string target;  ///< an experiment's name or a TOML file
   RunRequest request;
   std::string out;  ///< the result folder; empty for the default
-  bool dry_run = false, json = false;
+  bool dry_run = false, list_cells = false, json = false;
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.

@@ -12,7 +12,10 @@ namespace thinwall {
 int run_program(const std::vector<std::string>& argv, std::span<const Experiment> experiments, std::ostream& out,
                 std::ostream& err) {
   try {
-    return parse_command_line(argv)({experiments, argv, out, err});
+    const int status = parse_command_line(argv)({experiments, argv, out, err});
+    if (out.flush()) return status;
+    err << "failed: stdout cannot be written" << std::endl;  // a full disk, where it goes to a file
+    return exit_failed;
   } catch (const UsageError& error) {
     err << error.what() << std::endl;
     return exit_bad_input;

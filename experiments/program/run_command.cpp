@@ -13,6 +13,7 @@ namespace {
 constexpr const char* examples = R"(  thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
   thinwall run scene.toml --trace --plan full
+  thinwall run thin_wall --list-cells
 )";
 
 Action declare_run(CLI::App& self) {
@@ -37,6 +38,7 @@ void add_run_options(CLI::App& self, RunText& text) {
   add_out(self, text.out);
   add_threads(self, text.threads);
   add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
+  add_flag(self, "--list-cells", text.wish.list_cells, "Print the key and the trials of every unit, and write nothing");
   add_seed(self, text.seed);
   add_plan_kind(self, text.plan);
   add_json(self, text.wish.json);
