@@ -8,6 +8,7 @@
 
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/results/record.hpp>
+#include <thinwall/experiments/run/ranks.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/spelling.hpp>
@@ -134,6 +135,7 @@ Action parse_command_line(const std::vector<std::string>& argv) {
   refuse_extras(chosen(), chosen().remaining());
   refuse_extras(app, app.remaining());
   if (&chosen() == &app) throw UsageError(fmt::format("a command is missing; {}, see thinwall --help", every_name()));
+  if (launch_of_this_process().rank > 0 && !commands()[index()].by_all_ranks) return print("");
   return actions[index()];
 }
 

@@ -1,10 +1,13 @@
 #include <array>
 
+#include <thinwall/experiments/program/cite_command.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/compare_command.hpp>
 #include <thinwall/experiments/program/completion_command.hpp>
 #include <thinwall/experiments/program/list_command.hpp>
+#include <thinwall/experiments/program/merge_command.hpp>
 #include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/program/report_command.hpp>
 #include <thinwall/experiments/program/reproduce_command.hpp>
 #include <thinwall/experiments/program/run_command.hpp>
 #include <thinwall/experiments/program/validate_command.hpp>
@@ -17,8 +20,11 @@ std::span<const Command> commands() {
       run_command(),         //
       compare_command(),     //
       plan_command(),        //
-      reproduce_command(),   //
       validate_command(),    //
+      merge_command(),       //
+      report_command(),      //
+      reproduce_command(),   //
+      cite_command(),        //
       completion_command(),  //
   };
   return all;

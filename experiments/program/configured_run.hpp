@@ -7,6 +7,7 @@
 #include <string>
 
 #include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/run/identity.hpp>
 
 namespace thinwall {
 
@@ -27,6 +28,9 @@ struct ConfiguredRun {
   std::string config;           ///< resolved, canonical JSON
   bool default_config = false;  ///< true if that is the experiment's own
 };
+
+/// The run that has this identity, on `threads` threads. Throws UsageError if no experiment here has it.
+ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments);
 
 /// The text of a TOML file. Throws UsageError.
 std::string read_config(const std::string& file);

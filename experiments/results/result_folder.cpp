@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/durable.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
@@ -24,14 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* manifest_name = "manifest.json";
 constexpr const char* old_manifest_name = "manifest.old.json";  // of the result that is being replaced
-constexpr const char* journal_name = "journal.tsv";
+constexpr const char* rank_journal_prefix = "journal.rank-";
 constexpr const char* old_journal_name = "journal.old.tsv";  // begun by another build of the program
 
 /// What a result is made of: where none of ours lies, none of these may either.
-constexpr std::array result_names = {
-    manifest_name, "datapackage.json", "report.html", "resolved.toml", "cite.bib", "data", "plots", "tables"};
+constexpr std::array result_names = {manifest_name, seal_name,       "datapackage.json",
+                                     "report.html", "resolved.toml", "cite.bib",
+                                     "data",        "plots",         "tables"};
 
 std::string read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -118,6 +119,7 @@ void ResultFolder::look_at_journal(const RunIdentity& identity) {
     if (!difference.empty()) {
       refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
     }
+    if (!theirs.empty()) gather_rank_journals(theirs);
     if (theirs.empty() || !same_program(theirs, identity)) {
       fs::rename(file, path_ / old_journal_name);
       notes_.push_back(fmt::format(
@@ -131,6 +133,33 @@ void ResultFolder::look_at_journal(const RunIdentity& identity) {
   }
   journal_ = std::make_unique<Journal>(file, identity_text(identity));
   for (const std::string& line : journal_->damage()) notes_.push_back(line);
+}
+
+void ResultFolder::gather_rank_journals(const std::string& identity) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (entry.path().filename().string().starts_with(rank_journal_prefix)) files.push_back(entry.path());
+  }
+  if (files.empty()) return;
+  std::unique_ptr<Journal> other;
+  if (!journal_) other = std::make_unique<Journal>(path_ / journal_name, identity);
+  for (const fs::path& file : files) {
+    const JournalText text = read_journal(file);
+    for (const std::string& line : text.damage) notes_.push_back(line + "; that unit is computed again");
+    if (text.identity == identity) (journal_ ? *journal_ : *other).add(text.rows);
+    fs::remove(file);
+  }
+}
+
+void ResultFolder::seal(const std::string& text) {
+  stage(seal_name, text);
+  fs::rename(staging() / seal_name, path_ / seal_name);
+  fs::remove(path_ / old_journal_name);
+  fs::remove_all(staging());
+}
+
+fs::path ResultFolder::rank_journal(const fs::path& folder, int rank) {
+  return folder / fmt::format("{}{}.tsv", rank_journal_prefix, rank);
 }
 
 void ResultFolder::stage(const std::string& file, const std::string& text) {
@@ -162,6 +191,7 @@ void ResultFolder::publish() {
   }
   const auto move = [&](const std::string& file) { fs::rename(staging() / file, path_ / file); };
   if (fs::exists(path_ / manifest_name)) fs::rename(path_ / manifest_name, path_ / old_manifest_name);
+  remove_drawn_figures(path_);  // they show the old result
   for (const auto& [file, hash] : staged) {
     if (file != manifest_name) move(file);
   }

@@ -18,6 +18,10 @@
 
 namespace thinwall {
 
+inline constexpr const char* manifest_name = "manifest.json";
+inline constexpr const char* journal_name = "journal.tsv";
+inline constexpr const char* seal_name = "shard.json";
+
 /// Holds a folder for this process alone, as long as it lives.
 class FolderLock {
  public:
@@ -61,6 +65,15 @@ class ResultFolder {
 
   /// SHA-256 of the staged files, by path.
   std::map<std::string, std::string> staged_hashes() const;
+
+  /// Writes the seal of a finished shard, whose journal stays.
+  void seal(const std::string& text);
+
+  /// Moves what other ranks of this run have finished from their journals into ours, and deletes theirs.
+  void gather_rank_journals(const std::string& identity);
+
+  /// Where a rank keeps what it has finished until it is gathered.
+  static std::filesystem::path rank_journal(const std::filesystem::path& folder, int rank);
 
   /// Moves every staged file into place, the manifest last, and ends the journal.
   void publish();

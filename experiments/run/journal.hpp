@@ -15,12 +15,15 @@
 
 namespace thinwall {
 
+struct JournalText;
+
 class Journal {
  public:
   struct Row {
     double seconds = 0;
     std::string result;
   };
+  using Rows = std::map<std::string, Row, std::less<>>;  ///< by the unit's key
 
   /// Opens `file`, or begins it with `identity`, one line of text. An identity other than the file's own is not looked
   /// at: see `identity_in`. Throws std::system_error if the file cannot be written.
@@ -32,8 +35,8 @@ class Journal {
   /// The identity that `file` was begun with; empty if there is no such file or its first row is damaged.
   static std::string identity_in(const std::filesystem::path& file);
 
-  /// What was finished when the file was opened, by the unit's key.
-  const std::map<std::string, Row, std::less<>>& finished() const { return finished_; }
+  /// What is finished.
+  const Rows& finished() const { return finished_; }
 
   /// A line for each damaged row: which, and what becomes of it.
   const std::vector<std::string>& damage() const { return damage_; }
@@ -43,19 +46,32 @@ class Journal {
   /// row cannot be written.
   void add(const std::string& key, const Row& row);
 
+  /// Adds those rows that are not there yet, all at once.
+  void add(const Rows& rows);
+
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string read(std::string_view text);  // fills finished_ and damage_; returns the undamaged rows of units
   void write(const std::string& text);
 
   std::filesystem::path file_;
-  std::map<std::string, Row, std::less<>> finished_;
+  Rows finished_;
   std::vector<std::string> damage_;
   std::mutex mutex_;
   int descriptor_ = -1;
   int broken_ = 0;  // the errno of a failed write
   Clock::time_point synced_ = Clock::now();
 };
+
+/// What lies in the file of a journal.
+struct JournalText {
+  std::string identity;  ///< empty if there is no such file or its first row is damaged
+  Journal::Rows rows;
+  std::string good_rows;            ///< `rows` as they stand in the file
+  std::vector<std::string> damage;  ///< a line for each damaged row
+};
+
+/// Reads and changes nothing.
+JournalText read_journal(const std::filesystem::path& file);
 
 }  // namespace thinwall

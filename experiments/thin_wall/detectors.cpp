@@ -8,6 +8,7 @@
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
 #include <thinwall/experiments/thin_wall/method_theory.hpp>
+#include <thinwall/experiments/timing/interleaved.hpp>
 #include <thinwall/swept/methods.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
@@ -51,6 +52,16 @@ void fire_at(const Method& method, const Target& target, const Vec3<double>& sta
   }
 }
 
+template <Scalar S, class Method> void ask_all(const Method& method, std::span<const ShotStep> steps) {
+  for (const ShotStep& step : steps) {
+    if constexpr (std::is_same_v<S, double>) {
+      keep(time_of_impact(method, step.ball, step.wall));
+    } else {
+      keep(time_of_impact(method, cast<S>(step.ball), cast<S>(step.wall)));
+    }
+  }
+}
+
 /// The settings a method is run with: itself, but for the one whose number of poses is a factor of the experiment.
 template <class Method> std::vector<Method> variants(const Method& method, std::span<const std::int64_t>) {
   return {method};
@@ -80,7 +91,8 @@ void append(std::string_view scalar, std::span<const std::string> methods, std::
                        [method, response](const Target& target, const Vec3<double>& start, Tally& tally) {
                          fire_at<S>(method, target, start, response, tally);
                        },
-                       [method](const Cell& cell) { return theory_of(method, cell); }});
+                       [method](const Cell& cell) { return theory_of(method, cell); },
+                       [method](std::span<const ShotStep> steps) { ask_all<S>(method, steps); }});
       }
     }
   });

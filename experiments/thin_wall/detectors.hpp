@@ -10,12 +10,21 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/sphere.hpp>
 #include <thinwall/experiments/thin_wall/bounce.hpp>
 #include <thinwall/experiments/thin_wall/shots.hpp>
 #include <thinwall/experiments/thin_wall/tally.hpp>
 #include <thinwall/experiments/thin_wall/theory.hpp>
+#include <thinwall/swept/moving.hpp>
 
 namespace thinwall {
+
+/// One step of a shot, as it is put to a method.
+struct ShotStep {
+  Moving<Sphere<double>> ball;
+  Moving<Aabb<double>> wall;
+};
 
 struct Detector {
   std::string method;  ///< the method's name; with the number of poses for `substeps`: substeps_8
@@ -24,6 +33,7 @@ struct Detector {
   double round_off;    ///< [1] machine epsilon of the scalar
   std::function<void(const Target&, const Vec3<double>& start, Tally&)> fire;
   std::function<Theory(const Cell&)> theory;
+  std::function<void(std::span<const ShotStep>)> ask;  ///< to be timed: asks about each step and keeps no answer
 };
 
 std::vector<std::string_view> method_names();

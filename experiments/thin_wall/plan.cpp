@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/volley.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -52,11 +54,11 @@ void check(const Settings& settings, const Cell& cell) {
 
 std::vector<Cell> make_cells(const Settings& settings) {
   constexpr std::array<std::string_view, 2> wall_names = {name(Wall::infinite), name(Wall::finite)};
-  const auto speeds = settings.numbers("speed", {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"});
-  const auto steps = settings.numbers("step", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"});
-  const auto radii = settings.numbers("radius", {.lower = 0, .upper = 1e3, .unit = "m"});
-  const auto thicknesses = settings.numbers("thickness", {.lower = 0, .upper = 1e3, .unit = "m"});
-  const auto angles = settings.numbers("angle_deg", {.lower = 0, .upper = 89.9, .unit = "deg"});
+  const auto speeds = settings.numbers("speed", allowed_speed);
+  const auto steps = settings.numbers("step", allowed_step);
+  const auto radii = settings.numbers("radius", allowed_radius);
+  const auto thicknesses = settings.numbers("thickness", allowed_thickness);
+  const auto angles = settings.numbers("angle_deg", allowed_angle);
   const auto walls = settings.choices("wall", wall_names);
   const double wall_size = settings.number("wall_size", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"});
 
@@ -93,9 +95,15 @@ ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
   ShotPlan plan;
   plan.cells = make_cells(settings);
   plan.response = settings.choice("response", response_names) == "bounce" ? Response::bounce : Response::none;
-  plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", 2, 1000),
+  plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", least_substeps, most_substeps),
                              settings.choices("scalar", scalar_names), plan.response);
-  plan.shots = options.trials.value_or(settings.integer("shots", 1, std::int64_t(1) << 30));
+  plan.shots = options.trials.value_or(settings.integer("shots", 1, most_shots_a_cell));
+  if (plan.shots > most_shots_a_cell) {
+    throw UsageError(
+        fmt::format("--trials: {} is not allowed; of thin_wall a whole number from 1 to {}: they are fired at "
+                    "each cell, method and scalar",
+                    plan.shots, most_shots_a_cell));
+  }
   plan.seed = options.seed;
   return plan;
 }

@@ -14,11 +14,13 @@ struct Theory {
   std::optional<double> latest;        ///< [m] the most there can be, where nothing is said of its mean
   double widest = 0;                   ///< [m] how far from the wall a detection may be, rounding aside
   std::optional<double> through = {};  ///< of a bounce: of tunneling or being pushed out on the wrong side
+  const char* why = "";                ///< of an infinite wall: the formula of the probability, in the letters of docs/
+  const char* why_late = "";           ///< ... and of the largest lateness
 
   std::optional<double> largest_lateness() const { return lateness ? std::optional(lateness->largest) : latest; }
 };
 
-Theory pose_theory(const Cell& cell, double poses_per_step);
+Theory pose_theory(const Cell& cell, int poses_per_step);
 Theory center_ray_theory(const Cell& cell);
 Theory swept_volume_ray_theory(const Cell& cell);
 Theory confirmed_ray_theory(const Cell& cell);

@@ -1,0 +1,55 @@
+#include <thinwall/experiments/advise/wish.hpp>
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/ranges.hpp>
+#include <thinwall/experiments/thin_wall/allowed.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Word = std::optional<std::string>;
+
+double read(const char* option, const std::string& word, const Range& range) {
+  double value = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error == std::errc{} && stop == end && contains(range, value)) return value;
+  throw UsageError(fmt::format("{}: '{}' is not allowed; {}", option, one_line(word), range_text("a number", range)));
+}
+
+double needed(const char* option, const Word& word, const Range& range) {
+  if (!word) throw UsageError(fmt::format("{} is missing; {}", option, range_text("a number", range)));
+  return read(option, *word, range);
+}
+
+double read_step(const Word& step, const Word& fps) {
+  if (step && fps) throw UsageError("--step and --fps say the same thing twice; give one of them");
+  if (!step && !fps) {
+    throw UsageError("--step [s] or --fps [1/s] is missing; how long is a step, or how many are there a second?");
+  }
+  if (step) return read("--step", *step, allowed_step);
+  return 1 / read("--fps", *fps, {.lower = 1 / allowed_step.upper, .upper = 1e12, .unit = "1/s"});
+}
+
+}  // namespace
+
+Wish read_wish(const WishWords& words) {
+  Wish wish = {.cell = {.speed = needed("--speed", words.speed, allowed_speed),
+                        .step = 0,
+                        .radius = needed("--radius", words.radius, allowed_radius),
+                        .thickness = needed("--thickness", words.thickness, allowed_thickness),
+                        .angle_deg = words.angle ? read("--angle", *words.angle, allowed_angle) : 0,
+                        .wall = Wall::infinite,
+                        .wall_size = 0}};
+  wish.cell.step = read_step(words.step, words.fps);
+  if (words.miss) wish.miss = read("--miss", *words.miss, {.lower = 0, .upper = 1});
+  if (words.late) wish.late = read("--late", *words.late, {.lower = 0, .unit = "m"});
+  return wish;
+}
+
+}  // namespace thinwall

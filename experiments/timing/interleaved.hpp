@@ -1,0 +1,61 @@
+#pragma once
+/// Times of several loops over the same queries, in rounds that are interleaved, so that whatever else the machine does
+/// befalls all of them alike.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <thinwall/experiments/random.hpp>
+
+namespace thinwall {
+
+/// Keeps a whole answer from being optimized away.
+template <class T> void keep(const T& value) { asm volatile("" : : "m"(value) : "memory"); }
+
+template <class Query> struct TimedLoop {
+  std::function<void(std::span<const Query>)> run;
+  std::vector<double> nanoseconds = {};  ///< a query, one of each round
+  std::size_t slice = 0;                 ///< queries a round: all, or for a slow loop as many as fit
+};
+
+template <class Query> double nanoseconds_a_query(const TimedLoop<Query>& loop, std::span<const Query> queries) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  loop.run(queries);
+  const std::chrono::duration<double, std::nano> spent = Clock::now() - start;
+  return spent.count() / static_cast<double>(queries.size());
+}
+
+/// A round of every loop, in an order of its own, each on the slice of the queries that is next. A slice takes about
+/// `round_ns`, but for the fastest loops, which are through with all queries sooner.
+template <class Query>
+void run_rounds(std::vector<TimedLoop<Query>>& loops, std::span<const Query> queries, std::int64_t rounds,
+                double round_ns, const RandomStream& stream) {
+  constexpr std::size_t least = 50;
+  for (TimedLoop<Query>& loop : loops) {  // warms up, too
+    const double fits = round_ns / std::max(1.0, nanoseconds_a_query(loop, queries));
+    loop.slice = std::clamp(static_cast<std::size_t>(fits), std::min(least, queries.size()), queries.size());
+  }
+  std::vector<std::size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds); ++round) {
+    for (std::size_t i = order.size(); i > 1; --i) {
+      const double place = uniform(random_words(stream, round, i)[0]) * static_cast<double>(i);
+      std::swap(order[i - 1], order[static_cast<std::size_t>(place)]);
+    }
+    for (const std::size_t i : order) {
+      TimedLoop<Query>& loop = loops[i];
+      const std::size_t slices = queries.size() / loop.slice;
+      const auto some = queries.subspan(round % slices * loop.slice, loop.slice);
+      loop.nanoseconds.push_back(nanoseconds_a_query(loop, some));
+    }
+  }
+}
+
+}  // namespace thinwall
