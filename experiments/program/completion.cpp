@@ -34,7 +34,7 @@ CompletedValue value_of_form(const std::string& form, std::span<const Experiment
       for (const Experiment& experiment : experiments) out.words.emplace_back(experiment.name);
     } else if (part.ends_with(".toml")) {
       out.toml = true;
-    } else if (part.starts_with("DIR") || part.starts_with("RESULT")) {
+    } else if (part.starts_with("DIR") || part.starts_with("RESULT") || part.starts_with("SHARD...")) {
       out.folder = true;
     } else if (is_word(part)) {
       out.words.push_back(part);

@@ -33,17 +33,17 @@ std::string dry_run_reply(const RunRecord& run, const std::string& out, double e
   return line(reply);
 }
 
-<<<<<<< HEAD
 std::string list_cells_reply(const RunRecord& run, const std::string& out, std::span<const Unit> units) {
   ordered_json reply = size_of(run, out);
   reply["cells"] = ordered_json::array();
   for (const Unit& unit : units) reply["cells"].push_back({{"key", unit.key}, {"trials", unit.trials}});
-=======
+  return line(reply);
+}
+
 std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard) {
   ordered_json reply = size_of(run, out);
   reply["shard"] = shard;
   reply["resumed_units"] = run.resumed_units;
->>>>>>> 6ff906d4034418560814533768e6d7611ff2c247
   return line(reply);
 }
 

@@ -17,14 +17,10 @@ struct RunWish {
   std::string target;  ///< an experiment's name or a TOML file
   RunRequest request;
   std::string out;  ///< the result folder; empty for the default
-<<<<<<< HEAD
   bool dry_run = false, list_cells = false, json = false;
-=======
-  bool dry_run = false, json = false;
   std::vector<std::string> figures;  ///< formats to draw beside SVG
   std::optional<Shard> shard;        ///< compute this part alone, and leave it for `merge`
   std::optional<ShardSet> merged;    ///< the finished parts of the run, in place of `target` and what chooses it
->>>>>>> 6ff906d4034418560814533768e6d7611ff2c247
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.
