@@ -33,7 +33,7 @@ Examples:
 
 constexpr const char* exit_codes = R"(Exit codes:
   0    done
-  1    a run failed, or its self-test did; reproduce found a difference, or validate a wrong verdict
+  1    a run failed, or its self-test did; reproduce found a difference, report --check a fault, validate a wrong verdict
   2    bad input: one line on stderr says where and what is allowed
   130  interrupted: what was finished is kept, and the line that continues is printed
 
