@@ -33,6 +33,7 @@ tbody tr:last-child td { border-bottom: 2px solid var(--ink); }
 th, td { padding: .25rem .7rem .25rem 0; text-align: left; font-weight: normal; }
 thead th { font-weight: 600; }
 th.n, td.n { text-align: right; white-space: nowrap; }
+.i { color: var(--soft); }
 tbody tr:hover { background: var(--tint); }
 pre { background: var(--tint); padding: .7rem .9rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
