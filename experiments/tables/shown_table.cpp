@@ -106,9 +106,10 @@ std::string html_table(const Table& whole) {
   }
   return fmt::format(
       "<p class=\"caption\">{} <a href=\"data/{}.csv\">CSV</a></p>\n"
-      "<div class=\"wide\" tabindex=\"0\"><table aria-label=\"{}\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}"
+      "<div class=\"wide\" tabindex=\"0\"><table{} aria-label=\"{}\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}"
       "</tbody>\n</table></div>\n",
-      html_escaped(table.caption), html_escaped(whole.name), html_escaped(whole.description), names, out);
+      html_escaped(table.caption), html_escaped(whole.name), table.columns.size() > 10 ? " class=\"many\"" : "",
+      html_escaped(whole.description), names, out);
 }
 
 }  // namespace thinwall
