@@ -1,7 +1,10 @@
 #include <thinwall/experiments/hitscan/tables.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+
+#include <thinwall/experiments/tables/without_columns.hpp>
 
 namespace thinwall {
 
@@ -137,9 +140,14 @@ Table known_shots_table(const std::vector<HitscanLine>& lines) {
                [](const HitscanLine& l) { return is_known(l.cell); });
   Table table = make_table(known);
   table.name = "known_shots";
-  table.description = "Shots whose numbers a reader knows, at every rule.";
+  table.description =
+      "Shots whose numbers a reader knows, at every rule; cells.csv holds all that was measured of them.";
   table.in_report = true;
-  return table;
+  constexpr std::array<std::string_view, 14> left_out = {
+      "drag",         "flight_time", "deflection",     "touching",         "touching_theory",  "missed",
+      "reported",     "false_hits",  "path_error_max", "point_error_mean", "path_error_bound", "point_error_max",
+      "lateness_min", "lateness_max"};
+  return without_columns(table, left_out);
 }
 
 }  // namespace thinwall

@@ -49,10 +49,12 @@ ul { padding-left: 1.2rem; columns: 17rem; }
   body { font-size: 16px; }
   h1 { font-size: 1.4rem; }
   figure .wide svg { min-width: 34rem; }
+  figure .wide::before { content: "Wider than this screen: move it sideways \2192"; position: sticky; left: 0; font-size: .8rem; color: var(--soft); }
   dl { grid-template-columns: minmax(0, 1fr); }
   dd { margin-bottom: .4rem; }
 }
 @media print {
+  figure svg { max-height: 16.5cm; }
   body { font-size: 10pt; }
   main { max-width: none; padding: 0; }
   a { color: inherit; text-decoration: none; }

@@ -39,7 +39,7 @@ IntervalText interval_text(double value, double lower, double upper) {
   if (!(upper > lower)) return {rounded_text(value, digits), rounded_text(lower, digits), rounded_text(upper, digits)};
   const int place = last_place((upper - lower) / 2);
   const double largest = std::max({std::abs(value), std::abs(lower), std::abs(upper)});
-  const bool scientific = largest < 1e-3 || largest >= 1e7;
+  const bool scientific = largest < 1e-4 || largest >= 1e7;
   return {to_place(value, place, scientific), to_place(lower, place, scientific), to_place(upper, place, scientific)};
 }
 
