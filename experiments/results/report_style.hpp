@@ -35,6 +35,7 @@ thead th { font-weight: 600; }
 th.n, td.n { text-align: right; }
 td.n { white-space: nowrap; }
 .wide th:first-child, .wide td:first-child { position: sticky; left: 0; background: #fff; }
+.u { white-space: nowrap; }
 .i { color: var(--soft); }
 tbody tr:hover { background: var(--tint); }
 pre { background: var(--tint); padding: .7rem .9rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }

@@ -44,6 +44,14 @@ std::string html_cell(const ShownCell& cell) {
   return fmt::format("{} <span class=\"i\">[{}, {}]</span>", text, number(cell.lower), number(cell.upper));
 }
 
+/// A unit is not broken over two lines.
+std::string header_html(const std::string& header) {
+  const auto unit = header.rfind(" [");
+  if (unit == std::string::npos) return html_escaped(header);
+  return fmt::format("{} <span class=\"u\">{}</span>", html_escaped(header.substr(0, unit)),
+                     html_escaped(header.substr(unit + 1)));
+}
+
 }  // namespace
 
 std::string shown_text(const Value& value) {
@@ -95,7 +103,7 @@ std::string html_table(const Table& whole) {
   std::string names, out;
   for (const ShownColumn& column : table.columns) {
     names += fmt::format("<th scope=\"col\"{} title=\"{}\">{}</th>", number_class(column),
-                         html_escaped(column.description), html_escaped(column.header));
+                         html_escaped(column.description), header_html(column.header));
   }
   for (const auto& row : table.rows) {
     out += "<tr>";
