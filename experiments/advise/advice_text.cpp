@@ -18,8 +18,8 @@ constexpr const char* limits =
     "never safe.";
 
 constexpr const char* header =
-    "                            chance of   seen late by up to     time a step [ns]           longest\n"
-    "method                      tunneling   [m]        [steps]     clear        contact       step that does\n";
+    "                           chance of  seen late by up to  time a step [ns]          longest step\n"
+    "  method                   tunneling  [m]       [steps]   clear        contact      that does\n";
 
 /// A median with as many decimals as its interval bears out.
 std::string time_text(const QueryTime& time) {
@@ -36,7 +36,7 @@ std::string step_text(const std::optional<double>& step) {
 std::string row_text(const AdviceRow& row, const char* mark, double step_length) {
   const std::optional<double>& chance = row.theory.probability;
   const std::optional<double> latest = row.theory.largest_lateness();
-  return fmt::format("{} {:<26}{:<12}{:<11}{:<12}{:<13}{:<14}{}\n", mark, row.method.name,
+  return fmt::format("{} {:<25}{:<11}{:<10}{:<10}{:<13}{:<13}{}\n", mark, row.method.name,
                      chance ? percent_text(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
                      latest ? rounded_text(*latest / step_length, 3) : "-", time_text(row.cost.clear),
                      time_text(row.cost.contact), step_text(row.longest_step));
@@ -46,7 +46,7 @@ std::string table_text(const Advice& advice) {
   std::string text = header;
   bool met = true;
   for (const AdviceRow& row : advice.rows) {
-    if (met && !row.meets) text += "these do not meet the wish at this step:\n";
+    if (met && !row.meets) text += "These do not meet the wish at this step:\n";
     met = row.meets;
     text += row_text(row, &row == advice.advised() ? ">" : " ", step_length(advice.wish.cell));
   }

@@ -45,10 +45,9 @@ std::string wanted_words(const Wish& wish) {
 }
 
 std::string rounded_down_text(double value, int digits) {
+  const double near = std::stod(rounded_text(value, digits));
   const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
-  double units = std::floor(value / unit);
-  while (std::stod(rounded_text(units * unit, digits)) > value) --units;
-  return rounded_text(units * unit, digits);
+  return rounded_text(near <= value ? near : near - unit, digits);
 }
 
 std::string wrapped(const std::string& text, std::size_t width) {
