@@ -63,7 +63,7 @@ std::string formulas_text(const Advice& advice) {
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }
   std::string text =
-      "Formulas: v speed, h step, n poses a step, w thickness, r radius, a angle; derived in docs/.\n"
+      "Formulas: v speed, h step, n poses a step, w thickness, r radius, a angle: docs/tunneling_theory.md.\n"
       "  method                    chance of tunneling                      seen late by up to [m]\n";
   for (const std::string& line : lines) text += line;
   return text;

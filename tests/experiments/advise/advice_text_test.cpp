@@ -44,12 +44,13 @@ TEST(AdviceText, says_what_to_use_and_what_it_costs) {
   EXPECT_EQ(
       advice_sentence(advice_on(bullet_wish)),
       "Use substeps_4: no shot tunnels, none is seen more than 0.0417 m late, and a step takes 30 ns, the least of "
-      "the 11 methods here that meet the wish. Testing only the end of each step would do from 200 steps a second "
-      "on.");
+      "the 11 methods here that meet the wish. If a ball in the wall is pushed out the shorter way, 40 % go through, seen "
+      "or not. Testing only the end of each step would do from 200 steps a second on.");
   EXPECT_EQ(
       advice_sentence(advice_on({.cell = bullet, .miss = 0.75})),
       "Use end_of_step: 70 % of the shots tunnel, none is seen more than 0.05 m late, and a step takes 10 ns, the "
-      "least of the 12 methods here that meet the wish.");
+      "least of the 12 methods here that meet the wish. If a ball in the wall is pushed out the shorter way, 85 % go "
+      "through, seen or not.");
   EXPECT_EQ(advice_sentence(advise(bullet_wish, {}, {})), "No method here meets the wish at this step.");
 }
 

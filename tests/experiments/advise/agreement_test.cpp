@@ -122,6 +122,26 @@ TEST(AdviceAgreement, the_longest_step_is_safe_and_a_longer_one_is_not) {
   }
 }
 
+/// What docs/advise.md says of a ball that is in contact when it starts, uniformly along its path in the wall.
+TEST(AdviceAgreement, a_start_in_contact_is_lost_on_tested_poses_alone) {
+  Cell cell = bullet;
+  cell.step = 0.0025;  // half the contact: none that starts before the wall is missed
+  const Target aimed = target(cell);
+  const std::vector<std::string_view> names = method_names();
+  const std::vector<std::string> methods(names.begin(), names.end()), scalars = {"double"};
+  for (const Detector& detector : detectors(methods, std::vector<std::int64_t>{2}, scalars)) {
+    Tally tally;
+    for (std::uint64_t i = 0; i < shots; ++i) {
+      const double share = uniform(random_words({7, 7}, i, 0)[0]);
+      const Vec3<double> start = {-aimed.half_extents[0] - aimed.radius + share * slab_chord(cell), 0, 0};
+      detector.fire(aimed, start, tally);
+    }
+    const double lost = detector.poses_per_step > 0 ? 0.5 / detector.poses_per_step : 0;
+    EXPECT_TRUE(counts_of(lost).contains(static_cast<double>(tally.tunneled)))
+        << detector.method << ": " << tally.tunneled;
+  }
+}
+
 /// The certified answers are not in the method list and so not in the experiment: its shots are put to them here.
 TEST(AdviceAgreement, certified_answers_miss_no_shot_and_are_never_late) {
   const Target aimed = target(bullet);
