@@ -35,7 +35,8 @@ std::string step_text(const std::optional<double>& step) {
 
 std::string row_text(const AdviceRow& row, const char* mark, double step_length) {
   const std::optional<double>& chance = row.theory.probability;
-  const std::optional<double> latest = row.theory.largest_lateness();
+  const bool never_seen = chance && *chance == 1;
+  const std::optional<double> latest = never_seen ? std::nullopt : row.theory.largest_lateness();
   return fmt::format("{} {:<25}{:<11}{:<10}{:<10}{:<13}{:<13}{}\n", mark, row.method.name,
                      chance ? percent_text(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
                      latest ? rounded_text(*latest / step_length, 3) : "-", time_text(row.cost.clear),
@@ -58,8 +59,9 @@ std::string formulas_text(const Advice& advice) {
   std::vector<std::string> lines;
   for (const AdviceRow& row : advice.rows) {
     const std::string name = row.method.poses > 1 ? "substeps_n" : row.method.name;
-    const std::string why = row.theory.probability ? row.theory.why : "no formula";
-    const std::string line = fmt::format("  {:<26}{:<41}{}\n", name, why, row.theory.why_late);
+    const bool known = row.theory.probability.has_value();
+    const std::string line = fmt::format("  {:<26}{:<41}{}\n", name, known ? row.theory.why : "no formula",
+                                         known ? row.theory.why_late : "no formula");
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }
   std::string text =
