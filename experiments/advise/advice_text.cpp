@@ -37,7 +37,7 @@ std::string row_text(const AdviceRow& row, const char* mark, double step_length)
   const std::optional<double>& chance = row.theory.probability;
   const bool never_seen = chance && *chance == 1;
   const std::optional<double> latest = never_seen ? std::nullopt : row.theory.largest_lateness();
-  return fmt::format("{} {:<25}{:<11}{:<10}{:<10}{:<13}{:<13}{}\n", mark, row.method.name,
+  return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}\n", mark, row.method.name,
                      chance ? percent_text(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
                      latest ? rounded_text(*latest / step_length, 3) : "-", time_text(row.cost.clear),
                      time_text(row.cost.contact), step_text(row.longest_step));

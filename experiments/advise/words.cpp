@@ -30,10 +30,11 @@ std::string question_words(const Wish& wish) {
                       "misses it, and a method that wants to see the contact again at the time it found does so or not "
                       "as rounding has it.");
   }
+  const double steps = contact / step_length(cell);
   return text +
-         wrapped(fmt::format(
-             "A step is {} s and {} m long; of its path, {} m are in contact with the wall: {} of a step.",
-             number(cell.step), number(step_length(cell)), number(contact), percent_text(contact / step_length(cell))));
+         wrapped(fmt::format("A step is {} s and {} m long; of its path, {} m are in contact with the wall: {}.",
+                             number(cell.step), number(step_length(cell)), number(contact),
+                             steps < 1 ? percent_text(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
 }
 
 std::string wanted_words(const Wish& wish) {

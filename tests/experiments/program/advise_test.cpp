@@ -75,6 +75,9 @@ TEST_F(AdviseProgram, names_what_is_wrong) {
     expect_refusal(advise({"--fps", "60", "--miss", bad}),
                    "--miss: '" + bad + "' is not allowed; a number >= 0 and <= 1");
   }
+  expect_refusal(
+      ToyProgram::call({"advise", "--speed", "1e-300", "--radius", "1", "--thickness", "1", "--step", "1e-5"}),
+      "--speed 1e-300: in a step of 1e-05 s the ball moves 1e-305 m; at least 1e-30 m is needed");
   expect_refusal(advise({"--fps", "60", "--late", "-1"}), "--late: '-1' is not allowed; a number >= 0 [m]");
   expect_refusal(advise({"--fps", "60", "--toml", ""}), "--toml: ''");
   expect_refusal(advise({"--fps", "60", "--toml", "-", "--json"}), "--toml - and --json");
