@@ -76,7 +76,10 @@ class AccuracyRun final : public Run {
          "round-off of the scalar. A wrong verdict counts by the change of its input, in u, that would make it right."},
         {"Goal",
          "Forward and backward at most 4, no wrong verdict by more than 1 u; float and double through the front door. The "
-         "kernel in float is shown beside them: the front door computes a float query in double."}};
+         "kernel in float is shown beside them: the front door computes a float query in double."},
+        {"Limits",
+         "Queries are drawn at random: the largest error that was seen bounds the largest there is from below only. Lengths "
+         "whose squares overflow or underflow are not drawn; tests of the shapes look at those."}};
     return outcome;
   }
 

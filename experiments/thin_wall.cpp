@@ -9,6 +9,7 @@
 #include <thinwall/experiments/thin_wall/figures.hpp>
 #include <thinwall/experiments/thin_wall/summary.hpp>
 #include <thinwall/experiments/thin_wall/tables.hpp>
+#include <thinwall/experiments/thin_wall/volley.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -19,13 +20,19 @@ class ThinWallRun final : public Run {
  public:
   explicit ThinWallRun(ShotPlan plan) : plan_(std::move(plan)), stratified_(stratified_plan(plan_)) {}
 
-  /// First every cell at every detector, cell by cell, then the stratified cells.
+  /// First every cell at every detector, cell by cell and volley by volley, then the stratified cells.
   std::vector<Unit> units() const override {
     std::vector<Unit> units;
+    const std::vector<Volley> volleys = volleys_of(plan_.shots);
     for (const Cell& cell : plan_.cells) {
       for (const Detector& detector : plan_.detectors) {
-        units.push_back({fmt::format("{} {} {}", key(cell), detector.method, detector.scalar), plan_.shots,
-                         [this, &cell, &detector] { return to_line(fired(cell, detector)); }});
+        for (const Volley& volley : volleys) {
+          std::string unit = fmt::format("{} {} {}", key(cell), detector.method, detector.scalar);
+          if (volleys.size() > 1) unit += fmt::format(" from {}", volley.first);
+          units.push_back({std::move(unit), volley.shots, [this, &cell, &detector, volley] {
+                             return to_line(fire(cell, detector, volley, plan_.seed));
+                           }});
+        }
       }
     }
     for (const Cell& cell : stratified_.cells) {
@@ -37,10 +44,19 @@ class ThinWallRun final : public Run {
   }
 
   Outcome finish(const std::vector<std::string>& results, const std::vector<double>& seconds) const override {
-    const std::size_t count = plan_.cells.size() * plan_.detectors.size();
+    const std::size_t volleys = volleys_of(plan_.shots).size();
+    const std::size_t count = plan_.cells.size() * plan_.detectors.size() * volleys;
     std::vector<Tally> tallies;
-    for (std::size_t i = 0; i < count; ++i) tallies.push_back(tally_from_line(results[i]));
-    const std::vector<Line> lines = make_lines(plan_, tallies, seconds);
+    std::vector<double> times;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % volleys == 0) {
+        tallies.emplace_back();
+        times.push_back(0);
+      }
+      tallies.back() += tally_from_line(results[i]);
+      times.back() += seconds[i];
+    }
+    const std::vector<Line> lines = make_lines(plan_, tallies, times);
     const std::vector<Total> sums = totals(lines);
     const Verdicts verdicts = {
         self_test(counts_of(lines)),
@@ -59,16 +75,6 @@ class ThinWallRun final : public Run {
   }
 
  private:
-  Tally fired(const Cell& cell, const Detector& detector) const {
-    const Target aimed = target(cell);
-    const RandomStream stream = random_stream(cell, plan_.seed);
-    Tally tally;
-    for (std::int64_t i = 0; i < plan_.shots; ++i) {
-      detector.fire(aimed, random_start(aimed, stream, static_cast<std::uint64_t>(i)), tally);
-    }
-    return tally;
-  }
-
   /// The bounce comes first: it is what was asked for.
   static void add_bounces(const std::vector<Line>& lines, Outcome& outcome) {
     const std::vector<SelfTest> tests = self_test(through_counts(lines));

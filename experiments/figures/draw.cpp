@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -26,12 +28,27 @@ std::set<std::string> ids_in(const std::string& svg) {
   return ids;
 }
 
+/// gnuplot does not always notice that the disk is full.
+bool ends_as_it_should(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string_view end = file.extension() == ".svg" ? "</svg>" : file.extension() == ".pdf" ? "%%EOF" : "\n";
+  return text.find(end, text.size() - std::min<std::size_t>(text.size(), 16)) != std::string::npos;
+}
+
 }  // namespace
 
-std::string draw(const std::filesystem::path& folder, const std::string& name) {
-  const ProcessResult gnuplot = run_process({"gnuplot", "--default-settings", name + ".gp"}, folder);
+std::vector<std::string> drawn_files(const std::string& name, const std::string& format) {
+  if (format == "tex") return {name + "-latex.tex", name + "-latex.pdf"};
+  return {name + "." + format};
+}
+
+std::string draw(const std::filesystem::path& folder, const std::string& name, const std::string& format) {
+  const ProcessResult gnuplot =
+      run_process({"gnuplot", "--default-settings", "-e", "format='" + format + "'", name + ".gp"}, folder);
   if (!gnuplot.found) return "gnuplot is not installed";
-  if (gnuplot.status == 0 && std::filesystem::exists(folder / (name + ".svg"))) return {};
+  const auto is_whole = [&](const std::string& file) { return ends_as_it_should(folder / file); };
+  if (gnuplot.status == 0 && std::ranges::all_of(drawn_files(name, format), is_whole)) return {};
   const std::string first = gnuplot.output.substr(0, gnuplot.output.find_last_not_of(" \n") + 1);
   return fmt::format("gnuplot ended with {}: {}", gnuplot.status, one_line(first));
 }

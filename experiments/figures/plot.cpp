@@ -17,11 +17,19 @@
 namespace thinwall {
 namespace {
 
+constexpr double print_width = 6.3;  // [inch] A4 with margins of an inch
+
 /// In single quotes gnuplot takes every letter as it is.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char letter : one_line(text)) out += letter == '\'' ? std::string("''") : std::string(1, letter);
   return out + "'";
+}
+
+/// The same for words that LaTeX may have to spell another way.
+std::string spelled(const std::string& text) {
+  const std::string plain = one_line(text), latex = latex_escaped(plain);
+  return latex == plain ? quoted(text) : fmt::format("text_of({}, {})", quoted(plain), quoted(latex));
 }
 
 void require_drawable(const Figure& figure) {
@@ -86,11 +94,11 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
   const bool powers = axis.log && axis.upper / axis.lower >= 1e4;
   const std::string steps = tics(axis, pixels, spacing);
   return fmt::format(
-      "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} '{4}'\nset {0}tics autofreq\nset {0}tics {5}\n{6} m{0}tics\n",
+      "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} {4}\nset {0}tics autofreq\nset {0}tics {5}\n{6} m{0}tics\n",
       name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), axis.log ? "set" : "unset",
-      !labeled ? ""
-      : powers ? "10^{%T}"
-               : "%g",
+      !labeled ? "''"
+      : powers ? "text_of('10^{%T}', '$10^{%T}$')"
+               : "text_of('%g', '$%g$')",
       steps, steps.ends_with(", 1e1") ? "set" : "unset");
 }
 
@@ -98,9 +106,9 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
 std::string named_axis_lines(std::string_view name, const Axis& axis, const std::vector<Tic>& named, bool labeled) {
   std::vector<std::string> list;
   for (const Tic& tic : named) {
-    list.push_back(fmt::format("{} {}", quoted(labeled ? tic.label : ""), rounded_text(tic.at, 9)));
+    list.push_back(fmt::format("{} {}", spelled(labeled ? tic.label : ""), rounded_text(tic.at, 9)));
   }
-  const char* look = name == "x" ? " rotate by 90 right font ',11'" : name == "x2" ? " scale 0 font ',13'" : "";
+  const char* look = name == "x" ? " rotate by 90 right font sized(11)" : name == "x2" ? " scale 0 font sized(13)" : "";
   return fmt::format(
              "set {0}range [{1}:{2}]\nunset logscale {0}\nset {0}tics autofreq\nset {0}tics{3} noenhanced ({4})\n",
              name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), look,
@@ -139,19 +147,29 @@ std::vector<std::string> plot_items(const std::string& file, const Series& serie
 std::string legend_item(const SeriesStyle& style, std::size_t number) {
   if (style.has_cells) {
     return fmt::format("keyentry with boxes linestyle {} fillstyle solid noborder title {}", number,
-                       quoted(style.label));
+                       spelled(style.label));
   }
   const char* with = style.has_points && style.has_line ? "linespoints" : style.has_points ? "points" : "lines";
-  return fmt::format("keyentry with {} linestyle {} title {}", with, number, quoted(style.label));
+  return fmt::format("keyentry with {} linestyle {} title {}", with, number, spelled(style.label));
 }
 
 std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& styles, const PlotLayout& layout) {
   std::string out = fmt::format(
-      "# {0}\n# Change what you like, then draw it again from inside this folder: gnuplot {1}.gp\n"
-      "reset\nset encoding utf8\n"
-      "set terminal svg size {2:.0f},{3:.0f} dynamic enhanced rounded background '#ffffff' name '{1}' "
-      "font 'Arial,Helvetica,sans-serif,15'\nset output '{1}.svg'\n\n# A style for each entry of the legend.\n",
-      one_line(figure.title), figure.name, layout.width, layout.height);
+      "# {0}\n# Change what you like, then draw it again from inside this folder:\n"
+      "#   gnuplot {1}.gp                      {1}.svg\n"
+      "#   gnuplot -e \"format='pdf'\" {1}.gp    {1}.pdf\n"
+      "#   gnuplot -e \"format='tex'\" {1}.gp    {1}-latex.tex and {1}-latex.pdf, to \\input in LaTeX (graphicx, color)\n"
+      "reset\nset encoding utf8\nif (!exists('format')) format = 'svg'\nif (!exists('width')) width = {4}  # [inch] in print\n"
+      "unit = format eq 'svg' ? 1 : 72 * width / {2:.0f}  # of the sizes below: a pixel, or [point] in print\n"
+      "sized(units) = sprintf(',%.4g', units * unit)\ntext_of(plain, latex) = format eq 'tex' ? latex : plain\n"
+      "if (format eq 'svg') set terminal svg size {2:.0f},{3:.0f} dynamic enhanced rounded background '#ffffff' name '{1}' "
+      "font 'Arial,Helvetica,sans-serif,15'\n"
+      "if (format eq 'pdf') set terminal pdfcairo size width,width*{3:.0f}/{2:.0f} enhanced rounded font 'Sans'.sized(15) "
+      "fontscale 0.75 linewidth unit pointscale unit\n"
+      "if (format eq 'tex') set terminal cairolatex pdf input size width,width*{3:.0f}/{2:.0f} colortext rounded font sized(15) "
+      "linewidth unit pointscale unit\n"
+      "set output format eq 'tex' ? '{1}-latex.tex' : '{1}.'.format\n\n# A style for each entry of the legend.\n",
+      one_line(figure.title), figure.name, layout.width, layout.height, print_width);
   for (std::size_t i = 0; i < styles.size(); ++i) {
     out += fmt::format("set style line {} linecolor rgb '{}' linewidth {} dashtype {} pointtype {} pointsize 0.75\n",
                        i + 1, styles[i].color, styles[i].has_points ? "1.3" : "2", styles[i].dash_type,
@@ -164,9 +182,9 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
       "set errorbars 0\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
       "set key at screen {0:.5f}, screen {1:.5f} left top vertical maxrows {2} Left reverse noenhanced samplen 2 "
       "spacing 1 width 1 textcolor rgb '#202020'\n"
-      "set label 1 {3} at screen {0:.5f}, screen {4:.5f} left noenhanced font ',18'\n"
+      "set label 1 {3} at screen {0:.5f}, screen {4:.5f} left noenhanced font sized(18)\n"
       "set lmargin at screen {0:.5f}; set rmargin at screen {5:.5f}\nset multiplot\n",
-      left, 1 - layout.legend_y / layout.height, layout.legend_rows, quoted(figure.title),
+      left, 1 - layout.legend_y / layout.height, layout.legend_rows, spelled(figure.title),
       1 - layout.title_y / layout.height, layout.right / layout.width);
   return out;
 }
@@ -194,9 +212,9 @@ std::string plot_script(const Figure& figure) {
                                 : named_axis_lines("y", y_axis(panel), panel.y_tics, true);
     out += panel.x_groups.empty() ? "unset x2tics\n" : named_axis_lines("x2", x, panel.x_groups, true);
     out += fmt::format("set label 2 {} at screen {:.5f}, graph 0.5 center rotate by 90 noenhanced\n",
-                       quoted(panel.y_label), 20 / layout.width);
+                       spelled(panel.y_label), 20 / layout.width);
     out += fmt::format("set label 3 {} at graph 0.5, screen {:.5f} center noenhanced\n",
-                       quoted(x_labeled ? panel.x_label : ""), up(box.bottom + layout.below));
+                       spelled(x_labeled ? panel.x_label : ""), up(box.bottom + layout.below));
     std::vector<std::string> items;
     const bool crowded = point_count(panel) > 400;
     for (const Series& series : panel.series) {

@@ -1,6 +1,8 @@
 #include <thinwall/experiments/figures/subprocess.hpp>
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,7 +17,8 @@ constexpr int no_such_program = 127;  // as a shell says it
 
 /// The child's part: only calls that are safe between fork and exec in a program with threads.
 [[noreturn]] void become(char* const* words, const char* folder, int output) {
-  ::setpgid(0, 0);  // Ctrl-C on the terminal is for us: we wait for the child
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // if we are killed, it must not write into the folder of the next run
+  ::setpgid(0, 0);                     // Ctrl-C on the terminal is for us: we wait for the child
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);

@@ -32,6 +32,7 @@ struct Command {
   const char* summary;                ///< a line of `thinwall --help`
   const char* examples;               ///< whole lines, shown before the options; may be empty
   Action (*declare)(CLI::App& self);  ///< adds its options to `self`; the action reads them after parsing
+  bool by_all_ranks = false;          ///< under mpirun, every rank does it; if not, rank 0 alone
 };
 
 /// Every command, in the order of `thinwall --help`.

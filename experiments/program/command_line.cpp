@@ -8,6 +8,7 @@
 
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/results/record.hpp>
+#include <thinwall/experiments/run/ranks.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/spelling.hpp>
@@ -26,12 +27,13 @@ Examples:
   thinwall run scene.toml --trace             a scene of your own, step by step; experiments/scenes/ has some
   thinwall compare scene.toml                 discrete or swept, on that scene?
   thinwall plan scene.toml                    what that scene does not need, and why
+  thinwall reproduce results/thin_wall        does it come out the same again?
   thinwall validate ccd-queries               published queries against exact arithmetic
 )";
 
 constexpr const char* exit_codes = R"(Exit codes:
   0    done
-  1    a run failed, or its self-test did; or validate found a wrong verdict
+  1    a run failed, or its self-test did; reproduce found a difference, or validate a wrong verdict
   2    bad input: one line on stderr says where and what is allowed
   130  interrupted: what was finished is kept, and the line that continues is printed
 
@@ -133,6 +135,7 @@ Action parse_command_line(const std::vector<std::string>& argv) {
   refuse_extras(chosen(), chosen().remaining());
   refuse_extras(app, app.remaining());
   if (&chosen() == &app) throw UsageError(fmt::format("a command is missing; {}, see thinwall --help", every_name()));
+  if (launch_of_this_process().rank > 0 && !commands()[index()].by_all_ranks) return print("");
   return actions[index()];
 }
 

@@ -33,7 +33,7 @@ Action declare_compare(CLI::App& self) {
 
 Command compare_command() {
   return {"compare", "Step a scene under every time policy, and hold each against the exact run", examples,
-          declare_compare};
+          declare_compare, true};
 }
 
 }  // namespace thinwall

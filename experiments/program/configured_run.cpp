@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/scene.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
@@ -25,6 +26,8 @@ const Experiment* find_experiment(std::span<const Experiment> experiments, std::
   return found == experiments.end() ? nullptr : &*found;
 }
 
+bool is_scene(const Experiment& experiment) { return experiment.name == "scene" || experiment.name == "compare"; }
+
 /// What the file is: the value of its key `experiment`; without one, a scene if it has the key `scene`.
 std::string experiment_named_in(const std::string& text, const std::string& file,
                                 std::span<const std::string_view> names) {
@@ -36,7 +39,43 @@ std::string experiment_named_in(const std::string& text, const std::string& file
                                one_line(file), key, key, names.front(), spelling_hint("", names)));
 }
 
+/// Every experiment that a file may configure.
+std::vector<Experiment> with_scenes(std::span<const Experiment> experiments) {
+  std::vector<Experiment> all(experiments.begin(), experiments.end());
+  all.push_back(scene_experiment());
+  all.push_back(compare_experiment());
+  return all;
+}
+
+ConfiguredRun configured(const Experiment& chosen, Settings& settings, const RunOptions& options) {
+  ConfiguredRun out{.experiment = chosen,
+                    .name = std::string(chosen.name),
+                    .question = std::string(chosen.question),
+                    .run = chosen.configure(settings, options),
+                    .config = settings.resolved_json()};
+  out.default_config = out.config == Settings("", "", chosen.default_toml).resolved_json();
+  if (is_scene(chosen)) {
+    out.name = (chosen.name == "compare" ? "compare_" : "") + settings.text("scene");
+    if (chosen.name == "scene") out.question = settings.text("question");
+  }
+  return out;
+}
+
 }  // namespace
+
+ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments) {
+  const std::vector<Experiment> all = with_scenes(experiments);
+  const Experiment* const chosen = find_experiment(all, identity.experiment);
+  if (!chosen) throw UsageError(fmt::format("'{}': unknown experiment", one_line(identity.experiment)));
+  RunRecord record;
+  record.experiment = identity.experiment;
+  record.config = identity.config;
+  Settings settings(resolved_toml(record), "configuration", chosen->default_toml);
+  settings.reject_unknown_keys();
+  ConfiguredRun out = configured(*chosen, settings, {identity.seed, identity.trials, threads});
+  if (out.config != identity.config) throw UsageError("the configuration reads back as another one");
+  return out;
+}
 
 std::string read_config(const std::string& file) {
   constexpr std::uintmax_t most = 16 << 20;  // [byte]; no configuration is as long
@@ -55,49 +94,37 @@ std::string read_config(const std::string& file) {
 
 ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
                             std::span<const Experiment> experiments) {
-  std::vector<Experiment> all(experiments.begin(), experiments.end());
-  all.push_back(scene_experiment());
-  all.push_back(compare_experiment());
+  const std::vector<Experiment> all = with_scenes(experiments);
   std::vector<std::string_view> names;
   for (const Experiment& experiment : all) names.push_back(experiment.name);
 
-  const Experiment* chosen = request.compare ? nullptr : find_experiment(experiments, target);
+  const Experiment* chosen = request.compare || request.text ? nullptr : find_experiment(experiments, target);
   std::string text, file = std::string(target) + " (built-in)";
   if (!chosen) {
-    const bool is_path = target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target);
+    const bool is_path =
+        request.text || target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target);
     if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
                                    spelling_hint(target, std::span(names).first(experiments.size()))));
     }
     file = target;
-    text = read_config(file);
+    text = request.text ? *request.text : read_config(file);
     const std::string named = experiment_named_in(text, file, names);
     chosen = find_experiment(all, request.compare && named == "scene" ? "compare" : named);
   }
-  const bool is_scene = chosen->name == "scene" || chosen->name == "compare";
   if (request.compare && chosen->name != "compare") {
     throw UsageError(
         fmt::format("{}: is a configuration of {}, not a scene; thinwall run it", one_line(file), chosen->name));
   }
-  if (!is_scene && request.trace) throw UsageError("--trace: only a scene has a trace");
-  if (!is_scene && !request.plan_kind.empty()) throw UsageError("--plan: only a scene has a plan");
+  if (!is_scene(*chosen) && request.trace) throw UsageError("--trace: only a scene has a trace");
+  if (!is_scene(*chosen) && !request.plan_kind.empty()) throw UsageError("--plan: only a scene has a plan");
 
   Settings settings(text, file, chosen->default_toml);
   settings.reject_unknown_keys();
-  if (is_scene) settings.assign("experiment", std::string(chosen->name));
+  if (is_scene(*chosen)) settings.assign("experiment", std::string(chosen->name));
   if (request.trace) settings.assign_flag("trace", true);
   if (!request.plan_kind.empty()) settings.assign("plan", request.plan_kind);
-  ConfiguredRun out{.experiment = *chosen,
-                    .name = std::string(chosen->name),
-                    .question = std::string(chosen->question),
-                    .run = chosen->configure(settings, request.options),
-                    .config = settings.resolved_json()};
-  out.default_config = out.config == Settings("", "", chosen->default_toml).resolved_json();
-  if (is_scene) {
-    out.name = (chosen->name == "compare" ? "compare_" : "") + settings.text("scene");
-    if (chosen->name == "scene") out.question = settings.text("question");
-  }
-  return out;
+  return configured(*chosen, settings, request.options);
 }
 
 }  // namespace thinwall

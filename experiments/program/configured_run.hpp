@@ -2,19 +2,22 @@
 /// From what the user named to a run that is ready to go.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/run/identity.hpp>
 
 namespace thinwall {
 
 /// What the command line says of a run beside its target.
 struct RunRequest {
   RunOptions options;
-  bool compare = false;   ///< the target is a scene, to be compared
-  bool trace = false;     ///< of a scene
-  std::string plan_kind;  ///< of a scene; empty: as it says itself
+  bool compare = false;                  ///< the target is a scene, to be compared
+  bool trace = false;                    ///< of a scene
+  std::string plan_kind;                 ///< of a scene; empty: as it says itself
+  std::optional<std::string> text = {};  ///< in place of the target's content, for which the target is then only a name
 };
 
 struct ConfiguredRun {
@@ -25,6 +28,9 @@ struct ConfiguredRun {
   std::string config;           ///< resolved, canonical JSON
   bool default_config = false;  ///< true if that is the experiment's own
 };
+
+/// The run that has this identity, on `threads` threads. Throws UsageError if no experiment here has it.
+ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments);
 
 /// The text of a TOML file. Throws UsageError.
 std::string read_config(const std::string& file);

@@ -33,6 +33,13 @@ std::string dry_run_reply(const RunRecord& run, const std::string& out, double e
   return line(reply);
 }
 
+std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard) {
+  ordered_json reply = size_of(run, out);
+  reply["shard"] = shard;
+  reply["resumed_units"] = run.resumed_units;
+  return line(reply);
+}
+
 std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report) {
   ordered_json reply = size_of(run, out);
   reply["resumed_units"] = run.resumed_units;

@@ -1,17 +1,26 @@
 #include <thinwall/experiments/program/perform_run.hpp>
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <ostream>
+#include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/program/crew.hpp>
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/json_reply.hpp>
 #include <thinwall/experiments/program/progress_bar.hpp>
+#include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/results.hpp>
+#include <thinwall/experiments/results/shard_seal.hpp>
 #include <thinwall/experiments/run/runner.hpp>
 #include <thinwall/experiments/run/stop_signal.hpp>
+#include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 
@@ -20,17 +29,21 @@ namespace {
 
 using Clock = std::chrono::system_clock;
 
+constexpr std::chrono::milliseconds patience(500);  // for a unit to end when Ctrl-C is pressed; one may be long
+
 std::string plural(std::int64_t count, const std::string& noun) {
   return grouped_text(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string size_text(const RunRecord& run) {
+  const std::string threads = plural(run.threads, "thread");
   return fmt::format("{}: {}, {} on {}", run.experiment, plural(static_cast<std::int64_t>(run.units), "unit"),
-                     plural(run.total_trials, "trial"), plural(run.threads, "thread"));
+                     plural(run.total_trials, "trial"),
+                     run.ranks > 1 ? fmt::format("{} ranks of {}", run.ranks, threads) : threads);
 }
 
 int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
-  const double seconds = estimate_seconds(units, run.threads);
+  const double seconds = estimate_seconds(units, run.threads * run.ranks);
   if (wish.json) {
     out << dry_run_reply(run, wish.out, seconds);
   } else {
@@ -41,6 +54,7 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> uni
 
 int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, const Call& call) {
   auto& [experiments, argv, out, err] = call;
+  for (const std::string& trouble : draw_figures(wish.out, wish.figures).troubles) err << trouble << "\n";
   const std::string report = (std::filesystem::path(wish.out) / "report.html").string();
   if (wish.json) {
     out << run_reply(run, wish.out, outcome, report);
@@ -55,36 +69,89 @@ int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, con
   return exit_failed;
 }
 
+int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
+  if (wish.json) {
+    call.out << shard_json(run, wish.out, to_text(*wish.shard));
+  } else {
+    call.out << fmt::format("shard {} of {} is finished, in {}\n", to_text(*wish.shard), run.experiment, wish.out);
+    call.out << fmt::format("with {} of them: thinwall merge SHARD... --out DIR\n",
+                            wish.shard->count == 1 ? "one" : fmt::format("all {}", wish.shard->count));
+  }
+  call.out.flush();
+  return exit_done;
+}
+
 int interrupted(const RunWish& wish, const std::string& kept, const Call& call) {
-  call.err << fmt::format("interrupted: {} in {}; to continue:\n{}\n", kept, wish.out, shell_line(call.argv));
+  const int ranks = launch_of_this_process().count;
+  call.err << fmt::format("interrupted: {} in {}; to continue:\n{}{}\n", kept, wish.out,
+                          ranks > 1 ? fmt::format("mpirun -n {} ", ranks) : "", shell_line(call.argv));
   return exit_interrupted;
 }
 
-}  // namespace
+std::string default_folder(const ConfiguredRun& chosen, const std::optional<Shard>& shard) {
+  return "results/" + chosen.name + (shard ? fmt::format("-{}-of-{}", shard->index, shard->count) : "");
+}
 
-int perform_run(const RunWish& given, const Call& call) {
-  const RunOptions& options = given.request.options;
-  const ConfiguredRun chosen = configure_run(given.target, given.request, call.experiments);
-  const std::vector<Unit> units = chosen.run->units();
-  RunWish wish = given;
-  if (wish.out.empty()) wish.out = "results/" + chosen.name;
+RunRecord record_of(const ConfiguredRun& chosen, const RunWish& wish, const Call& call, std::span<const Unit> units) {
   RunRecord record{.experiment = std::string(chosen.experiment.name),
                    .question = chosen.question,
                    .config = chosen.config,
                    .default_config = chosen.default_config,
-                   .seed = options.seed,
-                   .trials = options.trials,
+                   .seed = wish.merged ? wish.merged->identity.seed : wish.request.options.seed,
+                   .trials = wish.merged ? wish.merged->identity.trials : wish.request.options.trials,
                    .argv = call.argv,
-                   .threads = options.threads,
+                   .threads = wish.request.options.threads,
                    .units = units.size(),
                    .started = Clock::now(),
                    .finished = {},
                    .build = this_build(),
                    .machine = this_machine()};
   for (const Unit& unit : units) record.total_trials += unit.trials;
+  if (wish.merged) {
+    record.shards = wish.merged->records;
+  } else {
+    record.ranks = launch_of_this_process().count;
+  }
+  return record;
+}
+
+std::vector<Unit> units_of(const Shard& shard, const std::vector<Unit>& all) {
+  if (launch_of_this_process().count > 1) {
+    throw UsageError("--shard: mpirun shares a run out among its ranks already; use one of the two");
+  }
+  std::vector<Unit> units;
+  for (const std::size_t i : units_of(shard, all.size())) units.push_back(all[i]);
+  return units;
+}
+
+}  // namespace
+
+int perform_run(const RunWish& given, const Call& call) try {
+  const ConfiguredRun chosen =
+      given.merged ? configure_again(given.merged->identity, given.request.options.threads, call.experiments)
+                   : configure_run(given.target, given.request, call.experiments);
+  const std::vector<Unit> all = chosen.run->units();
+  const std::vector<Unit> units = given.shard ? units_of(*given.shard, all) : all;
+  RunWish wish = given;
+  if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
+  RunRecord record = record_of(chosen, given, call, units);
   if (wish.dry_run) return dry_run(wish, record, units, call.out);
 
-  ResultFolder folder(wish.out, {record.experiment, record.config, record.seed, record.trials, this_program_sha256()});
+  const RunIdentity identity{.experiment = record.experiment,
+                             .config = record.config,
+                             .seed = record.seed,
+                             .trials = record.trials,
+                             .program = this_program_sha256(),
+                             .shard = wish.shard ? to_text(*wish.shard) : ""};
+  const Journal::Rows merged = wish.merged ? all_rows(*wish.merged, units) : Journal::Rows();
+  Crew crew(wish.merged ? Launch{} : launch_of_this_process(), units);
+  if (!crew.leads()) {
+    watch_for_stop();
+    const StopGuard guard(patience, [] { std::_Exit(exit_interrupted); });
+    return crew.assist(wish.out, identity_text(identity),
+                       {.threads = record.threads, .stop = stop_requested, .on_progress = {}});
+  }
+  ResultFolder folder(wish.out, identity);
   for (const std::string& note : folder.notes()) call.err << note << "\n";
   if (const auto& kept = folder.complete()) {
     Outcome outcome;
@@ -93,28 +160,52 @@ int perform_run(const RunWish& given, const Call& call) {
     outcome.self_test_passed = kept->self_test_passed;
     return reply(wish, record, outcome, call);
   }
+  if (wish.shard && is_sealed(folder, identity)) {
+    call.err << wish.out << ": finished already; nothing was computed\n";
+    return shard_reply(wish, record, call);
+  }
+  folder.journal().add(merged);
 
   watch_for_stop();
+  std::optional<StopGuard> guard(std::in_place, patience, [&] {
+    if (stderr_is_terminal()) call.err << "\r\x1b[K";  // the progress bar
+    std::_Exit(interrupted(wish, "finished units are kept", call));
+  });
   call.err << size_text(record) << std::endl;
   UnitResults results;
   {
     ProgressBar bar(stderr_is_terminal());
     results =
-        compute_units(units, folder.journal(),
-                      {.threads = record.threads, .stop = stop_requested, .on_progress = [&](const Progress& progress) {
-                         bar.show(progress);
-                       }});
+        crew.compute(folder, identity_text(identity),
+                     {.threads = record.threads, .stop = stop_requested, .on_progress = [&](const Progress& progress) {
+                        bar.show(progress);
+                      }});
   }
-  if (!results.complete) return interrupted(wish, "finished units are kept", call);
-  record.resumed_units = results.resumed;
-  if (results.resumed > 0)
+  if (!results.complete) {
+    guard.reset();
+    return interrupted(wish, "finished units are kept", call);
+  }
+  if (!wish.merged && results.resumed > 0) {
+    record.resumed_units = results.resumed;
     call.err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
+  }
+  if (wish.shard) {
+    record.finished = Clock::now();
+    seal_shard(folder, identity, record);
+    guard.reset();
+    return shard_reply(wish, record, call);
+  }
 
   const Outcome outcome = chosen.run->finish(results.results, results.seconds);
   record.finished = Clock::now();
   const auto notes = write_results(folder, record, outcome);
+  guard.reset();
   for (const std::string& note : notes) call.err << note << "\n";
   return reply(wish, record, outcome, call);
+} catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
+  const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  throw std::runtime_error(fmt::format("{}; what was finished is kept: mend this, and the same command goes on",
+                                       file ? file->path1().string() + ": " + error.code().message() : error.what()));
 }
 
 }  // namespace thinwall

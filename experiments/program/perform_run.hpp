@@ -1,10 +1,14 @@
 #pragma once
-/// What `thinwall run` and `thinwall compare` do: compute what is missing and leave a result folder.
+/// What `thinwall run`, `compare` and `merge` do: compute what is missing and leave a result folder.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/configured_run.hpp>
+#include <thinwall/experiments/results/shards.hpp>
+#include <thinwall/experiments/run/shard.hpp>
 
 namespace thinwall {
 
@@ -14,6 +18,9 @@ struct RunWish {
   RunRequest request;
   std::string out;  ///< the result folder; empty for the default
   bool dry_run = false, json = false;
+  std::vector<std::string> figures;  ///< formats to draw beside SVG
+  std::optional<Shard> shard;        ///< compute this part alone, and leave it for `merge`
+  std::optional<ShardSet> merged;    ///< the finished parts of the run, in place of `target` and what chooses it
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.

@@ -4,6 +4,7 @@
 
 #include <thinwall/experiments/program/command_line.hpp>
 #include <thinwall/experiments/program/exit_codes.hpp>
+#include <thinwall/experiments/run/ranks.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 
@@ -11,13 +12,16 @@ namespace thinwall {
 
 int run_program(const std::vector<std::string>& argv, std::span<const Experiment> experiments, std::ostream& out,
                 std::ostream& err) {
+  std::ostream nowhere(nullptr);
+  const bool quiet = launch_of_this_process().rank > 0;  // of the ranks that mpirun started, one speaks
+  std::ostream& notes = quiet ? nowhere : err;
   try {
-    return parse_command_line(argv)({experiments, argv, out, err});
+    return parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, notes});
   } catch (const UsageError& error) {
-    err << error.what() << std::endl;
+    notes << error.what() << std::endl;
     return exit_bad_input;
   } catch (const std::exception& error) {
-    err << "failed: " << one_line(error.what()) << std::endl;
+    notes << "failed: " << one_line(error.what()) << std::endl;
     return exit_failed;
   }
 }

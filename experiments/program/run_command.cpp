@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <thinwall/experiments/program/plan_command.hpp>
+#include <thinwall/experiments/program/report_command.hpp>
 #include <thinwall/experiments/settings.hpp>
 
 namespace thinwall {
@@ -13,6 +14,8 @@ namespace {
 constexpr const char* examples = R"(  thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
   thinwall run scene.toml --trace --plan full
+  thinwall run my.toml --shard 2/4 --out part2    then: thinwall merge part1 part2 part3 part4 --out whole
+  mpirun -n 8 thinwall run my.toml
 )";
 
 Action declare_run(CLI::App& self) {
@@ -22,6 +25,7 @@ Action declare_run(CLI::App& self) {
              "NAME|FILE.toml");
   add_text(self, "--trials", text->trials, "Overrides the number of trials in the configuration; of a scene, its steps",
            "N");
+  add_text(self, "--shard", text->shard, "Compute the i-th of N shards alone, for thinwall merge", "i/N");
   add_flag(self, "--trace", text->wish.request.trace, "Of a scene: write trace.jsonl, for a viewer");
   add_run_options(self, *text);
   return [text](const Call& call) {
@@ -39,6 +43,7 @@ void add_run_options(CLI::App& self, RunText& text) {
   add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
   add_seed(self, text.seed);
   add_plan_kind(self, text.plan);
+  add_figures(self, text.figures);
   add_json(self, text.wish.json);
 }
 
@@ -50,11 +55,14 @@ RunWish parse_run(const RunText& text) {
   if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
   options.threads = parse_threads(text.threads);
   wish.out = parse_folder(text.out);
+  wish.figures = parse_figures(text.figures);
+  if (text.shard) wish.shard = parse_shard(*text.shard);
   return wish;
 }
 
 Command run_command() {
-  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", examples, declare_run};
+  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", examples, declare_run,
+          true};
 }
 
 }  // namespace thinwall

@@ -12,10 +12,10 @@ namespace thinwall {
 /// Options of a run as they were typed.
 struct RunText {
   RunWish wish;
-  OptionText out, seed, trials, threads, plan;
+  OptionText out, seed, trials, threads, plan, figures, shard;
 };
 
-/// --out, --threads, --seed, --plan, --dry-run and --json.
+/// --out, --threads, --seed, --plan, --figures, --dry-run and --json.
 void add_run_options(CLI::App& self, RunText& text);
 
 /// What the text means. Throws UsageError.

@@ -3,24 +3,48 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall_build_info.hpp>
 
 namespace thinwall {
 
-std::string bibtex(const RunRecord& run) {
-  const std::string commit = run.build.commit.substr(0, 12) + (run.build.dirty ? " with uncommitted changes" : "");
-  const std::string day = utc_text(run.finished).substr(0, 10);
+SoftwareCitation this_software() {
+  return {.title = std::string(citation_title),
+          .authors = std::string(citation_authors),
+          .version = std::string(build_version),
+          .date = std::string(build_release_date),
+          .license = std::string(citation_license)};
+}
+
+ResultCitation citation_of(const RunRecord& run) {
+  return {.experiment = run.experiment,
+          .question = run.question,
+          .run_id = run_id(run),
+          .seed = run.seed,
+          .commit = run.build.commit,
+          .dirty = run.build.dirty,
+          .date = utc_text(run.finished).substr(0, 10)};
+}
+
+std::string bibtex(const SoftwareCitation& software) {
   return fmt::format(
-      "@software{{thinwall,\n"
-      "  author  = {{{{The thinwall authors}}}},\n"
-      "  title   = {{thinwall: continuous collision detection and tunneling research}},\n"
-      "  version = {{{0}}},\n  date    = {{{1}}},\n  year    = {{{2}}}\n}}\n\n"
-      "@misc{{thinwall_{3}_{4},\n"
-      "  author = {{{{The thinwall authors}}}},\n"
-      "  title  = {{{5}}},\n"
-      "  note   = {{Result of the thinwall experiment {6}, run {4}, seed {7}, commit {8}}},\n"
-      "  date   = {{{9}}},\n  year   = {{{10}}}\n}}\n",
-      run.build.version, run.build.release_date, run.build.release_date.substr(0, 4), run.experiment, run_id(run),
-      latex_escaped(run.question), latex_escaped(run.experiment), run.seed, commit, day, day.substr(0, 4));
+      "@software{{thinwall,\n  author  = {{{}}},\n  title   = {{{}}},\n  version = {{{}}},\n  date    = {{{}}},\n"
+      "  year    = {{{}}},\n  license = {{{}}}\n}}\n",
+      software.authors, latex_escaped(software.title), software.version, software.date, software.date.substr(0, 4),
+      software.license);
+}
+
+std::string bibtex(const ResultCitation& result) {
+  const std::string commit = result.commit.substr(0, 12) + (result.dirty ? " with uncommitted changes" : "");
+  return fmt::format(
+      "@misc{{thinwall_{0}_{1},\n  author = {{{2}}},\n  title  = {{{3}}},\n"
+      "  note   = {{Result of the thinwall experiment {4}, run {1}, seed {5}, commit {6}}},\n"
+      "  date   = {{{7}}},\n  year   = {{{8}}}\n}}\n",
+      result.experiment, result.run_id, this_software().authors, latex_escaped(result.question),
+      latex_escaped(result.experiment), result.seed, commit, result.date, result.date.substr(0, 4));
+}
+
+std::string bibtex(const SoftwareCitation& software, const ResultCitation& result) {
+  return bibtex(software) + "\n" + bibtex(result);
 }
 
 }  // namespace thinwall

@@ -14,16 +14,16 @@ constexpr int format_version = 1;
 ordered_json program(const BuildRecord& build) {
   ordered_json libraries = ordered_json::object();
   for (const auto& [name, version] : build.libraries) libraries[name] = version;
-  return {{"version", build.version},        {"commit", build.commit}, {"dirty", build.dirty},
-          {"compiler", build.compiler},      {"flags", build.flags},   {"build_type", build.build_type},
-          {"sha256", this_program_sha256()}, {"libraries", libraries}};
+  return {{"version", build.version},       {"release_date", build.release_date}, {"commit", build.commit},
+          {"dirty", build.dirty},           {"compiler", build.compiler},         {"flags", build.flags},
+          {"build_type", build.build_type}, {"sha256", this_program_sha256()},    {"libraries", libraries}};
 }
 
 }  // namespace
 
 std::string manifest_text(const RunRecord& run, const Outcome& outcome,
-                          const std::map<std::string, std::string>& hashes) {
-  const ordered_json out = {
+                          const std::map<std::string, std::string>& hashes, const std::vector<std::string>& unhashed) {
+  ordered_json out = {
       {"thinwall_manifest", format_version},
       {"experiment", run.experiment},
       {"question", run.question},
@@ -44,7 +44,16 @@ std::string manifest_text(const RunRecord& run, const Outcome& outcome,
       {"program", program(run.build)},
       {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
       {"files", hashes},
+      {"files_of_times", unhashed},
       {"summary", outcome.summary}};
+  if (run.ranks > 1) out["ranks"] = run.ranks;
+  for (const ShardRecord& shard : run.shards) {
+    out["shards"].push_back({{"shard", shard.shard},
+                             {"cpu", shard.cpu},
+                             {"system", shard.system},
+                             {"started", shard.started},
+                             {"finished", shard.finished}});
+  }
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -11,9 +11,10 @@
 
 namespace thinwall {
 
-/// `hashes`: SHA-256 of each file of the result, by its path in the folder.
+/// `hashes`: SHA-256 of each file of the result, by its path in the folder. `unhashed`: the paths of those that differ from
+/// run to run.
 std::string manifest_text(const RunRecord& run, const Outcome& outcome,
-                          const std::map<std::string, std::string>& hashes);
+                          const std::map<std::string, std::string>& hashes, const std::vector<std::string>& unhashed);
 
 /// What a rerun needs to know of the result that a folder holds.
 struct Manifest {

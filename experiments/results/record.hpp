@@ -23,6 +23,13 @@ struct MachineRecord {
   int cores = 0;            ///< hardware threads
 };
 
+/// Where and when a shard was computed.
+struct ShardRecord {
+  std::string shard;              ///< as in `2/4`
+  std::string cpu, system;        ///< of its machine
+  std::string started, finished;  ///< ISO 8601 in UTC
+};
+
 struct RunRecord {
   std::string experiment, question;
   std::string config;           ///< canonical JSON
@@ -36,6 +43,8 @@ struct RunRecord {
   std::chrono::system_clock::time_point started, finished;
   BuildRecord build;
   MachineRecord machine;
+  int ranks = 1;                         ///< processes that computed it together
+  std::vector<ShardRecord> shards = {};  ///< that it was merged from
 };
 
 BuildRecord this_build();

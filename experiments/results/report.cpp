@@ -94,10 +94,15 @@ std::string verdict(bool passed) {
 }  // namespace
 
 std::string report_page(const RunRecord& run, const Outcome& outcome, const ReportParts& parts) {
-  std::string figures, tables, sections;
+  std::string figures, tables, method, limits;
   for (std::size_t i = 1; i < outcome.figures.size(); ++i) figures += figure_html(outcome.figures[i], parts);
   for (const Table& table : outcome.tables) tables += table.in_report ? html_table(table) : "";
-  for (const Section& part : outcome.sections) sections += section(part.heading, paragraphs(part.text));
+  for (const Section& part : outcome.sections) {
+    if (part.heading == "Limits") continue;
+    if (part.heading != "Method") method += fmt::format("<h3>{}</h3>\n", html_escaped(part.heading));
+    method += paragraphs(part.text);
+  }
+  for (const Section& part : outcome.sections) limits += part.heading == "Limits" ? paragraphs(part.text) : "";
   return fmt::format(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
@@ -107,9 +112,9 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
              utc_text(run.finished).substr(0, 10)) +
          paragraphs(outcome.answer, " class=\"answer\"") + verdict(outcome.self_test_passed) +
          (outcome.figures.empty() ? "" : figure_html(outcome.figures.front(), parts)) + section("Tables", tables) +
-         section("More figures", figures) + sections + section("How to reproduce", reproduction(run)) +
-         section("Configuration", configuration(run)) + section("Provenance", provenance(run)) +
-         section("Files", file_links(parts.files)) +
+         section("More figures", figures) + section("Method", method) + section("Limits", limits) +
+         section("How to reproduce", reproduction(run)) + section("Configuration", configuration(run)) +
+         section("Provenance", provenance(run)) + section("Files", file_links(parts.files)) +
          section("How to cite", fmt::format("<pre><code>{}</code></pre>\n", html_escaped(parts.citation))) +
          "</main>\n</body>\n</html>\n";
 }

@@ -13,6 +13,7 @@ body { margin: 0; background: #fff; color: var(--ink); font: 17px/1.55 system-ui
 main { max-width: 56rem; margin: 0 auto; padding: 2rem 1.1rem 4rem; }
 h1 { font-size: 1.75rem; line-height: 1.25; margin: .2rem 0 1rem; text-wrap: balance; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; padding-top: 1.2rem; border-top: 1px solid var(--line); }
+h3 { font-size: 1.02rem; margin: 1.6rem 0 .3rem; }
 p { margin: .7rem 0; max-width: 46rem; }
 figcaption { max-width: 46rem; }
 a { color: var(--link); }
@@ -56,7 +57,7 @@ ul { padding-left: 1.2rem; columns: 17rem; }
   pre { white-space: pre-wrap; }
   table { font-size: 7.5pt; }
   figure, tr, pre { break-inside: avoid; }
-  h2, .caption { break-after: avoid; }
+  h2, h3, .caption { break-after: avoid; }
   thead { display: table-header-group; }
 }
 )css";

@@ -8,10 +8,14 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/results/drawn_figures.hpp>
+#include <thinwall/experiments/results/durable.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
@@ -21,13 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* manifest_name = "manifest.json";
-constexpr const char* journal_name = "journal.tsv";
+constexpr const char* old_manifest_name = "manifest.old.json";  // of the result that is being replaced
+constexpr const char* rank_journal_prefix = "journal.rank-";
 constexpr const char* old_journal_name = "journal.old.tsv";  // begun by another build of the program
 
 /// What a result is made of: where none of ours lies, none of these may either.
-constexpr std::array result_names = {
-    manifest_name, "datapackage.json", "report.html", "resolved.toml", "cite.bib", "data", "plots", "tables"};
+constexpr std::array result_names = {manifest_name, seal_name,       "datapackage.json",
+                                     "report.html", "resolved.toml", "cite.bib",
+                                     "data",        "plots",         "tables"};
 
 std::string read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -54,7 +59,10 @@ ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(s
     look_at_manifest(identity);
     if (!complete_) look_at_journal(identity);
   } catch (const std::system_error& error) {
-    refuse("cannot be written: " + error.code().message());
+    const std::string why = "cannot be written: " + error.code().message();
+    if (error.code() != std::errc::no_space_on_device) refuse(why);
+    throw std::runtime_error(
+        fmt::format("--out {}: {}", one_line(path_.string()), why));  // no fault of the user's words
   }
 }
 
@@ -68,11 +76,18 @@ void ResultFolder::refuse(const std::string& why) const {
 }
 
 void ResultFolder::look_at_manifest(const RunIdentity& identity) {
-  if (!fs::exists(path_ / manifest_name)) return;
-  const auto manifest = parse_manifest(read_file(path_ / manifest_name));
-  if (!manifest) refuse("holds a manifest.json that is not ours; name another folder");
+  const bool half_replaced = !fs::exists(path_ / manifest_name);  // if there is an old one
+  const char* const name = half_replaced ? old_manifest_name : manifest_name;
+  if (!fs::exists(path_ / name)) return;
+  const auto manifest = parse_manifest(read_file(path_ / name));
+  if (!manifest) refuse(fmt::format("holds a {} that is not ours; name another folder", name));
   if (const auto difference = identity_difference(manifest->identity, identity); !difference.empty()) {
     refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
+  }
+  if (half_replaced) {
+    replaced_ = manifest;
+    notes_.push_back(path_.string() + ": an earlier result was being replaced here; it is when this run ends");
+    return;
   }
   std::string changed, missing;
   for (const auto& [file, hash] : manifest->hashes) {
@@ -85,6 +100,7 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
   const bool ours = same_program(manifest->identity, identity);
   if (ours && missing.empty() && fs::exists(path_ / "report.html")) {
     complete_ = manifest;
+    clear_up();  // after a run that was killed while it did
     notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", path_.string(),
                                  changed.empty() ? "" : " (" + changed + " was changed since)"));
     return;
@@ -103,6 +119,7 @@ void ResultFolder::look_at_journal(const RunIdentity& identity) {
     if (!difference.empty()) {
       refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
     }
+    if (!theirs.empty()) gather_rank_journals(theirs);
     if (theirs.empty() || !same_program(theirs, identity)) {
       fs::rename(file, path_ / old_journal_name);
       notes_.push_back(fmt::format(
@@ -116,6 +133,33 @@ void ResultFolder::look_at_journal(const RunIdentity& identity) {
   }
   journal_ = std::make_unique<Journal>(file, identity_text(identity));
   for (const std::string& line : journal_->damage()) notes_.push_back(line);
+}
+
+void ResultFolder::gather_rank_journals(const std::string& identity) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (entry.path().filename().string().starts_with(rank_journal_prefix)) files.push_back(entry.path());
+  }
+  if (files.empty()) return;
+  std::unique_ptr<Journal> other;
+  if (!journal_) other = std::make_unique<Journal>(path_ / journal_name, identity);
+  for (const fs::path& file : files) {
+    const JournalText text = read_journal(file);
+    for (const std::string& line : text.damage) notes_.push_back(line + "; that unit is computed again");
+    if (text.identity == identity) (journal_ ? *journal_ : *other).add(text.rows);
+    fs::remove(file);
+  }
+}
+
+void ResultFolder::seal(const std::string& text) {
+  stage(seal_name, text);
+  fs::rename(staging() / seal_name, path_ / seal_name);
+  fs::remove(path_ / old_journal_name);
+  fs::remove_all(staging());
+}
+
+fs::path ResultFolder::rank_journal(const fs::path& folder, int rank) {
+  return folder / fmt::format("{}{}.tsv", rank_journal_prefix, rank);
 }
 
 void ResultFolder::stage(const std::string& file, const std::string& text) {
@@ -139,11 +183,15 @@ std::map<std::string, std::string> ResultFolder::staged_hashes() const {
 
 void ResultFolder::publish() {
   const auto staged = staged_hashes();
-  fs::remove(path_ / manifest_name);  // from here until the new one is there the folder is not complete
-  const auto move = [&](const std::string& file) {
+  std::set<fs::path> folders = {path_};
+  for (const auto& [file, hash] : staged) {  // whatever may lack space does so before a name has changed
+    flush_to_disk(staging() / file);
     fs::create_directories((path_ / file).parent_path());
-    fs::rename(staging() / file, path_ / file);
-  };
+    folders.insert((path_ / file).parent_path());
+  }
+  const auto move = [&](const std::string& file) { fs::rename(staging() / file, path_ / file); };
+  if (fs::exists(path_ / manifest_name)) fs::rename(path_ / manifest_name, path_ / old_manifest_name);
+  remove_drawn_figures(path_);  // they show the old result
   for (const auto& [file, hash] : staged) {
     if (file != manifest_name) move(file);
   }
@@ -152,10 +200,15 @@ void ResultFolder::publish() {
       if (!staged.contains(file)) fs::remove(path_ / file);
     }
   }
+  for (const fs::path& folder : folders) flush_to_disk(folder);
   move(manifest_name);
+  flush_to_disk(path_);
   journal_.reset();
-  fs::remove(path_ / journal_name);
-  fs::remove(path_ / old_journal_name);
+  clear_up();
+}
+
+void ResultFolder::clear_up() const {
+  for (const char* name : {journal_name, old_journal_name, old_manifest_name}) fs::remove(path_ / name);
   fs::remove_all(staging());
 }
 

@@ -3,7 +3,7 @@
 ///
 /// While a run lasts the folder holds its journal. Results are written under another name and moved into place when all
 /// of them are there, the manifest last; then the journal goes. So whatever has its own name is whole, and a folder with a
-/// manifest is complete.
+/// manifest is complete, also after the end of the process or of the power at any moment.
 
 #include <filesystem>
 #include <map>
@@ -17,6 +17,10 @@
 #include <thinwall/experiments/run/journal.hpp>
 
 namespace thinwall {
+
+inline constexpr const char* manifest_name = "manifest.json";
+inline constexpr const char* journal_name = "journal.tsv";
+inline constexpr const char* seal_name = "shard.json";
 
 /// Holds a folder for this process alone, as long as it lives.
 class FolderLock {
@@ -36,6 +40,7 @@ class FolderLock {
 class ResultFolder {
  public:
   /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
+  /// Throws std::runtime_error if the disk is full.
   ResultFolder(std::filesystem::path path, const RunIdentity& identity);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -61,12 +66,22 @@ class ResultFolder {
   /// SHA-256 of the staged files, by path.
   std::map<std::string, std::string> staged_hashes() const;
 
+  /// Writes the seal of a finished shard, whose journal stays.
+  void seal(const std::string& text);
+
+  /// Moves what other ranks of this run have finished from their journals into ours, and deletes theirs.
+  void gather_rank_journals(const std::string& identity);
+
+  /// Where a rank keeps what it has finished until it is gathered.
+  static std::filesystem::path rank_journal(const std::filesystem::path& folder, int rank);
+
   /// Moves every staged file into place, the manifest last, and ends the journal.
   void publish();
 
  private:
   void look_at_manifest(const RunIdentity& identity);
   void look_at_journal(const RunIdentity& identity);
+  void clear_up() const;  // of what a complete folder does not need
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::filesystem::path path_;

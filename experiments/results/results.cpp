@@ -14,6 +14,8 @@
 namespace thinwall {
 namespace {
 
+constexpr std::size_t room_for_a_figure = 1 << 20;  // [byte]
+
 void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
   for (const Table& table : outcome.tables) {
     folder.stage("data/" + table.name + ".csv", csv_text(table));
@@ -36,6 +38,8 @@ void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& pa
     const std::string trouble = draw(folder.staging() / "plots", figure.name);
     if (!trouble.empty()) {
       parts.why_no_svg = trouble;
+      folder.stage("plots/" + figure.name + ".svg",
+                   std::string(room_for_a_figure, ' '));  // throws if that was the trouble
       std::filesystem::remove(folder.staging() / "plots" / (figure.name + ".svg"));
       continue;
     }
@@ -44,11 +48,27 @@ void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& pa
   }
 }
 
+/// Takes what differs from run to run out of `hashes`, and returns its paths.
+std::vector<std::string> take_timings(std::map<std::string, std::string>& hashes, const Outcome& outcome) {
+  std::vector<std::string> out;
+  const auto take = [&](const std::string& file) {
+    if (hashes.erase(file) > 0) out.push_back(file);
+  };
+  for (const Table& table : outcome.tables) {
+    if (table.is_timing) take("data/" + table.name + ".csv");
+  }
+  for (const Figure& figure : outcome.figures) {
+    if (!figure.is_timing) continue;
+    for (const char* kind : {".dat", ".gp", ".svg"}) take("plots/" + figure.name + kind);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
   ReportParts parts;
-  parts.citation = bibtex(run);
+  parts.citation = bibtex(this_software(), citation_of(run));
   stage_tables(folder, run, outcome);
   stage_figures(folder, outcome, parts);
   for (const TextFile& file : outcome.files) folder.stage(file.name, file.text);
@@ -58,15 +78,9 @@ std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& ru
   auto hashes = folder.staged_hashes();
   parts.files = {"manifest.json"};
   for (const auto& [file, hash] : hashes) parts.files.push_back(file);
-  for (const Table& table : outcome.tables) {
-    if (table.is_timing) hashes.erase("data/" + table.name + ".csv");
-  }
-  for (const Figure& figure : outcome.figures) {
-    if (!figure.is_timing) continue;
-    for (const char* kind : {".gp", ".dat", ".svg"}) hashes.erase("plots/" + figure.name + kind);
-  }
   folder.stage("report.html", report_page(run, outcome, parts));
-  folder.stage("manifest.json", manifest_text(run, outcome, hashes));
+  const std::vector<std::string> unhashed = take_timings(hashes, outcome);
+  folder.stage("manifest.json", manifest_text(run, outcome, hashes, unhashed));
   folder.publish();
   if (parts.why_no_svg.empty()) return {};
   return {"figures were not drawn: " + parts.why_no_svg};

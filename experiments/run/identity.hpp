@@ -14,10 +14,14 @@ struct RunIdentity {
   std::uint64_t seed = 0;
   std::optional<std::int64_t> trials;  ///< as given on the command line
   std::string program;                 ///< SHA-256 of the program, which knows its commit
+  std::string shard = {};              ///< as in `2/4`; empty: the whole run
 };
 
 /// One line of canonical JSON.
 std::string identity_text(const RunIdentity& identity);
+
+/// The identity that `identity_text` wrote; nothing if `text` is none.
+std::optional<RunIdentity> parse_identity(std::string_view text);
 
 /// How the run whose `identity_text` was `theirs` differs from ours: `seed 1, not 2`. Empty if it does not, or only in
 /// the program that computed it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -61,28 +62,78 @@ double parse_seconds(const std::string& text) {
   throw std::system_error(errno, std::generic_category(), file.string());
 }
 
+/// Empty if there is no such file; one that cannot be read is an error, lest it be taken for an empty one.
+std::string text_of(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in && errno == ENOENT) return {};
+  if (!in) fail(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Of the first row; empty if that is damaged.
+std::string identity_of(const std::optional<std::vector<std::string>>& fields) {
+  return fields && fields->size() == 2 && fields->front() == magic ? fields->back() : std::string();
+}
+
+JournalText parse_journal(const std::string& text, const std::filesystem::path& file) {
+  JournalText out;
+  std::string_view rest = text;
+  for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {  // a last row without its end is torn
+    const std::string_view row = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(row.size() + 1);
+    const auto fields = unsealed(row);
+    if (line == 1) {
+      out.identity = identity_of(fields);
+      continue;
+    }
+    if (fields && fields->size() == 3) {
+      out.rows[fields->front()] = {parse_seconds((*fields)[1]), fields->back()};
+      out.good_rows.append(row).append("\n");
+    } else {
+      const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));
+      out.damage.push_back(fmt::format("{}:{}: the row of '{}' is damaged", file.string(), line, one_line(key)));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string Journal::identity_in(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string row;
   std::getline(in, row);
-  const auto fields = unsealed(row);
-  return fields && fields->size() == 2 && fields->front() == magic ? fields->back() : std::string();
+  return identity_of(unsealed(row));
 }
 
+JournalText read_journal(const std::filesystem::path& file) { return parse_journal(text_of(file), file); }
+
 Journal::Journal(std::filesystem::path file, const std::string& identity) : file_(std::move(file)) {
-  const std::string good_rows = header_row(identity) + read();
-  std::error_code none;
-  if (std::filesystem::file_size(file_, none) == good_rows.size() && !none) {
+  const std::string text = text_of(file_);
+  JournalText kept = parse_journal(text, file_);
+  finished_ = std::move(kept.rows);
+  for (const std::string& line : kept.damage) damage_.push_back(line + "; that unit is computed again");
+  const std::string good_rows = header_row(identity) + kept.good_rows;
+  if (text.starts_with(good_rows)) {  // what follows is torn; cutting it off needs no space, also where there is none
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (descriptor_ < 0) fail(file_);
+    if (text.size() > good_rows.size() && ::ftruncate(descriptor_, static_cast<off_t>(good_rows.size())) != 0)
+      fail(file_);
     return;
   }
   const std::filesystem::path fresh = file_.string() + ".new";
   descriptor_ = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(fresh);
-  write(good_rows);
+  try {
+    write(good_rows);
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) fail(fresh);
+  } catch (const std::system_error&) {
+    ::close(descriptor_);
+    std::error_code none;
+    std::filesystem::remove(fresh, none);
+    throw;
+  }
   std::filesystem::rename(fresh, file_);
 }
 
@@ -90,31 +141,24 @@ Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::string Journal::read() {
-  std::ifstream in(file_, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::string_view rest = text;
-  std::string good_rows;
-  for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {  // a last row without its end is torn
-    const std::string_view row = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(row.size() + 1);
-    if (line == 1) continue;  // the identity
-    const auto fields = unsealed(row);
-    if (fields && fields->size() == 3) {
-      finished_[fields->front()] = {parse_seconds((*fields)[1]), fields->back()};
-      good_rows.append(row).append("\n");
-    } else {
-      const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));
-      damage_.push_back(fmt::format("{}:{}: the row of '{}' is damaged; that unit is computed again", file_.string(),
-                                    line, one_line(key)));
-    }
-  }
-  return good_rows;
-}
-
 void Journal::add(const std::string& key, const Row& row) {
   const std::string text = unit_row(key, row);
   const std::scoped_lock lock(mutex_);
+  write(text);
+  finished_[key] = row;
+  constexpr auto pause = std::chrono::seconds(1);
+  const auto now = Clock::now();
+  if (now - synced_ < pause) return;
+  synced_ = now;
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) fail(file_);  // EINVAL: a device that keeps nothing
+}
+
+void Journal::add(const Rows& rows) {
+  const std::scoped_lock lock(mutex_);
+  std::string text;
+  for (const auto& [key, row] : rows) {
+    if (finished_.emplace(key, row).second) text += unit_row(key, row);
+  }
   write(text);
 }
 

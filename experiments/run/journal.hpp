@@ -5,13 +5,17 @@
 /// and a checksum, separated by tabs. A row is written whole, at once, when its unit ends. A torn last row is dropped; a
 /// damaged row is named and its unit is computed again.
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thinwall {
+
+struct JournalText;
 
 class Journal {
  public:
@@ -19,6 +23,7 @@ class Journal {
     double seconds = 0;
     std::string result;
   };
+  using Rows = std::map<std::string, Row, std::less<>>;  ///< by the unit's key
 
   /// Opens `file`, or begins it with `identity`, one line of text. An identity other than the file's own is not looked
   /// at: see `identity_in`. Throws std::system_error if the file cannot be written.
@@ -30,25 +35,43 @@ class Journal {
   /// The identity that `file` was begun with; empty if there is no such file or its first row is damaged.
   static std::string identity_in(const std::filesystem::path& file);
 
-  /// What was finished when the file was opened, by the unit's key.
-  const std::map<std::string, Row, std::less<>>& finished() const { return finished_; }
+  /// What is finished.
+  const Rows& finished() const { return finished_; }
 
   /// A line for each damaged row: which, and what becomes of it.
   const std::vector<std::string>& damage() const { return damage_; }
 
-  /// Thread-safe. The row is in the file when this returns; throws std::system_error if it cannot be.
+  /// Thread-safe. The row is in the file when this returns, so that the end of the process loses none; the file is
+  /// flushed to the disk about once a second, which is what a power failure may cost. Throws std::system_error if the
+  /// row cannot be written.
   void add(const std::string& key, const Row& row);
 
+  /// Adds those rows that are not there yet, all at once.
+  void add(const Rows& rows);
+
  private:
-  std::string read();  // fills finished_ and damage_; returns the undamaged rows of units
+  using Clock = std::chrono::steady_clock;
+
   void write(const std::string& text);
 
   std::filesystem::path file_;
-  std::map<std::string, Row, std::less<>> finished_;
+  Rows finished_;
   std::vector<std::string> damage_;
   std::mutex mutex_;
   int descriptor_ = -1;
   int broken_ = 0;  // the errno of a failed write
+  Clock::time_point synced_ = Clock::now();
 };
+
+/// What lies in the file of a journal.
+struct JournalText {
+  std::string identity;  ///< empty if there is no such file or its first row is damaged
+  Journal::Rows rows;
+  std::string good_rows;            ///< `rows` as they stand in the file
+  std::vector<std::string> damage;  ///< a line for each damaged row
+};
+
+/// Reads and changes nothing.
+JournalText read_journal(const std::filesystem::path& file);
 
 }  // namespace thinwall

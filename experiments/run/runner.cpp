@@ -7,12 +7,15 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <thinwall/experiments/run/ranks.hpp>
 
 namespace thinwall {
 namespace {
@@ -59,7 +62,13 @@ template <class Body> void parallel_for_each_index(std::size_t count, int thread
 
 }  // namespace
 
-int default_threads() { return oneapi::tbb::info::default_concurrency(); }
+int default_threads() {
+  const int ours = oneapi::tbb::info::default_concurrency(), neighbors = launch_of_this_process().neighbors;
+  if (neighbors <= 1) return ours;
+  const int fair =
+      static_cast<int>(std::thread::hardware_concurrency()) / neighbors;  // mpirun may bind ranks to cores or not
+  return std::max(1, std::min(ours, fair));
+}
 
 UnitResults compute_units(std::span<const Unit> units, Journal& journal, const RunnerOptions& options) {
   require_unique_keys(units);

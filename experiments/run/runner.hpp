@@ -33,7 +33,7 @@ struct RunnerOptions {
       on_progress;  ///< called once before the first unit and after each, one at a time
 };
 
-/// The cores that this process may use.
+/// The cores that this process may use; its share of them where it is one of several ranks.
 int default_threads();
 
 /// Throws std::runtime_error, naming the unit, if one fails; what was finished stays in the journal.

@@ -84,6 +84,8 @@ std::string latex_escaped(std::string_view text) {
       case '}': return "\\}";
       case '<': return "\\textless{}";
       case '>': return "\\textgreater{}";
+      case '|': return "\\textbar{}";
+      case '"': return "''";
       default: return {};
     }
   });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/volley.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -96,7 +97,13 @@ ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
   plan.response = settings.choice("response", response_names) == "bounce" ? Response::bounce : Response::none;
   plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", least_substeps, most_substeps),
                              settings.choices("scalar", scalar_names), plan.response);
-  plan.shots = options.trials.value_or(settings.integer("shots", 1, std::int64_t(1) << 30));
+  plan.shots = options.trials.value_or(settings.integer("shots", 1, most_shots_a_cell));
+  if (plan.shots > most_shots_a_cell) {
+    throw UsageError(
+        fmt::format("--trials: {} is not allowed; of thin_wall a whole number from 1 to {}: they are fired at "
+                    "each cell, method and scalar",
+                    plan.shots, most_shots_a_cell));
+  }
   plan.seed = options.seed;
   return plan;
 }

@@ -1,5 +1,6 @@
 #include <thinwall/experiments/thin_wall/tally.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -7,6 +8,21 @@
 #include <fmt/format.h>
 
 namespace thinwall {
+
+Tally& Tally::operator+=(const Tally& more) {
+  shots += more.shots;
+  tunneled += more.tunneled;
+  undecided += more.undecided;
+  queries += more.queries;
+  evaluations += more.evaluations;
+  lateness += more.lateness;
+  wrong_side += more.wrong_side;
+  behind += more.behind;
+  latest = std::max(latest, more.latest);
+  earliest = std::min(earliest, more.earliest);
+  widest = std::max(widest, more.widest);
+  return *this;
+}
 
 std::string to_line(const Tally& t) {
   return fmt::format("{} {} {} {} {} {} {} {} {:a} {:a} {:a}", t.shots, t.tunneled, t.undecided, t.queries,

@@ -22,6 +22,7 @@ struct Tally {
   double widest = -std::numeric_limits<double>::infinity();   ///< [m] gap at detection; > 0: a hit where there is none
 
   std::int64_t detected() const { return shots - tunneled - undecided; }
+  Tally& operator+=(const Tally& more);  ///< as if one tally had counted both; exact, in any order
   bool operator==(const Tally&) const = default;
 };
 

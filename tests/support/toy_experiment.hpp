@@ -66,7 +66,7 @@ class ToyRun final : public Run {
     out.tables = {cells, timings};
     out.figures = {{"squares", "Squares", "What a square is.", {{"x [m]", "y [m^2]", false, false, 1, {points}}}}};
     out.figures.push_back({"cost", "Cost", "How long.", {{"x [m]", "t [s]", false, false, 1, {points}}}, true});
-    out.sections = {{"Method", "First.\n\nSecond."}};
+    out.sections = {{"Method", "First.\n\nSecond."}, {"Limits", "None."}};
     out.self_test_passed = ToyControl::pass;
     return out;
   }

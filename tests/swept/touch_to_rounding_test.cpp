@@ -149,6 +149,15 @@ TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_s
   }
 }
 
+TEST(TouchToRounding,
+     segment_tilted_by_a_rounding_meets_a_long_plate_where_it_does) {  // the plane of contact is 13 u early
+  const Moving segment{Capsule<double>{V(-8, -8, -8), V(-0x1.fffffffffffcp+2, -0.8, 7), 0},
+                       V(0x1.fffffffffffep+2, 4.4, 0.5)};
+  const auto toi = time_of_impact(segment, at_rest(Obb<double>{V(0, 0, 0), V(0, 2, 1.6), Mat3<double>::Identity()}));
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_NEAR(toi.time, 0x1.ffffffffffff9p-1, 0x1p-53);  // by the same form with 60 digits
+}
+
 TEST(TouchToRounding, center_in_a_triangle_that_its_body_misses_does_not_hit_it_at_rest) {
   const auto segment = at_rest(Capsule<double>{V(-1, 6, 2), V(-6, -2.5, -2.5), 0});
   const double huge = std::numeric_limits<double>::max();

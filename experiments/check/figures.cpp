@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/check/parts.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+
+namespace thinwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The text in single quotes that follows `at`; a quote in it is doubled.
+std::string quoted_after(const std::string& script, std::size_t at) {
+  std::string out;
+  for (at = script.find('\'', at) + 1; at != 0 && at < script.size(); ++at) {
+    if (script[at] == '\'' && (++at == script.size() || script[at] != '\'')) break;
+    out += script[at];
+  }
+  return out;
+}
+
+/// The title and the labels of the axes, which the script sets as labels 1, 2 and 3.
+std::set<std::string> words_of(const std::string& script) {
+  std::set<std::string> out;
+  for (const char* label : {"\nset label 1 ", "\nset label 2 ", "\nset label 3 "}) {
+    for (auto at = script.find(label); at != script.npos; at = script.find(label, at + 1))
+      out.insert(quoted_after(script, at));
+  }
+  out.erase("");
+  return out;
+}
+
+void check_svg(const std::string& svg, const std::string& script, const std::string& file, Faults& faults) {
+  const auto last = svg.find_last_not_of(" \n");
+  if (svg.find("<svg") == svg.npos || last == svg.npos || !svg.substr(0, last + 1).ends_with("</svg>")) {
+    faults.push_back(file + ": not a whole SVG");
+    return;
+  }
+  const std::set<std::string> words = words_of(script);
+  if (words.size() < 3) faults.push_back(file + ": its script does not label both axes");
+  for (const std::string& word : words) {
+    std::string escaped = html_escaped(word), half_escaped;  // gnuplot may leave quotes as they are
+    for (std::size_t i = 0; i < escaped.size(); ++i) {
+      const bool quote = escaped.compare(i, 5, "&#39;") == 0;
+      half_escaped += quote ? '\'' : escaped[i];
+      if (quote) i += 4;
+    }
+    if (svg.find(escaped) == svg.npos && svg.find(half_escaped) == svg.npos)
+      faults.push_back(fmt::format("{}: does not show '{}'", file, one_line(word)));
+  }
+}
+
+}  // namespace
+
+void check_figures(const fs::path& folder, Faults& faults) {
+  if (!fs::is_directory(folder / "plots")) return;
+  std::set<fs::path> scripts;
+  for (const auto& entry : fs::directory_iterator(folder / "plots")) {
+    if (entry.path().extension() == ".gp") scripts.insert(entry.path());
+  }
+  for (const fs::path& script : scripts) {
+    const std::string name = "plots/" + script.stem().string();
+    if (!fs::exists(folder / (name + ".dat"))) faults.push_back(one_line(name) + ".dat: missing; the script reads it");
+    if (!fs::exists(folder / (name + ".svg"))) {
+      faults.push_back(fmt::format("{}.svg: was not drawn; to draw it: cd plots && gnuplot {}.gp", one_line(name),
+                                   one_line(script.stem().string())));
+      continue;
+    }
+    check_svg(file_text(folder / (name + ".svg")), file_text(script), one_line(name) + ".svg", faults);
+  }
+}
+
+}  // namespace thinwall

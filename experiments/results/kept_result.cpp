@@ -1,0 +1,70 @@
+#include <thinwall/experiments/results/kept_result.hpp>
+
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+
+namespace thinwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
+  throw UsageError(fmt::format("{}: {}", one_line(folder.string()), why));
+}
+
+}  // namespace
+
+std::optional<KeptResult> parse_kept_result(const std::string& text) {
+  using nlohmann::json;
+  const json manifest = json::parse(text, nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("thinwall_manifest")) return std::nullopt;
+  try {
+    const json& program = manifest.at("program");
+    KeptResult out{.folder = {},
+                   .answer = manifest.at("answer"),
+                   .summary = manifest.at("summary"),
+                   .self_test_passed = manifest.at("self_test_passed"),
+                   .reproduce = manifest.at("reproduce"),
+                   .hashes = manifest.at("files"),
+                   .unhashed = manifest.value("files_of_times", std::vector<std::string>{}),
+                   .software = this_software(),
+                   .citation = {.experiment = manifest.at("experiment"),
+                                .question = manifest.at("question"),
+                                .run_id = manifest.at("run_id"),
+                                .seed = manifest.at("seed"),
+                                .commit = program.at("commit"),
+                                .dirty = program.at("dirty"),
+                                .date = manifest.at("finished").get<std::string>().substr(0, 10)}};
+    out.software.version = program.at("version");
+    out.software.date = program.value("release_date", out.software.date);
+    return out;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+}
+
+KeptResult read_result(const fs::path& folder) {
+  std::error_code none;
+  if (!fs::exists(folder, none)) refuse(folder, "there is no such folder; name the folder of a result");
+  if (!fs::is_directory(folder, none)) refuse(folder, "is not a folder; name the folder of a result");
+  const fs::path file = folder / "manifest.json";
+  if (!fs::exists(file, none)) {
+    const bool unfinished = fs::exists(folder / "journal.tsv", none);
+    refuse(folder, unfinished
+                       ? "holds a run that is not finished: no manifest.json yet; the run's own command continues it"
+                       : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
+  }
+  std::ifstream in(file, std::ios::binary);
+  auto result = parse_kept_result({std::istreambuf_iterator<char>(in), {}});
+  if (!result) refuse(folder, "its manifest.json is damaged, or not ours");
+  result->folder = folder;
+  return std::move(*result);
+}
+
+}  // namespace thinwall

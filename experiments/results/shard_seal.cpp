@@ -1,0 +1,64 @@
+#include <thinwall/experiments/results/shard_seal.hpp>
+
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
+
+namespace thinwall {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr int format_version = 1;
+
+}  // namespace
+
+std::optional<ShardSeal> parse_seal(const std::string& text) {
+  const json seal = json::parse(text, nullptr, false);
+  if (!seal.is_object() || seal.value("thinwall_shard", 0) != format_version) return std::nullopt;
+  try {
+    const auto identity = parse_identity(seal.at("run").dump());
+    if (!identity) return std::nullopt;
+    return ShardSeal{.identity = *identity,
+                     .shard = parse_shard(identity->shard),
+                     .record = {.shard = identity->shard,
+                                .cpu = seal.at("machine").at("cpu"),
+                                .system = seal.at("machine").at("system"),
+                                .started = seal.at("started"),
+                                .finished = seal.at("finished")},
+                     .journal_sha256 = seal.at("journal")};
+  } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+void seal_shard(ResultFolder& folder, const RunIdentity& identity, const RunRecord& run) {
+  const ordered_json seal = {
+      {"thinwall_shard", format_version},
+      {"run", ordered_json::parse(identity_text(identity))},
+      {"units", run.units},
+      {"total_trials", run.total_trials},
+      {"argv", run.argv},
+      {"threads", run.threads},
+      {"started", utc_text(run.started)},
+      {"finished", utc_text(run.finished)},
+      {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
+      {"journal", sha256_of_file(folder.path() / journal_name)}};
+  folder.seal(seal.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+}
+
+bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {
+  std::ifstream in(folder.path() / seal_name, std::ios::binary);
+  const auto seal = parse_seal({std::istreambuf_iterator<char>(in), {}});
+  return seal && identity_text(seal->identity) == identity_text(identity) &&
+         seal->journal_sha256 == sha256_of_file(folder.path() / journal_name);
+}
+
+}  // namespace thinwall
