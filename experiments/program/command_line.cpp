@@ -27,13 +27,14 @@ Examples:
   thinwall run scene.toml --trace             a scene of your own, step by step; experiments/scenes/ has some
   thinwall compare scene.toml                 discrete or swept, on that scene?
   thinwall plan scene.toml                    what that scene does not need, and why
+  thinwall advise --help                      which method will do for my speed, wall and step, and costs least?
   thinwall reproduce results/thin_wall        does it come out the same again?
   thinwall validate ccd-queries               published queries against exact arithmetic
 )";
 
 constexpr const char* exit_codes = R"(Exit codes:
   0    done
-  1    a run failed, or its self-test did; reproduce found a difference, or validate a wrong verdict
+  1    a run failed, or its self-test did; reproduce found a difference, report --check a fault, validate a wrong verdict
   2    bad input: one line on stderr says where and what is allowed
   130  interrupted: what was finished is kept, and the line that continues is printed
 

@@ -33,6 +33,13 @@ std::string dry_run_reply(const RunRecord& run, const std::string& out, double e
   return line(reply);
 }
 
+std::string list_cells_reply(const RunRecord& run, const std::string& out, std::span<const Unit> units) {
+  ordered_json reply = size_of(run, out);
+  reply["cells"] = ordered_json::array();
+  for (const Unit& unit : units) reply["cells"].push_back({{"key", unit.key}, {"trials", unit.trials}});
+  return line(reply);
+}
+
 std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard) {
   ordered_json reply = size_of(run, out);
   reply["shard"] = shard;

@@ -33,8 +33,12 @@ Action declare_list(CLI::App& self) {
   };
 }
 
+constexpr const char* examples = R"(  thinwall list
+  thinwall list --json
+)";
+
 }  // namespace
 
-Command list_command() { return {"list", "Print every experiment and its question", "", declare_list}; }
+Command list_command() { return {"list", "Print every experiment and its question", examples, declare_list}; }
 
 }  // namespace thinwall

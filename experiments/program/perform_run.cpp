@@ -52,6 +52,15 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> uni
   return exit_done;
 }
 
+int list_cells(const RunWish& wish, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
+  if (wish.json) {
+    out << list_cells_reply(run, wish.out, units);
+  } else {
+    for (const Unit& unit : units) out << fmt::format("{:>12}  {}\n", unit.trials, one_line(unit.key));
+  }
+  return exit_done;
+}
+
 int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, const Call& call) {
   auto& [experiments, argv, out, err] = call;
   for (const std::string& trouble : draw_figures(wish.out, wish.figures).troubles) err << trouble << "\n";
@@ -135,6 +144,7 @@ int perform_run(const RunWish& given, const Call& call) try {
   RunWish wish = given;
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, given, call, units);
+  if (wish.list_cells) return list_cells(wish, record, units, call.out);
   if (wish.dry_run) return dry_run(wish, record, units, call.out);
 
   const RunIdentity identity{.experiment = record.experiment,

@@ -17,7 +17,7 @@ struct RunWish {
   std::string target;  ///< an experiment's name or a TOML file
   RunRequest request;
   std::string out;  ///< the result folder; empty for the default
-  bool dry_run = false, json = false;
+  bool dry_run = false, list_cells = false, json = false;
   std::vector<std::string> figures;  ///< formats to draw beside SVG
   std::optional<Shard> shard;        ///< compute this part alone, and leave it for `merge`
   std::optional<ShardSet> merged;    ///< the finished parts of the run, in place of `target` and what chooses it

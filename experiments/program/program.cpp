@@ -16,7 +16,10 @@ int run_program(const std::vector<std::string>& argv, std::span<const Experiment
   const bool quiet = launch_of_this_process().rank > 0;  // of the ranks that mpirun started, one speaks
   std::ostream& notes = quiet ? nowhere : err;
   try {
-    return parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, notes});
+    const int status = parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, notes});
+    if (out.flush()) return status;
+    notes << "failed: stdout cannot be written" << std::endl;  // a full disk, where it goes to a file
+    return exit_failed;
   } catch (const UsageError& error) {
     notes << error.what() << std::endl;
     return exit_bad_input;

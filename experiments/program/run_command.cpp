@@ -14,6 +14,7 @@ namespace {
 constexpr const char* examples = R"(  thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
   thinwall run scene.toml --trace --plan full
+  thinwall run thin_wall --list-cells
   thinwall run my.toml --shard 2/4 --out part2    then: thinwall merge part1 part2 part3 part4 --out whole
   mpirun -n 8 thinwall run my.toml
 )";
@@ -41,6 +42,7 @@ void add_run_options(CLI::App& self, RunText& text) {
   add_out(self, text.out);
   add_threads(self, text.threads);
   add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
+  add_flag(self, "--list-cells", text.wish.list_cells, "Print the key and the trials of every unit, and write nothing");
   add_seed(self, text.seed);
   add_plan_kind(self, text.plan);
   add_figures(self, text.figures);

@@ -1,0 +1,206 @@
+#include <thinwall/experiments/program/completion.hpp>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <thinwall/experiments/program/command.hpp>
+
+namespace thinwall {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> out(1);
+  for (const char letter : text) {
+    if (letter == at) {
+      out.emplace_back();
+    } else {
+      out.back() += letter;
+    }
+  }
+  return out;
+}
+
+bool is_word(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
+}
+
+/// `form` is what the help shows in the place of a value: `lean|full`, `NAME|FILE.toml`, `DIR`.
+CompletedValue value_of_form(const std::string& form, std::span<const Experiment> experiments) {
+  CompletedValue out;
+  for (const std::string& part : split(form, '|')) {
+    if (part == "NAME") {
+      for (const Experiment& experiment : experiments) out.words.emplace_back(experiment.name);
+    } else if (part.ends_with(".toml")) {
+      out.toml = true;
+    } else if (part.starts_with("DIR") || part.starts_with("RESULT") || part.starts_with("SHARD...")) {
+      out.folder = true;
+    } else if (is_word(part)) {
+      out.words.push_back(part);
+    }
+  }
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between = " ") {
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+/// In single quotes, for each of the three shells.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char letter : text) out += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return out + "'";
+}
+
+std::vector<std::string> names_of(const CompletedCommand& command) {
+  std::vector<std::string> out;
+  for (const CompletedOption& option : command.options) out.push_back(option.name);
+  return out;
+}
+
+// bash -------------------------------------------------------------------------------------------------------------
+
+/// Sets what `_thinwall` may offer: words, and whether files.
+std::string bash_value(const CompletedValue& value) {
+  return fmt::format("words={} toml={} folder={}", quoted(joined(value.words)), value.toml ? 1 : 0,
+                     value.folder ? 1 : 0);
+}
+
+constexpr const char* bash_end = R"(  mapfile -t COMPREPLY < <(
+    compgen -W "$words" -- "$cur"
+    ((toml)) && compgen -f -X '!*.toml' -- "$cur"
+    ((toml || folder)) && compgen -d -- "$cur"
+  )
+  if ((toml || folder)); then compopt -o filenames 2>/dev/null; fi
+  return 0
+}
+complete -F _thinwall thinwall
+)";
+
+std::string bash_script(std::span<const CompletedCommand> commands) {
+  std::vector<std::string> names;
+  std::string values, targets;
+  for (const CompletedCommand& command : commands) {
+    names.push_back(command.name);
+    for (const CompletedOption& option : command.options) {
+      if (!option.takes_value) continue;
+      values += fmt::format("    {}:{}) {} is_value=1 ;;\n", command.name, option.name, bash_value(option.value));
+    }
+    targets += fmt::format("    {}) {}; [[ $cur == -* ]] && {{ words={}; toml=0; folder=0; }} ;;\n", command.name,
+                           bash_value(command.target), quoted(joined(names_of(command))));
+  }
+  return "# Completion of thinwall for bash. To load it: source <(thinwall completion bash)\n"
+         "_thinwall() {\n"
+         "  local cur=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}\n"
+         "  local words= toml=0 folder=0 is_value=0\n"
+         "  ((COMP_CWORD == 1)) && words=" +
+         quoted(joined(names) + " --help --version") +
+         "\n"
+         "  ((COMP_CWORD > 2)) && case $command:$before in\n" +
+         values +
+         "  esac\n"
+         "  ((COMP_CWORD > 1 && !is_value)) && case $command in\n" +
+         targets + "  esac\n" + bash_end;
+}
+
+// zsh --------------------------------------------------------------------------------------------------------------
+
+/// Within an argument of _arguments or _describe.
+std::string zsh_escaped(const std::string& text) {
+  std::string out;
+  for (const char letter : text)
+    out += (std::string_view("[]:\\").find(letter) != std::string_view::npos ? "\\" : "") + std::string(1, letter);
+  return out;
+}
+
+std::string zsh_action(const CompletedValue& value) {
+  std::string out;
+  if (!value.words.empty()) out += fmt::format(" \"words:word:({})\"", joined(value.words));
+  if (value.toml) out += " \"files:TOML file:_files -g \\\"*.toml\\\"\"";
+  if (value.folder) out += " \"folders:folder:_files -/\"";
+  return out.empty() ? " " : "{_alternative" + out + "}";
+}
+
+std::string zsh_script(std::span<const CompletedCommand> commands) {
+  std::string names, cases;
+  for (const CompletedCommand& command : commands) {
+    names += "    " + quoted(zsh_escaped(command.name) + ":" + zsh_escaped(command.summary)) + "\n";
+    cases += fmt::format("    {})\n      _arguments", command.name);
+    for (const CompletedOption& option : command.options) {
+      cases += " \\\n        " + quoted(fmt::format("{}[{}]{}", option.name, zsh_escaped(option.meaning),
+                                                    option.takes_value ? ":value:" + zsh_action(option.value) : ""));
+    }
+    cases += " \\\n        " + quoted("*::argument:" + zsh_action(command.target)) + " ;;\n";
+  }
+  return "#compdef thinwall\n"
+         "# Completion of thinwall for zsh. To load it: source <(thinwall completion zsh)\n"
+         "_thinwall() {\n  local -a commands=(\n" +
+         names +
+         "  )\n  if ((CURRENT == 2)); then\n    _describe command commands\n    return\n  fi\n"
+         "  local command=$words[2]\n  shift words\n  ((CURRENT--))\n  case $command in\n" +
+         cases +
+         "  esac\n}\n"
+         "if [[ $funcstack[1] == _thinwall ]]; then _thinwall \"$@\"; else compdef _thinwall thinwall; fi\n";
+}
+
+// fish -------------------------------------------------------------------------------------------------------------
+
+std::string fish_quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char letter : text) out += (letter == '\'' || letter == '\\' ? "\\" : "") + std::string(1, letter);
+  return out + "'";
+}
+
+std::string fish_arguments(const CompletedValue& value) {
+  std::vector<std::string> parts = value.words;
+  if (value.toml) parts.emplace_back("(__fish_complete_suffix .toml)");
+  if (value.folder) parts.emplace_back("(__fish_complete_directories)");
+  return parts.empty() ? "" : " -a " + fish_quoted(joined(parts));
+}
+
+std::string fish_script(std::span<const CompletedCommand> commands) {
+  std::string out =
+      "# Completion of thinwall for fish. To load it: thinwall completion fish | source\ncomplete -c thinwall -f\n";
+  for (const CompletedCommand& command : commands) {
+    out += fmt::format("complete -c thinwall -n __fish_use_subcommand -a {} -d {}\n", command.name,
+                       fish_quoted(command.summary));
+    const std::string here = fmt::format("complete -c thinwall -n '__fish_seen_subcommand_from {}'", command.name);
+    for (const CompletedOption& option : command.options) {
+      out += fmt::format("{} -l {}{} -d {}\n", here, option.name.substr(2),
+                         option.takes_value ? " -x" + fish_arguments(option.value) : "", fish_quoted(option.meaning));
+    }
+    if (const std::string target = fish_arguments(command.target); !target.empty()) out += here + target + "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<CompletedCommand> completed_commands(std::span<const Experiment> experiments) {
+  std::vector<CompletedCommand> out;
+  for (const Command& command : commands()) {
+    CLI::App app;
+    app.set_help_flag("-h,--help", "Print this");
+    command.declare(app);
+    CompletedCommand completed{command.name, command.summary, {}, {}};
+    for (const CLI::Option* option : app.get_options()) {
+      const CompletedValue value = value_of_form(option->get_option_text(), experiments);
+      if (option->get_positional()) {
+        completed.target = value;
+      } else {
+        completed.options.push_back({"--" + option->get_lnames().front(), option->get_description(),
+                                     option->get_items_expected_max() > 0, value});
+      }
+    }
+    out.push_back(std::move(completed));
+  }
+  return out;
+}
+
+std::string completion_script(std::string_view shell, std::span<const CompletedCommand> commands) {
+  return shell == "bash" ? bash_script(commands) : shell == "zsh" ? zsh_script(commands) : fish_script(commands);
+}
+
+}  // namespace thinwall
