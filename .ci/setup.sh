@@ -15,6 +15,9 @@ test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev)
 # To check everything else. clang-format 16 is the first to lay out `requires` clauses well; the compiler is the oldest
 # we support; libclang-rt holds its sanitizers and libFuzzer.
 check_packages=(clang-14 libclang-rt-14-dev clang-format-16 clang-tidy-14)
+
+# What readers of a result use, for the tests in tests/results/; each is skipped where its program is absent.
+check_packages+=(chromium texlive-latex-base texlive-latex-recommended python3 python3-jsonschema)
 check_commands=(clang++-14 clang-format-16 clang-tidy-14)
 
 say() { printf '\n==> %s\n' "$*"; }

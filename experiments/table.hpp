@@ -18,6 +18,9 @@ struct Column {
   ColumnType type = ColumnType::number;
   std::string unit;         ///< "m/s", "deg", "1"; empty for text
   std::string description;  ///< one sentence
+  /// The names of the columns of the same table that hold the ends of its interval; empty if it has none. A table for readers
+  /// shows the three in one cell, rounded to what the interval supports.
+  std::string lower = {}, upper = {};
 };
 
 struct Table {

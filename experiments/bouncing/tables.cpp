@@ -26,7 +26,8 @@ Table cells(const std::vector<BounceLine>& lines) {
       delta_column(),
       {"restitution", number, "1", "Speed after over speed before."},
       {"bounces", integer, "1", "Bounces at random phase."},
-      {"mean", number, unit, "Mean change of the flight's energy, beyond that of the restitution."},
+      {"mean", number, unit, "Mean change of the flight's energy, beyond that of the restitution.", "mean_lower",
+       "mean_upper"},
       {"mean_lower", number, unit, "Lower end of its 95 % interval."},
       {"mean_upper", number, unit, "Upper end of its 95 % interval."},
       {"theory", number, unit, "The same by theory."},
@@ -190,7 +191,7 @@ Table bounce_timings_table(const std::vector<BounceWork>& work) {
                    step_column(),
                    {"mean_error", number, "1", "Mean change of the energy a bounce, relative."},
                    {"rms_error", number, "1", "Root of its mean square."},
-                   {"nanoseconds", number, "ns", "A bounce; median over the rounds."},
+                   {"nanoseconds", number, "ns", "A bounce; median over the rounds.", "lower", "upper"},
                    {"lower", number, "ns", "Lower end of its 95 % bootstrap interval."},
                    {"upper", number, "ns", "Upper end of it."},
                    {"nanoseconds_per_step", number, "ns", "The median over the steps of a bounce, 2 V / (g h)."}};

@@ -58,18 +58,19 @@ Table finders_table(const std::vector<SurveyLine>& lines) {
       "Time to find all pairs of a world, median over interleaved rounds with its 95 % bootstrap interval, and memory.";
   table.is_timing = true;
   table.columns = key_columns();
-  append<Column>(table.columns,
-                 {{"count", ColumnType::integer, "1", "Balls."},
-                  {"broad_phase", ColumnType::text, "", "Who finds the pairs."},
-                  {"milliseconds", ColumnType::number, "ms", "From boxes to all pairs; median over the rounds."},
-                  {"lower", ColumnType::number, "ms", "Lower end of its interval."},
-                  {"upper", ColumnType::number, "ms", "Upper end of its interval."},
-                  {"rounds", ColumnType::integer, "1", "Rounds timed."},
-                  {"nanoseconds_a_ball", ColumnType::number, "ns", "The median over the count."},
-                  {"bytes_a_ball", ColumnType::number, "byte", "Working memory and pairs; missing where not known."},
-                  {"found", ColumnType::integer, "1", "Pairs found."},
-                  {"missing", ColumnType::integer, "1", "Pairs whose boxes touch and that were not found."},
-                  {"extra", ColumnType::integer, "1", "Pairs found whose boxes do not touch."}});
+  append<Column>(
+      table.columns,
+      {{"count", ColumnType::integer, "1", "Balls."},
+       {"broad_phase", ColumnType::text, "", "Who finds the pairs."},
+       {"milliseconds", ColumnType::number, "ms", "From boxes to all pairs; median over the rounds.", "lower", "upper"},
+       {"lower", ColumnType::number, "ms", "Lower end of its interval."},
+       {"upper", ColumnType::number, "ms", "Upper end of its interval."},
+       {"rounds", ColumnType::integer, "1", "Rounds timed."},
+       {"nanoseconds_a_ball", ColumnType::number, "ns", "The median over the count."},
+       {"bytes_a_ball", ColumnType::number, "byte", "Working memory and pairs; missing where not known."},
+       {"found", ColumnType::integer, "1", "Pairs found."},
+       {"missing", ColumnType::integer, "1", "Pairs whose boxes touch and that were not found."},
+       {"extra", ColumnType::integer, "1", "Pairs found whose boxes do not touch."}});
   for (const SurveyLine& line : lines) {
     const auto count = static_cast<double>(line.factors.count);
     for (const Finding& f : line.survey.findings) {
@@ -95,7 +96,7 @@ Table growth_table(const std::vector<SurveyLine>& lines) {
   table.columns = key_columns();
   append<Column>(table.columns, {{"broad_phase", ColumnType::text, "", "Who finds the pairs."},
                                  {"counts", ColumnType::integer, "1", "Counts of 10000 and more."},
-                                 {"exponent", ColumnType::number, "1", "p."},
+                                 {"exponent", ColumnType::number, "1", "p.", "lower", "upper"},
                                  {"lower", ColumnType::number, "1", "Lower end of its interval."},
                                  {"upper", ColumnType::number, "1", "Upper end of its interval."}});
   for (const Course& c : courses(lines)) {

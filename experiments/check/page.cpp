@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -49,7 +50,8 @@ void check_stands_alone(const KeptResult& result, const std::string& page, Fault
     if (target.find('#') > 1)
       faults.push_back(fmt::format("{}: 'url({}...' in a page that stands alone", page_file, one_line(target)));
   }
-  for (const std::string& target : values_of(page, "href")) {
+  const std::vector<std::string> links = values_of(page, "href");
+  for (const std::string& target : std::set<std::string>(links.begin(), links.end())) {
     if (target.empty() || target.starts_with("#") || target.find(':') != target.npos) continue;
     if (!std::filesystem::exists(result.folder / target))
       faults.push_back(fmt::format("{}: links to '{}', which is not there", page_file, one_line(target)));

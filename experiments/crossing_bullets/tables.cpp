@@ -54,7 +54,7 @@ std::vector<Field> verdicts() {
        [](const CrossingLine& l) { return l.theory.touch * static_cast<double>(l.tally.shots); }},
       {{"missed", integer, "1", "True hits that the rule does not see."},
        [](const CrossingLine& l) { return l.tally.missed; }},
-      {{"missed_share", number, "1", "missed / touching; missing if nothing touches."},
+      {{"missed_share", number, "1", "missed / touching; missing if nothing touches.", "missed_lower", "missed_upper"},
        [](const CrossingLine& l) { return maybe(missed_share(l)); }},
       {{"missed_lower", number, "1", "Lower end of its 95 % Wilson interval."},
        [](const CrossingLine& l) { return l.tally.touching > 0 ? Value(missed_interval(l).lower) : Value(); }},

@@ -11,18 +11,19 @@ namespace {
 
 using BinOfSum = std::function<std::optional<std::size_t>(const CellSum&)>;
 
+/// In every list each bin is darker than the one before, so that the order holds in gray.
 const std::vector<HeatBin>& share_bins() {
-  static const std::vector<HeatBin> bins = {{"none", "#dfe8f0"},
-                                            {"up to 1 %", "#fdd49e"},
-                                            {"up to 10 %", "#fc8d59"},
+  static const std::vector<HeatBin> bins = {{"none", "#e6eef6"},
+                                            {"up to 1 %", "#f2b36b"},
+                                            {"up to 10 %", "#e77a44"},
                                             {"up to half", "#d7301f"},
                                             {"more", "#7f0000"}};
   return bins;
 }
 const std::vector<HeatBin>& error_bins() {
-  static const std::vector<HeatBin> bins = {{"up to 1", "#dfe8f0"},   {"up to 4", "#a6c8e0"},
-                                            {"up to 100", "#fee391"}, {"up to 1e4", "#fe9929"},
-                                            {"up to 1e8", "#cc4c02"}, {"more than 1e8", "#662506"}};
+  static const std::vector<HeatBin> bins = {{"up to 1", "#e6eef6"},   {"up to 4", "#b4d6ee"},
+                                            {"up to 100", "#eaa838"}, {"up to 1e4", "#dc741a"},
+                                            {"up to 1e8", "#b43f0a"}, {"more than 1e8", "#571c06"}};
   return bins;
 }
 std::optional<std::size_t> share_bin(std::int64_t part, std::int64_t whole) {
@@ -165,11 +166,11 @@ std::vector<Figure> extreme_figures(const std::vector<ExtremeLine>& lines) {
     if (s.gave_up > 0) return 10 * s.gave_up > s.queries ? 2 : 1;
     return 0;
   };
-  const std::vector<HeatBin> silences = {{"all answered", "#dfe8f0"},
+  const std::vector<HeatBin> silences = {{"all answered", "#e6eef6"},
                                          {"gave up, up to 10 %", "#9e9ac8"},
                                          {"gave up, more", "#54278f"},
-                                         {"NaN or invalid, up to 10 %", "#fc8d59"},
-                                         {"NaN or invalid, more", "#b30000"}};
+                                         {"NaN or invalid, up to 10 %", "#f5c48a"},
+                                         {"NaN or invalid, more", "#d95f02"}};
   std::vector<Figure> figures;
   const auto add = [&](Figure figure) {
     if (!figure.panels.empty()) figures.push_back(std::move(figure));

@@ -108,7 +108,7 @@ std::string named_axis_lines(std::string_view name, const Axis& axis, const std:
   for (const Tic& tic : named) {
     list.push_back(fmt::format("{} {}", spelled(labeled ? tic.label : ""), rounded_text(tic.at, 9)));
   }
-  const char* look = name == "x" ? " rotate by 90 right font sized(11)" : name == "x2" ? " scale 0 font sized(13)" : "";
+  const char* look = name == "x" ? " rotate by 90 right font @small" : name == "x2" ? " scale 0 font @middling" : "";
   return fmt::format(
              "set {0}range [{1}:{2}]\nunset logscale {0}\nset {0}tics autofreq\nset {0}tics{3} noenhanced ({4})\n",
              name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), look,
@@ -161,7 +161,9 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
       "#   gnuplot -e \"format='tex'\" {1}.gp    {1}-latex.tex and {1}-latex.pdf, to \\input in LaTeX (graphicx, color)\n"
       "reset\nset encoding utf8\nif (!exists('format')) format = 'svg'\nif (!exists('width')) width = {4}  # [inch] in print\n"
       "unit = format eq 'svg' ? 1 : 72 * width / {2:.0f}  # of the sizes below: a pixel, or [point] in print\n"
-      "sized(units) = sprintf(',%.4g', units * unit)\ntext_of(plain, latex) = format eq 'tex' ? latex : plain\n"
+      "sized(units) = sprintf(',%.4g', units * unit)\n"
+      "small = \"'\".sized(11).\"'\"; middling = \"'\".sized(13).\"'\"  # macros: the font of tics takes no expression\n"
+      "text_of(plain, latex) = format eq 'tex' ? latex : plain\n"
       "if (format eq 'svg') set terminal svg size {2:.0f},{3:.0f} dynamic enhanced rounded background '#ffffff' name '{1}' "
       "font 'Arial,Helvetica,sans-serif,15'\n"
       "if (format eq 'pdf') set terminal pdfcairo size width,width*{3:.0f}/{2:.0f} enhanced rounded font 'Sans'.sized(15) "

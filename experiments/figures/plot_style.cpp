@@ -12,8 +12,9 @@ namespace {
 constexpr std::array palette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr std::array line_grays = {"#000000", "#767676"};
 
-// Circle, square, triangle up, diamond, triangle down: open, because measurements lie on each other, then filled.
-constexpr std::array point_types = {6, 4, 8, 12, 10, 7, 5, 9, 13, 11};
+// Circle, square, triangle up, diamond, triangle down: open, because measurements lie on each other, then filled. Then a cross, a
+// plus and a star: more shapes than colors, so that entries differ in gray too.
+constexpr std::array point_types = {6, 4, 8, 12, 10, 7, 5, 9, 13, 11, 2, 1, 3};
 
 void set_look(std::vector<SeriesStyle>& styles) {
   std::size_t lines = 0, colors = 0;

@@ -1,7 +1,10 @@
 #include <thinwall/experiments/hitscan/tables.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+
+#include <thinwall/experiments/tables/without_columns.hpp>
 
 namespace thinwall {
 
@@ -53,7 +56,7 @@ std::vector<Field> verdicts() {
        [](const HitscanLine& l) { return l.expected.touch * static_cast<double>(l.tally.shots); }},
       {{"missed", integer, "1", "True hits that the rule does not see."},
        [](const HitscanLine& l) { return l.tally.missed; }},
-      {{"missed_share", number, "1", "missed / touching; missing if nothing touches."},
+      {{"missed_share", number, "1", "missed / touching; missing if nothing touches.", "missed_lower", "missed_upper"},
        [](const HitscanLine& l) { return maybe(missed_share(l)); }},
       {{"missed_lower", number, "1", "Lower end of its 95 % Wilson interval."},
        [=](const HitscanLine& l) { return l.tally.touching > 0 ? Value(missed(l).lower) : Value(); }},
@@ -65,7 +68,8 @@ std::vector<Field> verdicts() {
        [](const HitscanLine& l) { return l.tally.reported(); }},
       {{"false_hits", integer, "1", "Of those, shots whose bullet does not touch."},
        [](const HitscanLine& l) { return l.tally.false_hits; }},
-      {{"false_share", number, "1", "false_hits / reported; missing if nothing is reported."},
+      {{"false_share", number, "1", "false_hits / reported; missing if nothing is reported.", "false_lower",
+        "false_upper"},
        [](const HitscanLine& l) { return maybe(false_share(l)); }},
       {{"false_lower", number, "1", "Lower end of its 95 % Wilson interval."},
        [=](const HitscanLine& l) { return l.tally.reported() > 0 ? Value(wrong(l).lower) : Value(); }},
@@ -136,9 +140,14 @@ Table known_shots_table(const std::vector<HitscanLine>& lines) {
                [](const HitscanLine& l) { return is_known(l.cell); });
   Table table = make_table(known);
   table.name = "known_shots";
-  table.description = "Shots whose numbers a reader knows, at every rule.";
+  table.description =
+      "Shots whose numbers a reader knows, at every rule; cells.csv holds all that was measured of them.";
   table.in_report = true;
-  return table;
+  constexpr std::array<std::string_view, 14> left_out = {
+      "drag",         "flight_time", "deflection",     "touching",         "touching_theory",  "missed",
+      "reported",     "false_hits",  "path_error_max", "point_error_mean", "path_error_bound", "point_error_max",
+      "lateness_min", "lateness_max"};
+  return without_columns(table, left_out);
 }
 
 }  // namespace thinwall

@@ -39,7 +39,8 @@ Table savings_table(const PlanResults& results) {
       {"scene", text, "", "Scene."},
       {"way", text, "", "The plan, the omission that is taken back, the full plan, or the gate."},
       {"time", number, "ms", "Processor time of a step: median over the rounds."},
-      {"saved", number, "ms", "Time of a step less that of the plan: median over the rounds of the differences."},
+      {"saved", number, "ms", "Time of a step less that of the plan: median over the rounds of the differences.",
+       "saved_lower", "saved_upper"},
       {"saved_lower", number, "ms", "Its 95 % bootstrap interval."},
       {"saved_upper", number, "ms", "Its 95 % bootstrap interval."},
       {"ratio", number, "1", "Time over that of the plan."},
@@ -88,7 +89,7 @@ Table gate_table(const PlanResults& results) {
   const std::vector<Column> more = {
       {"shots", integer, "1", "Balls, each of which meets its target."},
       {"missed", integer, "1", "Of these, never told to have met it."},
-      {"missed_share", number, "1", "Share of the shots."},
+      {"missed_share", number, "1", "Share of the shots.", "lower", "upper"},
       {"lower", number, "1", "Its 95 % Wilson interval."},
       {"upper", number, "1", "Its 95 % Wilson interval."},
       {"theory", number, "1", "Chance to be missed."},

@@ -111,10 +111,11 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
              html_escaped(run.experiment), html_escaped(run.question), report_style, html_escaped(run.build.version),
              utc_text(run.finished).substr(0, 10)) +
          paragraphs(outcome.answer, " class=\"answer\"") + verdict(outcome.self_test_passed) +
-         (outcome.figures.empty() ? "" : figure_html(outcome.figures.front(), parts)) + section("Tables", tables) +
-         section("More figures", figures) + section("Method", method) + section("Limits", limits) +
-         section("How to reproduce", reproduction(run)) + section("Configuration", configuration(run)) +
-         section("Provenance", provenance(run)) + section("Files", file_links(parts.files)) +
+         (outcome.figures.empty() ? "" : figure_html(outcome.figures.front(), parts)) +
+         section("More figures", figures) + section("Tables", tables) + section("Method", method) +
+         section("Limits", limits) + section("How to reproduce", reproduction(run)) +
+         section("Configuration", configuration(run)) + section("Provenance", provenance(run)) +
+         section("Files", file_links(parts.files)) +
          section("How to cite", fmt::format("<pre><code>{}</code></pre>\n", html_escaped(parts.citation))) +
          "</main>\n</body>\n</html>\n";
 }

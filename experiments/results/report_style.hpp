@@ -32,13 +32,17 @@ thead th { border-top: 2px solid var(--ink); border-bottom: 1px solid var(--ink)
 tbody tr:last-child td { border-bottom: 2px solid var(--ink); }
 th, td { padding: .25rem .7rem .25rem 0; text-align: left; font-weight: normal; }
 thead th { font-weight: 600; }
-th.n, td.n { text-align: right; white-space: nowrap; }
+th.n, td.n { text-align: right; }
+td.n { white-space: nowrap; }
+.wide th:first-child, .wide td:first-child { position: sticky; left: 0; background: #fff; }
+.u { white-space: nowrap; }
+.i { color: var(--soft); }
 tbody tr:hover { background: var(--tint); }
 pre { background: var(--tint); padding: .7rem .9rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .25rem 1.2rem; font-size: .92rem; }
 dt { color: var(--soft); }
-dd { margin: 0; }
+dd { margin: 0; overflow-wrap: anywhere; }
 sup { line-height: 0; }
 ul { padding-left: 1.2rem; columns: 17rem; }
 .caption a { white-space: nowrap; }
@@ -46,16 +50,20 @@ ul { padding-left: 1.2rem; columns: 17rem; }
   body { font-size: 16px; }
   h1 { font-size: 1.4rem; }
   figure .wide svg { min-width: 34rem; }
-  dl { grid-template-columns: 1fr; }
+  figure .wide::before { content: "Wider than this screen: move it sideways \2192"; position: sticky; left: 0; font-size: .8rem; color: var(--soft); }
+  dl { grid-template-columns: minmax(0, 1fr); }
   dd { margin-bottom: .4rem; }
 }
 @media print {
+  figure svg { max-height: 16.5cm; }
   body { font-size: 10pt; }
   main { max-width: none; padding: 0; }
   a { color: inherit; text-decoration: none; }
   .wide, pre { overflow: visible; }
   pre { white-space: pre-wrap; }
   table { font-size: 7.5pt; }
+  th, td { padding-right: .4rem; }
+  .wide table.many { font-size: 5.5pt; }
   figure, tr, pre { break-inside: avoid; }
   h2, h3, .caption { break-after: avoid; }
   thead { display: table-header-group; }

@@ -87,11 +87,12 @@ std::string answer_text(const std::vector<Total>& totals) {
   std::string text;
   for (const Total& t : of_one_scalar(totals)) {
     if (t.method == "end_of_step" && t.theory_shots > 0) {
+      const Interval bars = wilson(t.theory_tunneled, t.theory_shots);  // too wide, if anything: the cells differ
       text += fmt::format(
           "Of {} shots for which theory has a formula, testing only the end of the step let {} through "
-          "(theory {}). ",
+          "(95 % interval {:.2f} to {}; theory {}). ",
           grouped_text(t.theory_shots), percent(share(static_cast<double>(t.theory_tunneled), t.theory_shots)),
-          percent(share(t.theory_expected, t.theory_shots)));
+          100 * bars.lower, percent(bars.upper), percent(share(t.theory_expected, t.theory_shots)));
     }
     if (t.method == "closed_form" && t.tunneled + t.undecided == 0) {
       text += fmt::format(

@@ -1,8 +1,10 @@
 #include <thinwall/experiments/thin_wall/tables.hpp>
 
+#include <array>
 #include <functional>
 #include <string>
 
+#include <thinwall/experiments/tables/without_columns.hpp>
 #include <thinwall/experiments/thin_wall/bounce_results.hpp>
 
 namespace thinwall {
@@ -53,7 +55,8 @@ std::vector<Field> counts() {
        [](const Line& l) { return l.tally.tunneled; }},
       {{"undecided", integer, "1", "Shots that ended because the method gave up."},
        [](const Line& l) { return l.tally.undecided; }},
-      {{"probability", number, "1", "tunneled / shots."}, [](const Line& l) { return probability(l); }},
+      {{"probability", number, "1", "tunneled / shots.", "lower", "upper"},
+       [](const Line& l) { return probability(l); }},
       {{"lower", number, "1", "Lower end of the 95 % Wilson interval."},
        [](const Line& l) { return interval(l).lower; }},
       {{"upper", number, "1", "Upper end of the 95 % Wilson interval."},
@@ -95,7 +98,7 @@ std::vector<Field> bounces() {
        [](const Line& l) { return l.tally.wrong_side; }},
       {{"behind", integer, "1", "Shots that flew away behind the wall in the end, the tunneled included."},
        [](const Line& l) { return l.tally.behind; }},
-      {{"through", number, "1", "(tunneled + wrong_side) / shots."},
+      {{"through", number, "1", "(tunneled + wrong_side) / shots.", "through_lower", "through_upper"},
        [](const Line& l) { return static_cast<double>(went_through(l.tally)) / static_cast<double>(l.tally.shots); }},
       {{"through_lower", number, "1", "Lower end of the 95 % Wilson interval."},
        [through](const Line& l) { return through(l).lower; }},
@@ -142,7 +145,8 @@ Table bullet_table(const std::vector<Line>& lines) {
   table.name = "bullet";
   table.description = "The bullet at 10 m/s that is before the wall at one frame and behind it at the next.";
   table.in_report = true;
-  return table;
+  constexpr std::array<std::string_view, 3> left_out = {"lateness_min", "gap_max", "queries"};  // cells.csv has them
+  return without_columns(table, left_out);
 }
 
 Table timings_table(const std::vector<Line>& lines) {

@@ -77,11 +77,12 @@ Table times_table(const std::vector<Heat>& heats) {
       "Time a query on this machine: the median over interleaved rounds, with its 95 % bootstrap interval.";
   table.is_timing = true;
   table.columns = key_columns();
-  append(table.columns, {{"nanoseconds", ColumnType::number, "ns", "A query; median over the rounds."},
-                         {"lower", ColumnType::number, "ns", "Lower end of its interval."},
-                         {"upper", ColumnType::number, "ns", "Upper end of its interval."},
-                         {"rounds", ColumnType::integer, "1", "Rounds timed."},
-                         {"on_front", ColumnType::boolean, "", "Nobody is both finer and faster."}});
+  append(table.columns,
+         {{"nanoseconds", ColumnType::number, "ns", "A query; median over the rounds.", "lower", "upper"},
+          {"lower", ColumnType::number, "ns", "Lower end of its interval."},
+          {"upper", ColumnType::number, "ns", "Upper end of its interval."},
+          {"rounds", ColumnType::integer, "1", "Rounds timed."},
+          {"on_front", ColumnType::boolean, "", "Nobody is both finer and faster."}});
   for (const Heat& heat : heats) {
     const std::vector<const Racer*> front = pareto_front(heat);
     for (const Racer& r : heat.racers) {
@@ -105,17 +106,17 @@ Table trailing_table(const std::vector<Heat>& heats) {
   table.is_timing = true;
   table.in_report = true;
   table.columns = key_columns();
-  append(
-      table.columns,
-      {{"missed", ColumnType::integer, "1", "Contacts that it does not see."},
-       {"false_share", ColumnType::number, "1", "Share of the misses, asked apart, that it calls a hit."},
-       {"error_median", ColumnType::number, "step", "Median error of the time of impact."},
-       {"error_p99", ColumnType::number, "step", "99th percentile of the same; missing: it misses more than 1 %."},
-       {"evaluations", ColumnType::number, "1", "A query, on average."},
-       {"nanoseconds", ColumnType::number, "ns", "A query; median over the rounds."},
-       {"times_closed_form", ColumnType::number, "1", "Its time over that of the closed form, round by round; median."},
-       {"lower", ColumnType::number, "1", "Lower end of the 95 % bootstrap interval of the same."},
-       {"upper", ColumnType::number, "1", "Upper end of the same."}});
+  append(table.columns,
+         {{"missed", ColumnType::integer, "1", "Contacts that it does not see."},
+          {"false_share", ColumnType::number, "1", "Share of the misses, asked apart, that it calls a hit."},
+          {"error_median", ColumnType::number, "step", "Median error of the time of impact."},
+          {"error_p99", ColumnType::number, "step", "99th percentile of the same; missing: it misses more than 1 %."},
+          {"evaluations", ColumnType::number, "1", "A query, on average."},
+          {"nanoseconds", ColumnType::number, "ns", "A query; median over the rounds."},
+          {"times_closed_form", ColumnType::number, "1",
+           "Its time over that of the closed form, round by round; median.", "lower", "upper"},
+          {"lower", ColumnType::number, "1", "Lower end of the 95 % bootstrap interval of the same."},
+          {"upper", ColumnType::number, "1", "Upper end of the same."}});
   for (const Heat& heat : heats) {
     if (heat.kind != QueryClass::hit) continue;
     const Racer* exact = closed_form_of(heat);

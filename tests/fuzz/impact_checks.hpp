@@ -4,6 +4,7 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "fuzz/discrete_checks.hpp"
+#include "fuzz/moderate.hpp"
 
 namespace thinwall::fuzz {
 
@@ -41,13 +42,14 @@ void check_answer(const Scene<A, B>& scene, const std::string& method, const Toi
   if (ordinary) expect(is_finite(toi.point), "the point is not finite");
 }
 
-/// The closed form: it always answers, and the other way round says the same.
+/// The closed form: it always answers, unless numbers 2^50 apart leave no digits to walk by; the other way round says the same.
 template <class A, class B> Toi<typename A::Scalar> check_closed_form(const Scene<A, B>& scene) {
   using S = typename A::Scalar;
   const Check check(scene);
   const Toi<S> there = time_of_impact(scene.a, scene.b), back = time_of_impact(scene.b, scene.a);
   check_answer(scene, "closed form", there);
-  check(there.status != ToiStatus::gave_up, "closed form: gave up", [&] { return text(there); });
+  check(there.status != ToiStatus::gave_up || !is_moderate(scene, 25), "closed form: gave up",
+        [&] { return text(there); });
   const auto both = [&] { return text(there) + "\n  " + text(back); };
   if constexpr (std::is_same_v<A, B>) {
     check_answer(scene, "closed form, the other way round", back);

@@ -100,6 +100,21 @@ TEST(Plot, cells_stand_between_names) {
   }
 }
 
+TEST(Plot, is_drawn_in_every_format_from_one_script) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "probability.gp", plot_script(two_panels()));
+  write_text(folder / "probability.dat", plot_data(two_panels()));
+  for (const char* format : {"svg", "pdf", "tex"}) {
+    ASSERT_EQ(draw(folder.path(), "probability", format), "") << format;
+    for (const std::string& file : drawn_files("probability", format))
+      EXPECT_FALSE(read_text(folder / file).empty()) << file;
+  }
+  EXPECT_NE(read_text(folder / "probability-latex.tex").find("it's\\_@\\{a\\}"), std::string::npos)
+      << "as LaTeX wants it";
+  EXPECT_NE(read_text(folder / "probability.svg").find("_@{a}"), std::string::npos) << "as it is";
+}
+
 TEST(Plot, refuses_what_cannot_be_drawn) {
   Figure figure = two_panels();
   figure.name = "../up";

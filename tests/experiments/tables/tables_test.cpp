@@ -113,6 +113,35 @@ TEST(ShownTable, is_what_latex_and_html_expect) {
   EXPECT_NE(html.find("<td class=\"n\">&minus;1.5&times;10<sup>&minus;7</sup></td>"), std::string::npos) << html;
 }
 
+Table table_with_intervals() {
+  Table table{.name = "cells", .description = "Shares.", .columns = {}, .rows = {}};
+  table.columns = {{"method", ColumnType::text, "", "How."},
+                   {"share_percent", ColumnType::number, "percent", "Missed.", "lower", "upper"},
+                   {"lower", ColumnType::number, "percent", "Lower end of its 95 % Wilson interval."},
+                   {"upper", ColumnType::number, "percent", "Upper end of it."}};
+  table.rows = {{std::string("a"), 28.723, 28.591, 28.851},
+                {std::string("b"), Value{}, Value{}, Value{}},
+                {std::string("c"), 1.5, Value{}, Value{}}};
+  return table;
+}
+
+TEST(ShownTable, shows_a_value_and_its_interval_in_one_cell) {
+  EXPECT_EQ(markdown_table(table_with_intervals()),
+            "Shares. Brackets hold its 95 % Wilson interval.\n\n| method | share [percent] |\n| :--- | ---: |\n"
+            "| a | 28.72 [28.59, 28.85] |\n| b | \u2013 |\n| c | 1.5 |\n");
+  EXPECT_NE(latex_table(table_with_intervals()).find("  a & $28.72$ $[28.59, 28.85]$ \\\\\n"), std::string::npos);
+  EXPECT_NE(html_table(table_with_intervals()).find("28.72 <span class=\"i\">[28.59, 28.85]</span></td>"),
+            std::string::npos);
+  EXPECT_TRUE(
+      csv_text(table_with_intervals()).starts_with("method,share_percent,lower,upper\na,28.723,28.591,28.851\n"));
+}
+
+TEST(ShownTable, refuses_an_interval_whose_end_is_no_column) {
+  Table table = table_with_intervals();
+  table.columns[1].upper = "most";
+  EXPECT_THROW(markdown_table(table), std::logic_error);
+}
+
 TEST(ResolvedToml, resolves_to_itself) {
   RunRecord run;
   run.experiment = "toy";

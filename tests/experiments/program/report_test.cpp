@@ -1,0 +1,217 @@
+/// `thinwall report`: what a result says, what is wrong with its folder, and its figures for print.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <thinwall/experiments/check/check.hpp>
+#include <thinwall/experiments/check/csv_reader.hpp>
+
+#include "support/toy_program.hpp"
+
+namespace thinwall {
+namespace {
+
+bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null") == 0; }
+
+struct ReportTest : ToyProgram {
+  void SetUp() override {
+    if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed: a folder without its figures is not whole";
+    ASSERT_EQ(run({"--seed", "3"}).status, 0);
+  }
+
+  /// Changes a file of the result from `from` to `to`, and the manifest's hash with it if `rehash`.
+  void change(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = read_text(out + "/" + file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, text.npos) << file << " does not hold " << from;
+    write_text(out + "/" + file, text.replace(at, from.size(), to));
+  }
+
+  void expect_fault(const std::string& fault) const {
+    const auto faults = check_result(out);
+    const bool found = std::ranges::find_if(faults, [&](const std::string& line) {
+                         return line.find(fault) != line.npos;
+                       }) != faults.end();
+    std::string all;
+    for (const std::string& line : faults) all += line + "\n";
+    EXPECT_TRUE(found) << "not said: " << fault << "\nsaid:\n" << all;
+  }
+};
+
+TEST_F(ReportTest, prints_question_answer_and_summary) {
+  const Reply reply = call({"report", out});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(reply.out,
+            "What is a square?\n\nThe squares & <their> sum.\n\ncells: 20\n\nreport: " + out + "/report.html\n");
+  const auto json = nlohmann::json::parse(call({"report", out, "--json"}).out);
+  EXPECT_EQ(json.at("question"), "What is a square?");
+  EXPECT_EQ(json.at("run_id"), manifest().at("run_id"));
+  EXPECT_EQ(json.at("drawn"), nlohmann::json::array());
+}
+
+TEST_F(ReportTest, finds_a_fresh_folder_whole) {
+  const Reply reply = call({"report", out, "--check"});
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_EQ(reply.out, out + ": whole: no fault was found\n");
+  EXPECT_EQ(nlohmann::json::parse(call({"report", out, "--check", "--json"}).out).at("whole"), true);
+}
+
+TEST_F(ReportTest, names_every_fault_and_exits_with_1) {
+  std::filesystem::remove(out + "/data/cells.csv");
+  write_text(out + "/data/mine.csv", "a\n");
+  const Reply reply = call({"report", out, "--check"});
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_NE(reply.out.find("data/cells.csv: missing; datapackage.json describes it\n"), std::string::npos) << reply.out;
+  EXPECT_NE(reply.out.find("data/cells.csv: missing; the manifest names it\n"), std::string::npos);
+  EXPECT_NE(reply.out.find("report.html: links to 'data/cells.csv', which is not there\n"), std::string::npos);
+  EXPECT_NE(reply.out.find("data/mine.csv: the manifest does not name it\n"), std::string::npos);
+  EXPECT_TRUE(reply.out.ends_with(out + ": 4 faults\n")) << reply.out;
+  EXPECT_EQ(nlohmann::json::parse(call({"report", out, "--check", "--json"}).out).at("faults").size(), 4u);
+}
+
+TEST_F(ReportTest, sees_what_became_of_the_manifest) {
+  write_text(out + "/journal.tsv", "");
+  expect_fault("journal.tsv: a run is at work here, or was interrupted");
+  std::filesystem::remove(out + "/data/timings.csv");
+  expect_fault("data/timings.csv: missing; the manifest names it");
+  write_text(out + "/manifest.json", "{}");
+  expect_fault("manifest.json: damaged, or not ours");
+  std::filesystem::remove(out + "/manifest.json");
+  expect_fault("manifest.json: missing");
+  EXPECT_EQ(call({"report", out, "--check"}).status, 1);
+  EXPECT_EQ(call({"report", out}).status, 2);
+}
+
+TEST_F(ReportTest, holds_each_table_against_its_description) {
+  const std::string good = read_text(out + "/data/cells.csv");
+  const auto expect_csv_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
+    change("data/cells.csv", from, to);
+    expect_fault(fault);
+    write_text(out + "/data/cells.csv", good);
+  };
+  expect_csv_fault("cell,square", "square,cell", "data/cells.csv:1: its columns are not those of datapackage.json");
+  expect_csv_fault("\n1,4,", "\n1.5,4,", "data/cells.csv:3: column 'cell': '1.5' is no integer");
+  expect_csv_fault("0.3333333333333333,false", "nan,false", "data/cells.csv:3: column 'root': 'nan' is no number");
+  expect_csv_fault("0.3333333333333333,false", "0.3,no", "data/cells.csv:3: column 'even': 'no' is no boolean");
+  expect_csv_fault("\n1,4,", "\n4,", "data/cells.csv:3: 4 fields, not 5");
+  expect_csv_fault("\n1,4,\"a", "\n1,4,\"a\"x\"", "data/cells.csv:3: text behind a closing quote");
+  expect_csv_fault("\n1,4,", "\n1,5,", "data/cells.csv: its SHA-256 is not that of datapackage.json");
+  expect_csv_fault("\n1,4,", "\n1,5,", "data/cells.csv: was changed since the run wrote it");
+}
+
+TEST_F(ReportTest, holds_the_datapackage_against_its_rules) {
+  const std::string good = read_text(out + "/datapackage.json");
+  const auto expect_package_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
+    change("datapackage.json", from, to);
+    expect_fault("datapackage.json: " + fault);
+    write_text(out + "/datapackage.json", good);
+  };
+  expect_package_fault("tabular-data-package", "package", "the package: 'profile' is 'package'");
+  expect_package_fault("thinwall-toy", "Thinwall toy", "the package: the name 'Thinwall toy' has a letter beyond");
+  expect_package_fault("\"integer\"", "\"whole\"", "resource 'cells', field 'cell': the type 'whole' is unknown");
+  expect_package_fault("\"unit\": \"m^2\"", "\"unit\": \"\"", "resource 'cells', field 'square': 'unit' is missing");
+  expect_package_fault("\"name\": \"square\"", "\"name\": \"cell\"", "resource 'cells', field 'cell': a second one");
+  expect_package_fault("data/cells.csv", "../cells.csv", "resource 'cells': the path '../cells.csv' leaves the folder");
+  expect_package_fault("{", "", "not JSON, or no object");
+}
+
+TEST_F(ReportTest, wants_a_page_that_stands_alone_and_is_complete) {
+  const std::string good = read_text(out + "/report.html");
+  const auto expect_page_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
+    change("report.html", from, to);
+    expect_fault("report.html: " + fault);
+    write_text(out + "/report.html", good);
+  };
+  expect_page_fault("<main>", "<main><script>1</script>", "'<script' in a page that stands alone");
+  expect_page_fault("<main>", "<main><img src=\"https://a.org/x.png\">", "asks for 'https://a.org/x.png'");
+  expect_page_fault("<main>", "<main><a href='//a.org'>x</a>", "asks for '//a.org'");
+  expect_page_fault("</style>", "p { background: url(http://a.org) }</style>", "'url(http:/...'");
+  expect_page_fault("<h2>Limits</h2>", "<h2>No</h2>", "has no section 'Limits'");
+  expect_page_fault("The squares &amp; &lt;their", "The circles &amp; &lt;their",
+                    "does not give the manifest's answer");
+  expect_page_fault("</html>", "", "not a whole page");
+  std::filesystem::remove(out + "/report.html");
+  expect_fault("report.html: missing or empty");
+}
+
+TEST_F(ReportTest, wants_figures_with_words_and_texts_that_can_be_read) {
+  change("plots/squares.svg", "x [m]", "x");
+  expect_fault("plots/squares.svg: does not show 'x [m]'");
+  change("plots/squares.svg", "</svg>", "");
+  expect_fault("plots/squares.svg: not a whole SVG");
+  std::filesystem::remove(out + "/plots/squares.svg");
+  expect_fault("plots/squares.svg: was not drawn");
+  std::filesystem::remove(out + "/plots/squares.dat");
+  expect_fault("plots/squares.dat: missing; the script reads it");
+  change("resolved.toml", "cells = 20", "cells = = 20");
+  expect_fault("not TOML");
+  change("cite.bib", "@misc{", "@misc{{");
+  expect_fault("cite.bib: its braces are not balanced");
+  expect_fault("cite.bib: does not cite the result as its manifest says");
+}
+
+TEST_F(ReportTest, draws_figures_for_print_that_are_no_part_of_the_result) {
+  const Reply reply = call({"report", out, "--figures", "pdf,tex"});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  for (const char* file :
+       {"plots/squares.pdf", "plots/squares-latex.tex", "plots/squares-latex.pdf", "plots/cost.pdf"}) {
+    EXPECT_NE(reply.out.find("drawn: " + out + "/" + file + "\n"), std::string::npos) << reply.out;
+    EXPECT_FALSE(read_text(out + "/" + file).empty()) << file;
+  }
+  EXPECT_TRUE(read_text(out + "/plots/squares.pdf").starts_with("%PDF-"));
+  EXPECT_NE(read_text(out + "/plots/squares-latex.tex").find("{squares-latex}"), std::string::npos);
+  EXPECT_EQ(call({"report", out, "--check"}).status, 0);
+  ToyControl::computed = 0;
+  EXPECT_NE(run({"--seed", "3"}).err.find("complete already"), std::string::npos) << "the result is still complete";
+  EXPECT_EQ(ToyControl::computed, 0);
+}
+
+TEST_F(ReportTest, draws_them_at_the_end_of_a_run_too) {
+  EXPECT_EQ(run({"--seed", "3", "--figures", "pdf"}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out + "/plots/squares.pdf"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/plots/squares-latex.tex"));
+}
+
+TEST_F(ReportTest, removes_them_when_the_result_is_computed_again) {
+  ASSERT_EQ(call({"report", out, "--figures", "pdf,tex"}).status, 0);
+  std::filesystem::remove(out + "/data/cells.csv");
+  ASSERT_EQ(run({"--seed", "3"}).status, 0);
+  for (const char* file : {"plots/squares.pdf", "plots/squares-latex.tex", "plots/squares-latex.pdf"})
+    EXPECT_FALSE(std::filesystem::exists(out + "/" + file)) << file << " is of the old data";
+}
+
+TEST_F(ReportTest, refuses_what_it_cannot_take) {
+  const auto expect_refusal = [](const std::vector<std::string>& words, const std::string& why) {
+    const Reply reply = call(words);
+    EXPECT_EQ(reply.status, 2);
+    EXPECT_NE(reply.err.find(why), std::string::npos) << reply.err;
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1);
+  };
+  expect_refusal({"report"}, "report: the folder of a result is missing");
+  expect_refusal({"report", out, "--figures", "png"}, "--figures: 'png' is not allowed; allowed: pdf, tex");
+  expect_refusal({"report", out, "--figures", "pdf,"}, "--figures: '' is not allowed");
+  expect_refusal({"report", out + "x", "--check"}, out + "x: there is no such folder");
+}
+
+TEST(CsvReader, reads_what_rfc_4180_allows_and_names_the_line_of_what_it_does_not) {
+  const auto rows = read_csv("a,b\n\"x\n\"\"y\"\"\",\n1,2\n");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1].fields, (std::vector<std::string>{"x\n\"y\"", ""}));
+  EXPECT_EQ(rows[2].line, 4u);
+  const auto line_of_fault = [](const char* text) {
+    try {
+      read_csv(text);
+    } catch (const CsvError& error) {
+      return error.line;
+    }
+    return std::size_t{0};
+  };
+  EXPECT_EQ(line_of_fault("a\nb\"c\n"), 2u);
+  EXPECT_EQ(line_of_fault("a\n\"b\n"), 2u);
+  EXPECT_EQ(line_of_fault("a\nb"), 2u) << "a file that was cut";
+}
+
+}  // namespace
+}  // namespace thinwall
