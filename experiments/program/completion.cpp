@@ -116,12 +116,18 @@ std::string zsh_escaped(const std::string& text) {
 }
 
 std::string zsh_action(const CompletedValue& value) {
-  std::string out;
-  if (!value.words.empty()) out += fmt::format(" \"words:word:({})\"", joined(value.words));
-  if (value.toml) out += " \"files:TOML file:_files -g \\\"*.toml\\\"\"";
-  if (value.folder) out += " \"folders:folder:_files -/\"";
-  return out.empty() ? " " : "{_alternative" + out + "}";
+  if (value.words.empty() && !value.toml && !value.folder) return " ";
+  return fmt::format("{{_thinwall_offer {} {} {}}}", value.toml ? 1 : 0, value.folder ? 1 : 0, joined(value.words));
 }
+
+constexpr const char* zsh_offer = R"(_thinwall_offer() {
+  local toml=$1 folder=$2
+  shift 2
+  (($#)) && compadd -- "$@"
+  ((toml)) && _files -g '*.toml'
+  ((folder)) && _files -/
+}
+)";
 
 std::string zsh_script(std::span<const CompletedCommand> commands) {
   std::string names, cases;
@@ -132,12 +138,11 @@ std::string zsh_script(std::span<const CompletedCommand> commands) {
       cases += " \\\n        " + quoted(fmt::format("{}[{}]{}", option.name, zsh_escaped(option.meaning),
                                                     option.takes_value ? ":value:" + zsh_action(option.value) : ""));
     }
-    cases += " \\\n        " + quoted("*::argument:" + zsh_action(command.target)) + " ;;\n";
+    cases += " \\\n        " + quoted("*:argument:" + zsh_action(command.target)) + " ;;\n";
   }
   return "#compdef thinwall\n"
-         "# Completion of thinwall for zsh. To load it: source <(thinwall completion zsh)\n"
-         "_thinwall() {\n  local -a commands=(\n" +
-         names +
+         "# Completion of thinwall for zsh. To load it: source <(thinwall completion zsh)\n" +
+         std::string(zsh_offer) + "_thinwall() {\n  local -a commands=(\n" + names +
          "  )\n  if ((CURRENT == 2)); then\n    _describe command commands\n    return\n  fi\n"
          "  local command=$words[2]\n  shift words\n  ((CURRENT--))\n  case $command in\n" +
          cases +
