@@ -10,7 +10,8 @@ std::string read_field(std::string_view text, std::size_t& at, std::size_t line)
   if (at == text.size() || text[at] != '"') {
     const std::size_t end = std::min(text.find_first_of(",\n", at), text.size());
     const std::string_view field = text.substr(at, end - at);
-    if (field.find_first_of("\"\r") != field.npos) throw CsvError(line, "a quote or a CR in a field without quotes");
+    if (field.find_first_of("\"\r") != std::string::npos)
+      throw CsvError(line, "a quote or a CR in a field without quotes");
     at = end;
     return std::string(field);
   }

@@ -41,7 +41,7 @@ void require_value(const json& object, const char* key, const std::string& value
 /// The `name` of a package or a resource: lower case, to stand in an address.
 std::string required_name(const json& object, const std::string& where, Faults& faults) {
   const std::string name = required_text(object, "name", where, faults);
-  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-._/") != name.npos)
+  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-._/") != std::string::npos)
     add(faults, package_file, "{}: the name '{}' has a letter beyond a-z 0-9 - . _ /", where, one_line(name));
   return name;
 }
@@ -148,7 +148,7 @@ std::string check_resource(const json& resource, std::size_t number, const fs::p
   required_text(resource, "description", where, faults);
   const std::vector<Field> fields = check_fields(resource, where, faults);
   const std::string path = required_text(resource, "path", where, faults);
-  if (path.starts_with('/') || path.find("..") != path.npos) {  // the specification forbids both
+  if (path.starts_with('/') || path.find("..") != std::string::npos) {  // the specification forbids both
     add(faults, package_file, "{}: the path '{}' leaves the folder", where, one_line(path));
     return path;
   }

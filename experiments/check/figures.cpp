@@ -25,7 +25,7 @@ std::string quoted_after(const std::string& script, std::size_t at) {
 std::set<std::string> words_of(const std::string& script) {
   std::set<std::string> out;
   for (const char* label : {"\nset label 1 ", "\nset label 2 ", "\nset label 3 "}) {
-    for (auto at = script.find(label); at != script.npos; at = script.find(label, at + 1))
+    for (auto at = script.find(label); at != std::string::npos; at = script.find(label, at + 1))
       out.insert(quoted_after(script, at));
   }
   out.erase("");
@@ -34,7 +34,8 @@ std::set<std::string> words_of(const std::string& script) {
 
 void check_svg(const std::string& svg, const std::string& script, const std::string& file, Faults& faults) {
   const auto last = svg.find_last_not_of(" \n");
-  if (svg.find("<svg") == svg.npos || last == svg.npos || !svg.substr(0, last + 1).ends_with("</svg>")) {
+  if (svg.find("<svg") == std::string::npos || last == std::string::npos ||
+      !svg.substr(0, last + 1).ends_with("</svg>")) {
     faults.push_back(file + ": not a whole SVG");
     return;
   }
@@ -47,7 +48,7 @@ void check_svg(const std::string& svg, const std::string& script, const std::str
       half_escaped += quote ? '\'' : escaped[i];
       if (quote) i += 4;
     }
-    if (svg.find(escaped) == svg.npos && svg.find(half_escaped) == svg.npos)
+    if (svg.find(escaped) == std::string::npos && svg.find(half_escaped) == std::string::npos)
       faults.push_back(fmt::format("{}: does not show '{}'", file, one_line(word)));
   }
 }

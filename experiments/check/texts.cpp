@@ -36,9 +36,9 @@ void check_bib(const KeptResult& result, Faults& faults) {
     depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
   }
   if (depth != 0) faults.push_back(fmt::format("{}: its braces are not balanced", bib_file));
-  if (text.find("@software{thinwall,") == text.npos)
+  if (text.find("@software{thinwall,") == std::string::npos)
     faults.push_back(fmt::format("{}: does not cite the software", bib_file));
-  if (text.find(bibtex(result.citation)) == text.npos)
+  if (text.find(bibtex(result.citation)) == std::string::npos)
     faults.push_back(fmt::format("{}: does not cite the result as its manifest says", bib_file));
 }
 

@@ -55,7 +55,7 @@ ul { padding-left: 1.2rem; columns: 17rem; }
   dd { margin-bottom: .4rem; }
 }
 @media print {
-  figure svg { max-height: 16.5cm; }
+  figure svg { max-height: 14.5cm; }
   body { font-size: 10pt; }
   main { max-width: none; padding: 0; }
   a { color: inherit; text-decoration: none; }
