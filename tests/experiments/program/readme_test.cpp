@@ -35,7 +35,8 @@ std::string joined(const std::vector<std::string>& lines) {
 }
 
 TEST(Console, finds_commands_output_and_files) {
-  const Document document = read_document("text\n```console\n$ a b\nx\n...\n$ c\n```\n```toml\n# my.toml\nk = 1\n```\n");
+  const Document document =
+      read_document("text\n```console\n$ a b\nx\n...\n$ c\n```\n```toml\n# my.toml\nk = 1\n```\n");
   ASSERT_EQ(document.commands.size(), 2u);
   EXPECT_EQ(document.commands[0].line, "a b");
   EXPECT_EQ(document.commands[0].output, (std::vector<std::string>{"x", "..."}));
@@ -76,7 +77,9 @@ TEST(Readme, every_command_prints_what_is_shown) {
     EXPECT_EQ(result.status, 0);
     if (output.empty()) continue;
     const std::vector<std::string> printed = lines_of(result.output);
-    EXPECT_TRUE(lines_match(output, printed)) << "the README shows\n" << joined(output) << "but it prints\n" << joined(printed);
+    EXPECT_TRUE(lines_match(output, printed)) << "the README shows\n"
+                                              << joined(output) << "but it prints\n"
+                                              << joined(printed);
   }
 }
 
