@@ -18,9 +18,10 @@ void check_toml(const KeptResult& result, Faults& faults) {
   try {
     const toml::table table = toml::parse(text);
     const std::string experiment = table["experiment"].value_or(std::string());
-    if (experiment != result.citation.experiment)
+    if (experiment != result.citation.experiment) {
       faults.push_back(fmt::format("{}: is of experiment '{}', the manifest of '{}'", toml_file, one_line(experiment),
                                    one_line(result.citation.experiment)));
+    }
   } catch (const toml::parse_error& error) {
     faults.push_back(
         fmt::format("{}:{}: not TOML: {}", toml_file, error.source().begin.line, one_line(error.description())));
