@@ -27,6 +27,14 @@ std::string how_cheap(const Advice& advice) {
   return fmt::format("{} of the {} methods here that meet the wish", tied ? "as little as any" : "the least", meeting);
 }
 
+/// Seen is not saved: docs/tunneling_theory.md.
+std::string pushed_through(const Advice& advice) {
+  const std::optional<double>& through = advice.advised()->theory.through;
+  if (!through || *through <= advice.wish.miss + no_chance) return "";
+  return fmt::format(" If a ball in the wall is pushed out the shorter way, {} go through, seen or not.",
+                     percent_text(*through));
+}
+
 /// What would become of the simplest method.
 std::string simplest(const Advice& advice) {
   const auto end = std::ranges::find_if(advice.rows, [](const AdviceRow& row) { return row.method.poses == 1; });
@@ -46,9 +54,10 @@ std::string simplest(const Advice& advice) {
 std::string advice_sentence(const Advice& advice) {
   const AdviceRow* best = advice.advised();
   if (best == nullptr) return "No method here meets the wish at this step.";
-  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}", best->method.name,
+  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
                      tunnel_words(best->theory.probability.value_or(0)), seen(*best),
-                     rounded_text(best->cost.dearer().median, 3), how_cheap(advice), simplest(advice));
+                     rounded_text(best->cost.dearer().median, 3), how_cheap(advice), pushed_through(advice),
+                     simplest(advice));
 }
 
 }  // namespace thinwall

@@ -18,8 +18,8 @@ constexpr const char* limits =
     "never safe.";
 
 constexpr const char* header =
-    "                            chance of   seen late by up to     time a step [ns]           longest\n"
-    "method                      tunneling   [m]        [steps]     clear        contact       step that does\n";
+    "                           chance of  seen late by up to  time a step [ns]          longest step\n"
+    "  method                   tunneling  [m]       [steps]   clear        contact      that does\n";
 
 /// A median with as many decimals as its interval bears out.
 std::string time_text(const QueryTime& time) {
@@ -35,8 +35,9 @@ std::string step_text(const std::optional<double>& step) {
 
 std::string row_text(const AdviceRow& row, const char* mark, double step_length) {
   const std::optional<double>& chance = row.theory.probability;
-  const std::optional<double> latest = row.theory.largest_lateness();
-  return fmt::format("{} {:<26}{:<12}{:<11}{:<12}{:<13}{:<14}{}\n", mark, row.method.name,
+  const bool never_seen = chance && *chance == 1;
+  const std::optional<double> latest = never_seen ? std::nullopt : row.theory.largest_lateness();
+  return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}\n", mark, row.method.name,
                      chance ? percent_text(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
                      latest ? rounded_text(*latest / step_length, 3) : "-", time_text(row.cost.clear),
                      time_text(row.cost.contact), step_text(row.longest_step));
@@ -46,7 +47,7 @@ std::string table_text(const Advice& advice) {
   std::string text = header;
   bool met = true;
   for (const AdviceRow& row : advice.rows) {
-    if (met && !row.meets) text += "these do not meet the wish at this step:\n";
+    if (met && !row.meets) text += "These do not meet the wish at this step:\n";
     met = row.meets;
     text += row_text(row, &row == advice.advised() ? ">" : " ", step_length(advice.wish.cell));
   }
@@ -58,12 +59,13 @@ std::string formulas_text(const Advice& advice) {
   std::vector<std::string> lines;
   for (const AdviceRow& row : advice.rows) {
     const std::string name = row.method.poses > 1 ? "substeps_n" : row.method.name;
-    const std::string why = row.theory.probability ? row.theory.why : "no formula";
-    const std::string line = fmt::format("  {:<26}{:<41}{}\n", name, why, row.theory.why_late);
+    const bool known = row.theory.probability.has_value();
+    const std::string line = fmt::format("  {:<26}{:<41}{}\n", name, known ? row.theory.why : "no formula",
+                                         known ? row.theory.why_late : "no formula");
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }
   std::string text =
-      "Formulas: v speed, h step, n poses a step, w thickness, r radius, a angle; derived in docs/.\n"
+      "Formulas: v speed, h step, n poses a step, w thickness, r radius, a angle: docs/tunneling_theory.md.\n"
       "  method                    chance of tunneling                      seen late by up to [m]\n";
   for (const std::string& line : lines) text += line;
   return text;

@@ -51,7 +51,12 @@ std::string check_config(const Wish& wish, std::span<const Candidate> candidates
   text += fmt::format("method = [{}]\nsubsteps = [{}]  # poses a step\nscalar = [\"double\"]\n",
                       fmt::join(methods, ", "), fmt::join(offered_poses(wish), ", "));
   const Experiment thin_wall = thin_wall_experiment();
-  make_plan(Settings(text, "--toml", thin_wall.default_toml), {});  // refuses what cannot be fired
+  try {
+    make_plan(Settings(text, "config", thin_wall.default_toml), {});
+  } catch (const UsageError& refusal) {
+    const std::string why = refusal.what();
+    throw UsageError("--toml: the experiment cannot fire this; " + why.substr(why.find("key ")));
+  }
   return text;
 }
 

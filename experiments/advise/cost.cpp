@@ -1,5 +1,7 @@
 #include <thinwall/experiments/advise/cost.hpp>
 
+#include <algorithm>
+
 #include <thinwall/experiments/timing/interleaved.hpp>
 
 namespace thinwall {
@@ -35,8 +37,12 @@ std::vector<QueryTime> timed(std::span<const Candidate> candidates, const std::v
 
 std::vector<StepCost> measure_costs(const Cell& cell, std::span<const Candidate> candidates,
                                     const TimingEffort& effort) {
-  const auto clear = timed(candidates, steps_before(cell, effort.queries, 1), effort, {0, 1});
-  const auto contact = timed(candidates, steps_before(cell, effort.queries, 0), effort, {0, 2});
+  // The same geometry, a step a second; a step too short for the grid of the poses is timed as a longer one.
+  Cell even = cell;
+  even.speed = 1;
+  even.step = std::max(step_length(cell), 1e-4 * slab_chord(cell));
+  const auto clear = timed(candidates, steps_before(even, effort.queries, 1), effort, {0, 1});
+  const auto contact = timed(candidates, steps_before(even, effort.queries, 0), effort, {0, 2});
   std::vector<StepCost> costs;
   for (std::size_t i = 0; i < candidates.size(); ++i) costs.push_back({clear[i], contact[i]});
   return costs;

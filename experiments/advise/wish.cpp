@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall/experiments/text/ranges.hpp>
 #include <thinwall/experiments/thin_wall/allowed.hpp>
 
@@ -47,6 +48,12 @@ Wish read_wish(const WishWords& words) {
                         .wall = Wall::infinite,
                         .wall_size = 0}};
   wish.cell.step = read_step(words.step, words.fps);
+  constexpr double shortest = 1e-30;  // float holds the poses of the shots that are timed
+  if (step_length(wish.cell) < shortest) {
+    throw UsageError(fmt::format("--speed {}: in a step of {} s the ball moves {} m; at least {} m is needed",
+                                 exact_text(wish.cell.speed), exact_text(wish.cell.step),
+                                 rounded_text(step_length(wish.cell), 3), exact_text(shortest)));
+  }
   if (words.miss) wish.miss = read("--miss", *words.miss, {.lower = 0, .upper = 1});
   if (words.late) wish.late = read("--late", *words.late, {.lower = 0, .unit = "m"});
   return wish;

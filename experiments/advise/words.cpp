@@ -30,10 +30,11 @@ std::string question_words(const Wish& wish) {
                       "misses it, and a method that wants to see the contact again at the time it found does so or not "
                       "as rounding has it.");
   }
+  const double steps = contact / step_length(cell);
   return text +
-         wrapped(fmt::format(
-             "A step is {} s and {} m long; of its path, {} m are in contact with the wall: {} of a step.",
-             number(cell.step), number(step_length(cell)), number(contact), percent_text(contact / step_length(cell))));
+         wrapped(fmt::format("A step is {} s and {} m long; of its path, {} m are in contact with the wall: {}.",
+                             number(cell.step), number(step_length(cell)), number(contact),
+                             steps < 1 ? percent_text(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
 }
 
 std::string wanted_words(const Wish& wish) {
@@ -45,10 +46,9 @@ std::string wanted_words(const Wish& wish) {
 }
 
 std::string rounded_down_text(double value, int digits) {
+  const double near = std::stod(rounded_text(value, digits));
   const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
-  double units = std::floor(value / unit);
-  while (std::stod(rounded_text(units * unit, digits)) > value) --units;
-  return rounded_text(units * unit, digits);
+  return rounded_text(near <= value ? near : near - unit, digits);
 }
 
 std::string wrapped(const std::string& text, std::size_t width) {

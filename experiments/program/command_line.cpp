@@ -27,6 +27,7 @@ Examples:
   thinwall run scene.toml --trace             a scene of your own, step by step; experiments/scenes/ has some
   thinwall compare scene.toml                 discrete or swept, on that scene?
   thinwall plan scene.toml                    what that scene does not need, and why
+  thinwall advise --help                      which method will do for my speed, wall and step, and costs least?
   thinwall reproduce results/thin_wall        does it come out the same again?
   thinwall validate ccd-queries               published queries against exact arithmetic
 )";

@@ -1,5 +1,6 @@
 #include <array>
 
+#include <thinwall/experiments/program/advise_command.hpp>
 #include <thinwall/experiments/program/cite_command.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/compare_command.hpp>
@@ -20,6 +21,7 @@ std::span<const Command> commands() {
       run_command(),         //
       compare_command(),     //
       plan_command(),        //
+      advise_command(),      //
       validate_command(),    //
       merge_command(),       //
       report_command(),      //

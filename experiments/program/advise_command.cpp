@@ -1,0 +1,120 @@
+#include <thinwall/experiments/program/advise_command.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <ostream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/advise/advice_text.hpp>
+#include <thinwall/experiments/advise/check_config.hpp>
+#include <thinwall/experiments/program/exit_codes.hpp>
+#include <thinwall/experiments/program/options.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+
+namespace thinwall {
+namespace {
+
+constexpr const char* examples = R"(  thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60
+  thinwall advise --speed 900 --radius 0.004 --thickness 0.02 --angle 30 --step 0.001 --miss 0.01 --late 0.05
+  thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60 --toml check.toml
+  thinwall run check.toml --out results/check              fires the shots that put the advice to the test
+)";
+
+constexpr const char* footer =
+    R"(Chances and lateness are computed by formula, for one infinite wall, straight flight and no rotation; costs are measured,
+in about a second. --toml - prints the configuration instead of the advice. More: docs/advise.md.
+)";
+
+struct AdviseText {
+  WishWords words;
+  OptionText toml;
+  bool json = false;
+};
+
+/// An earlier one is replaced, anything else that lies there is not.
+void write_check(const std::filesystem::path& file, const std::string& text) {
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(fmt::format("--toml {}: {}", one_line(file.string()), why));
+  };
+  if (std::filesystem::is_directory(file)) refuse("is a folder; a file is needed");
+  if (std::filesystem::exists(file)) {
+    std::string first;
+    std::ifstream in(file);
+    std::getline(in, first);
+    if (first != check_config_title) refuse("is there already, and not from advise; another name is needed");
+  }
+  const std::filesystem::path fresh = file.string() + ".new";
+  std::ofstream out(fresh, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error(errno, std::generic_category());
+  if (out) std::filesystem::rename(fresh, file, error);
+  if (!out || error) {
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);
+    refuse("cannot be written: " + error.message());
+  }
+}
+
+std::string next_step(const std::string& file) {
+  const std::string out = "results/" + std::filesystem::path(file).stem().string();
+  return "to put it to the test: " + shell_line({"thinwall", "run", file, "--out", out}) + "\n";
+}
+
+int print_advice(const AdviseText& text, const Call& call) {
+  const bool to_file = text.toml && *text.toml != "-";
+  if (text.toml && text.toml->empty()) throw UsageError("--toml: '' is not allowed; a file, or - for the terminal");
+  if (text.toml && !to_file && text.json) throw UsageError("--toml - and --json both want to be all that is printed");
+  const Wish wish = read_wish(text.words);
+  const std::vector<Candidate> methods = candidates(wish);
+  if (text.toml) {
+    const std::string config = check_config(wish, methods);
+    if (!to_file) {
+      call.out << config;
+      return exit_done;
+    }
+    write_check(*text.toml, config);
+  }
+  const Advice advice = advise(wish, methods, measure_costs(wish.cell, methods));
+  if (text.json) {
+    nlohmann::ordered_json reply = advice_json(advice);
+    if (to_file) reply["toml"] = *text.toml;
+    call.out << reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+  } else {
+    call.out << advice_text(advice);
+  }
+  call.out.flush();
+  if (to_file) call.err << next_step(*text.toml);
+  return exit_done;
+}
+
+Action declare_advise(CLI::App& self) {
+  const auto text = std::make_shared<AdviseText>();
+  self.footer(footer);
+  add_text(self, "--speed", text->words.speed, "How fast the ball flies, seen from the wall", "M/S");
+  add_text(self, "--radius", text->words.radius, "Of the ball; 0 is a point", "M");
+  add_text(self, "--thickness", text->words.thickness, "Of the wall; 0 is a sheet", "M");
+  add_text(self, "--angle", text->words.angle, "Between the flight and the wall's normal (default: 0, head-on)", "DEG");
+  add_text(self, "--step", text->words.step, "How long a step is", "S");
+  add_text(self, "--fps", text->words.fps, "Or: how many steps there are a second", "N");
+  add_text(self, "--miss", text->words.miss, "The largest acceptable chance that a shot tunnels (default: 0)", "P");
+  add_text(self, "--late", text->words.late, "How far past first contact a ball may be when seen (default: any)", "M");
+  add_json(self, text->json);
+  add_text(self, "--toml", text->toml, "Write the experiment that puts the advice to the test; - prints it", "FILE");
+  return [text](const Call& call) { return print_advice(*text, call); };
+}
+
+}  // namespace
+
+Command advise_command() {
+  return {"advise", "Name the cheapest method that is good enough for a speed, a wall and a step", examples,
+          declare_advise};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,10 @@
+#pragma once
+/// `thinwall advise`.
+
+#include <thinwall/experiments/program/command.hpp>
+
+namespace thinwall {
+
+Command advise_command();
+
+}  // namespace thinwall
