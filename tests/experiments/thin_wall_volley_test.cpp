@@ -8,7 +8,7 @@
 #include <thinwall/experiments/thin_wall/plan.hpp>
 #include <thinwall/experiments/thin_wall/volley.hpp>
 
-#include "thin_wall_run.hpp"
+#include "experiments/thin_wall_run.hpp"
 
 namespace thinwall {
 namespace {

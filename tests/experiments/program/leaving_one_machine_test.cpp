@@ -116,7 +116,7 @@ TEST_F(Mpi, ranks_1_2_and_4_give_the_bytes_of_one_process_and_one_of_them_speaks
 }
 
 TEST_F(Mpi, a_run_whose_ranks_were_killed_goes_on_with_any_number_of_them_or_with_none) {
-  const std::string trials = sanitized ? "1500" : "20000";
+  const std::string trials = sanitized ? "1500" : "30000";
   ASSERT_EQ(call({"run", "wall.toml", "--trials", trials, "--out", "whole"}).status, 0);
   const auto rows = [&](const std::string& file) {
     std::ifstream in(folder / ("killed/" + file));
@@ -129,7 +129,7 @@ TEST_F(Mpi, a_run_whose_ranks_were_killed_goes_on_with_any_number_of_them_or_wit
                                           (folder / "killed")}),
                            folder / "notes");
     const auto before = rows("journal.tsv");
-    ASSERT_TRUE(process.wait_until([&] { return rows("journal.tsv") >= before + 3 && rows("journal.rank-1.tsv") >= 3; },
+    ASSERT_TRUE(process.wait_until([&] { return rows("journal.tsv") > before && rows("journal.rank-1.tsv") > 0; },
                                    std::chrono::microseconds(500)));
     process.end_with(SIGTERM);
     EXPECT_FALSE(std::filesystem::exists(folder / "killed/manifest.json"));
