@@ -33,6 +33,7 @@ int merge(const MergeText& text, const Call& call) {
   RunWish wish;
   wish.out = parse_folder(text.out);
   wish.json = text.json;
+  wish.launch = Launch{};
   wish.merged = read_shards(text.folders, this_program_sha256());
   return perform_run(wish, call);
 }

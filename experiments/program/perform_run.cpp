@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <numeric>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
@@ -91,7 +90,7 @@ int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
 }
 
 int interrupted(const RunWish& wish, const std::string& kept, const Call& call) {
-  const int ranks = launch_of_this_process().count;
+  const int ranks = wish.launch.count;
   call.err << fmt::format("interrupted: {} in {}; to continue:\n{}{}\n", kept, wish.out,
                           ranks > 1 ? fmt::format("mpirun -n {} ", ranks) : "", shell_line(call.argv));
   return exit_interrupted;
@@ -116,16 +115,13 @@ RunRecord record_of(const ConfiguredRun& chosen, const RunWish& wish, const Call
                    .build = this_build(),
                    .machine = this_machine()};
   for (const Unit& unit : units) record.total_trials += unit.trials;
-  if (wish.merged) {
-    record.shards = wish.merged->records;
-  } else {
-    record.ranks = launch_of_this_process().count;
-  }
+  record.ranks = wish.launch.count;
+  if (wish.merged) record.shards = wish.merged->records;
   return record;
 }
 
-std::vector<Unit> units_of(const Shard& shard, const std::vector<Unit>& all) {
-  if (launch_of_this_process().count > 1) {
+std::vector<Unit> units_of(const Shard& shard, const Launch& launch, const std::vector<Unit>& all) {
+  if (launch.count > 1) {
     throw UsageError("--shard: mpirun shares a run out among its ranks already; use one of the two");
   }
   std::vector<Unit> units;
@@ -140,7 +136,7 @@ int perform_run(const RunWish& given, const Call& call) try {
       given.merged ? configure_again(given.merged->identity, given.request.options.threads, call.experiments)
                    : configure_run(given.target, given.request, call.experiments);
   const std::vector<Unit> all = chosen.run->units();
-  const std::vector<Unit> units = given.shard ? units_of(*given.shard, all) : all;
+  const std::vector<Unit> units = given.shard ? units_of(*given.shard, given.launch, all) : all;
   RunWish wish = given;
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, given, call, units);
@@ -154,7 +150,7 @@ int perform_run(const RunWish& given, const Call& call) try {
                              .program = this_program_sha256(),
                              .shard = wish.shard ? to_text(*wish.shard) : ""};
   const Journal::Rows merged = wish.merged ? all_rows(*wish.merged, units) : Journal::Rows();
-  Crew crew(wish.merged ? Launch{} : launch_of_this_process(), units);
+  Crew crew(wish.launch, units);
   if (!crew.leads()) {
     watch_for_stop();
     const StopGuard guard(patience, [] { std::_Exit(exit_interrupted); });

@@ -8,6 +8,7 @@
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/configured_run.hpp>
 #include <thinwall/experiments/results/shards.hpp>
+#include <thinwall/experiments/run/ranks.hpp>
 #include <thinwall/experiments/run/shard.hpp>
 
 namespace thinwall {
@@ -21,6 +22,7 @@ struct RunWish {
   std::vector<std::string> figures;  ///< formats to draw beside SVG
   std::optional<Shard> shard;        ///< compute this part alone, and leave it for `merge`
   std::optional<ShardSet> merged;    ///< the finished parts of the run, in place of `target` and what chooses it
+  Launch launch = launch_of_this_process();  ///< `Launch{}`: by this process alone, whoever mpirun started beside it
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.

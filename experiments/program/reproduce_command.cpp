@@ -81,6 +81,9 @@ Rerun prepare(const ReproduceText& text) {
   if (fs::exists(out.out / "manifest.json")) {
     refuse(out.out, "holds a result already; delete it, or name another folder with --out");
   }
+  if (!text.out && fs::exists(out.out) && !fs::exists(out.out / "journal.tsv")) {  // it would be removed in the end
+    refuse(out.out, "is there already; delete it, or name another folder with --out");
+  }
   return out;
 }
 
@@ -94,6 +97,7 @@ RunWish wish_of(const Rerun& rerun, const OptionText& threads, std::span<const E
   wish.request.text = resolved_toml(record);
   wish.request.options = {rerun.recorded.run.seed, rerun.recorded.run.trials, parse_threads(threads)};
   wish.out = rerun.out.string();
+  wish.launch = Launch{};
   configure_run(wish.target, wish.request, experiments);
   return wish;
 }

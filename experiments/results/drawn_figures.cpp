@@ -19,10 +19,12 @@ std::vector<std::string> script_names(const fs::path& plots) {
   return out;
 }
 
+constexpr const char* workshop_name = ".drawing";
+
 /// Where gnuplot works, so that plots/ never holds half a file.
 class Workshop {
  public:
-  explicit Workshop(const fs::path& folder) : path_(folder / ".drawing") {
+  explicit Workshop(const fs::path& folder) : path_(folder / workshop_name) {
     fs::remove_all(path_);
     fs::create_directory(path_);
   }
@@ -61,6 +63,8 @@ DrawnFigures draw_figures(const fs::path& folder, const std::vector<std::string>
   }
   return out;
 }
+
+void remove_half_drawn_figures(const fs::path& folder) { fs::remove_all(folder / workshop_name); }
 
 void remove_drawn_figures(const fs::path& folder) {
   for (const std::string& name : script_names(folder / "plots")) {

@@ -17,7 +17,10 @@ struct DrawnFigures {
 /// folder cannot be written.
 DrawnFigures draw_figures(const std::filesystem::path& folder, const std::vector<std::string>& formats);
 
-/// Removes what `draw_figures` left: it is older than what is about to be drawn.
+/// Removes what a `draw_figures` that was killed left.
+void remove_half_drawn_figures(const std::filesystem::path& folder);
+
+/// Removes what `draw_figures` drew: it is older than what is about to be drawn.
 void remove_drawn_figures(const std::filesystem::path& folder);
 
 }  // namespace thinwall

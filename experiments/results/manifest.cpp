@@ -60,7 +60,7 @@ std::string manifest_text(const RunRecord& run, const Outcome& outcome,
 std::optional<Manifest> parse_manifest(const std::string& text) {
   using nlohmann::json;
   const json manifest = json::parse(text, nullptr, false);
-  if (!manifest.is_object() || manifest.value("thinwall_manifest", 0) != format_version) return std::nullopt;
+  if (!manifest.is_object() || manifest.value("thinwall_manifest", json()) != format_version) return std::nullopt;
   try {
     RunIdentity identity{.experiment = manifest.at("experiment"),
                          .config = manifest.at("config").dump(),

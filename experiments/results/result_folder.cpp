@@ -55,12 +55,12 @@ ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(s
   try {
     fs::create_directories(path_);
     if (!lock_.take(path_)) refuse("another run is at work here; wait for it or name another folder");
-    fs::remove_all(staging());  // of a run that was killed while it wrote its results
     look_at_manifest(identity);
     if (!complete_) look_at_journal(identity);
+    fs::remove_all(staging());  // of a run that was killed while it wrote its results
   } catch (const std::system_error& error) {
     const std::string why = "cannot be written: " + error.code().message();
-    if (error.code() != std::errc::no_space_on_device) refuse(why);
+    if (error.code() != std::errc::no_space_on_device && error.code().value() != EDQUOT) refuse(why);
     throw std::runtime_error(
         fmt::format("--out {}: {}", one_line(path_.string()), why));  // no fault of the user's words
   }
@@ -190,7 +190,10 @@ void ResultFolder::publish() {
     folders.insert((path_ / file).parent_path());
   }
   const auto move = [&](const std::string& file) { fs::rename(staging() / file, path_ / file); };
-  if (fs::exists(path_ / manifest_name)) fs::rename(path_ / manifest_name, path_ / old_manifest_name);
+  if (fs::exists(path_ / manifest_name)) {
+    fs::rename(path_ / manifest_name, path_ / old_manifest_name);
+    flush_to_disk(path_);
+  }
   remove_drawn_figures(path_);  // they show the old result
   for (const auto& [file, hash] : staged) {
     if (file != manifest_name) move(file);
@@ -210,6 +213,7 @@ void ResultFolder::publish() {
 void ResultFolder::clear_up() const {
   for (const char* name : {journal_name, old_journal_name, old_manifest_name}) fs::remove(path_ / name);
   fs::remove_all(staging());
+  remove_half_drawn_figures(path_);
 }
 
 }  // namespace thinwall

@@ -20,7 +20,7 @@ constexpr int format_version = 1;
 
 std::optional<ShardSeal> parse_seal(const std::string& text) {
   const json seal = json::parse(text, nullptr, false);
-  if (!seal.is_object() || seal.value("thinwall_shard", 0) != format_version) return std::nullopt;
+  if (!seal.is_object() || seal.value("thinwall_shard", json()) != format_version) return std::nullopt;
   try {
     const auto identity = parse_identity(seal.at("run").dump());
     if (!identity) return std::nullopt;

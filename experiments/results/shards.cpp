@@ -47,7 +47,7 @@ SealedFolder read_seal(const std::string& folder) {
 
 Journal::Rows read_rows(const SealedFolder& folder) {
   const fs::path file = folder.path / journal_name;
-  if (!fs::exists(file)) refuse(folder.name, fmt::format("its journal.tsv is lost{}", mend));
+  if (!fs::exists(file)) refuse(folder.name, "its journal.tsv is lost; delete the folder and run the shard again");
   JournalText text = read_journal(file);
   if (text.identity.empty()) refuse(folder.name, fmt::format("the first row of its journal.tsv is damaged{}", mend));
   if (!text.damage.empty()) refuse(folder.name, one_line(text.damage.front()) + mend);

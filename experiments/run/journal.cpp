@@ -101,7 +101,9 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
 }  // namespace
 
 std::string Journal::identity_in(const std::filesystem::path& file) {
+  errno = 0;
   std::ifstream in(file);
+  if (!in && errno != ENOENT && errno != ENOTDIR) fail(file);
   std::string row;
   std::getline(in, row);
   return identity_of(unsealed(row));
@@ -150,7 +152,7 @@ void Journal::add(const std::string& key, const Row& row) {
   const auto now = Clock::now();
   if (now - synced_ < pause) return;
   synced_ = now;
-  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) fail(file_);  // EINVAL: a device that keeps nothing
+  sync();
 }
 
 void Journal::add(const Rows& rows) {
@@ -159,7 +161,13 @@ void Journal::add(const Rows& rows) {
   for (const auto& [key, row] : rows) {
     if (finished_.emplace(key, row).second) text += unit_row(key, row);
   }
+  if (text.empty()) return;
   write(text);
+  sync();
+}
+
+void Journal::sync() {
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) fail(file_);  // EINVAL: a device that keeps nothing
 }
 
 void Journal::write(const std::string& text) {

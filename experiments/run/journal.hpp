@@ -53,6 +53,7 @@ class Journal {
   using Clock = std::chrono::steady_clock;
 
   void write(const std::string& text);
+  void sync();
 
   std::filesystem::path file_;
   Rows finished_;

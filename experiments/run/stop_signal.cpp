@@ -8,9 +8,10 @@ namespace {
 
 volatile std::sig_atomic_t requested = 0;
 
-void request_stop(int signal) {
+void request_stop(int) {
   requested = 1;
-  std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ echo "$(date -u +%FT%TZ) shard $shard/$shards on $(hostname), start ${SLURM_REST
 program=$!
 trap 'kill -TERM "$program" 2>/dev/null' TERM
 wait "$program"
-status=$?
-while kill -0 "$program" 2>/dev/null; do # the signal ended the first wait, not the program
+while kill -0 "$program" 2>/dev/null; do # the signal ended that wait, not the program
   wait "$program"
-  status=$?
 done
+wait "$program" # bash remembers how it ended
+status=$?
 
 echo "$(date -u +%FT%TZ) shard $shard/$shards ended with exit code $status"
 if ((status == 130)); then

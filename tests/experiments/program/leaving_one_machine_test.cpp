@@ -162,6 +162,9 @@ TEST_F(Mpi, other_commands_run_once) {
   const ProcessResult shard = on_ranks(2, {"run", "wall.toml", "--shard", "1/2", "--out", "shard"});
   EXPECT_EQ(shard.status, 2);
   EXPECT_NE(shard.output.find("--shard: mpirun shares a run out"), std::string::npos) << shard.output;
+  ASSERT_EQ(call({"run", "wall.toml", "--out", "whole"}).status, 0);
+  const ProcessResult again = on_ranks(2, {"reproduce", "whole"});
+  EXPECT_EQ(again.status, 0) << again.output;
 }
 
 #ifndef THINWALL_HAS_MPI

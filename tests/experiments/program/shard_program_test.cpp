@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include <thinwall/experiments/results/shard_seal.hpp>
-#include <thinwall/experiments/run/runner.hpp>
 
 #include "support/toy_program.hpp"
 
@@ -107,10 +106,10 @@ TEST_F(ShardProgram, merged_again_is_complete_already) {
 }
 
 TEST_F(ShardProgram, says_what_it_did) {
-  const Reply text = run_shard(2, 4);
+  const Reply text = run_shard(2, 4, {"--threads", "2"});
   EXPECT_EQ(text.out, "shard 2/4 of toy is finished, in " + shard(2, 4) +
                           "\nwith all 4 of them: thinwall merge SHARD... --out DIR\n");
-  EXPECT_EQ(text.err, "toy: 5 units, 50 trials on " + std::to_string(default_threads()) + " threads\n");
+  EXPECT_EQ(text.err, "toy: 5 units, 50 trials on 2 threads\n");
   EXPECT_EQ(files_in(shard(2, 4)).size(), 2u) << "journal.tsv and shard.json";
   const auto json = nlohmann::json::parse(run_shard(3, 4, {"--json"}).out);
   EXPECT_EQ(json.at("shard"), "3/4");
