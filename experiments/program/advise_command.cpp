@@ -1,5 +1,6 @@
 #include <thinwall/experiments/program/advise_command.hpp>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -42,18 +43,23 @@ void write_check(const std::filesystem::path& file, const std::string& text) {
   const auto refuse = [&](const std::string& why) {
     throw UsageError(fmt::format("--toml {}: {}", one_line(file.string()), why));
   };
-  if (std::filesystem::is_directory(file)) refuse("is a folder; a file is needed");
-  if (std::filesystem::exists(file)) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) refuse("is a folder; a file is needed");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) refuse("is not a file");
+  if (std::filesystem::exists(status)) {
     std::string first;
     std::ifstream in(file);
     std::getline(in, first);
     if (first != check_config_title) refuse("is there already, and not from advise; another name is needed");
   }
   const std::filesystem::path fresh = file.string() + ".new";
+  if (std::filesystem::exists(fresh, error)) refuse("needs the name " + one_line(fresh.string()) + ", which is taken");
+  errno = 0;
   std::ofstream out(fresh, std::ios::binary);
   out << text;
   out.close();
-  std::error_code error(errno, std::generic_category());
+  error.assign(errno, std::generic_category());
   if (out) std::filesystem::rename(fresh, file, error);
   if (!out || error) {
     std::error_code ignored;

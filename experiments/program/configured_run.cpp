@@ -105,8 +105,9 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
   const Experiment* chosen = request.compare || request.text ? nullptr : find_experiment(experiments, target);
   std::string text, file = std::string(target) + " (built-in)";
   if (!chosen) {
+    std::error_code none;
     const bool is_path =
-        request.text || target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target);
+        request.text || target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target, none);
     if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
                                    spelling_hint(target, std::span(names).first(experiments.size()))));

@@ -46,7 +46,8 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> uni
   if (wish.json) {
     out << dry_run_reply(run, wish.out, seconds);
   } else {
-    out << fmt::format("{}\nabout {}; results would go to {}\n", size_text(run), duration_text(seconds), wish.out);
+    out << fmt::format("{}\nabout {}; results would go to {}\n", size_text(run), duration_text(seconds),
+                       one_line(wish.out));
   }
   return exit_done;
 }
@@ -62,16 +63,17 @@ int list_cells(const RunWish& wish, const RunRecord& run, std::span<const Unit> 
 
 int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, const Call& call) {
   auto& [experiments, argv, out, err] = call;
-  for (const std::string& trouble : draw_figures(wish.out, wish.figures).troubles) err << trouble << "\n";
+  const std::vector<std::string> troubles = draw_figures(wish.out, wish.figures).troubles;
+  for (const std::string& trouble : troubles) err << trouble << "\n";
   const std::string report = (std::filesystem::path(wish.out) / "report.html").string();
   if (wish.json) {
     out << run_reply(run, wish.out, outcome, report);
   } else {
     if (!outcome.summary.empty()) out << outcome.summary << (outcome.summary.ends_with('\n') ? "\n" : "\n\n");
-    out << outcome.answer << "\n\nreport: " << report << "\n";
+    out << outcome.answer << "\n\nreport: " << one_line(report) << "\n";
   }
   out.flush();
-  if (outcome.self_test_passed) return exit_done;
+  if (outcome.self_test_passed) return troubles.empty() ? exit_done : exit_failed;
   err << "the self-test failed: do not trust these numbers; the report says more. Chance fails one correct run in a hundred or "
          "fewer: another --seed tells\n";
   return exit_failed;
@@ -81,7 +83,8 @@ int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
   if (wish.json) {
     call.out << shard_json(run, wish.out, to_text(*wish.shard));
   } else {
-    call.out << fmt::format("shard {} of {} is finished, in {}\n", to_text(*wish.shard), run.experiment, wish.out);
+    call.out << fmt::format("shard {} of {} is finished, in {}\n", to_text(*wish.shard), run.experiment,
+                            one_line(wish.out));
     call.out << fmt::format("with {} of them: thinwall merge SHARD... --out DIR\n",
                             wish.shard->count == 1 ? "one" : fmt::format("all {}", wish.shard->count));
   }
@@ -91,7 +94,7 @@ int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
 
 int interrupted(const RunWish& wish, const std::string& kept, const Call& call) {
   const int ranks = wish.launch.count;
-  call.err << fmt::format("interrupted: {} in {}; to continue:\n{}{}\n", kept, wish.out,
+  call.err << fmt::format("interrupted: {} in {}; to continue:\n{}{}\n", kept, one_line(wish.out),
                           ranks > 1 ? fmt::format("mpirun -n {} ", ranks) : "", shell_line(call.argv));
   return exit_interrupted;
 }
@@ -167,7 +170,7 @@ int perform_run(const RunWish& given, const Call& call) try {
     return reply(wish, record, outcome, call);
   }
   if (wish.shard && is_sealed(folder, identity)) {
-    call.err << wish.out << ": finished already; nothing was computed\n";
+    call.err << one_line(wish.out) << ": finished already; nothing was computed\n";
     return shard_reply(wish, record, call);
   }
   folder.journal().add(merged);

@@ -15,6 +15,7 @@
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/options.hpp>
 #include <thinwall/experiments/program/perform_run.hpp>
+#include <thinwall/experiments/results/manifest.hpp>
 #include <thinwall/experiments/results/rerun_comparison.hpp>
 #include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/settings.hpp>
@@ -47,6 +48,7 @@ struct Rerun {
   fs::path result, out;
   Provenance recorded;
   std::vector<std::string> changed;  ///< files of the result that are not as they were written
+  bool stays = false;                ///< the rerun is kept even if it is the same
 };
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
@@ -81,7 +83,11 @@ Rerun prepare(const ReproduceText& text) {
   if (fs::exists(out.out / "manifest.json")) {
     refuse(out.out, "holds a result already; delete it, or name another folder with --out");
   }
-  if (!text.out && fs::exists(out.out) && !fs::exists(out.out / "journal.tsv")) {  // it would be removed in the end
+  const std::string within = fs::weakly_canonical(out.out).lexically_relative(fs::canonical(out.result)).string();
+  if (stays_within(within) || within == ".")
+    refuse(out.out, "lies in the result itself; name another folder with --out");
+  out.stays = text.out.has_value();
+  if (!out.stays && fs::exists(out.out) && !fs::exists(out.out / "journal.tsv")) {  // it would be removed in the end
     refuse(out.out, "is there already; delete it, or name another folder with --out");
   }
   return out;
@@ -106,7 +112,7 @@ std::string json_reply(const Rerun& rerun, const RerunComparison& found) {
   using nlohmann::ordered_json;
   const bool same = found.differences.empty();
   ordered_json reply = {{"result", rerun.result.string()},
-                        {"out", same ? ordered_json() : ordered_json(rerun.out.string())},
+                        {"out", same && !rerun.stays ? ordered_json() : ordered_json(rerun.out.string())},
                         {"identical", same},
                         {"files", found.files},
                         {"changed_since_written", rerun.changed},
@@ -144,7 +150,8 @@ std::string text_reply(const Rerun& rerun, const RerunComparison& found) {
   if (found.differences.empty()) {
     const std::string facts = facts_text(found.facts);
     return fmt::format("identical: {} files of {} came out the same\n", found.files, result) +
-           (facts.empty() ? "by the same program on the same machine\n" : "although these differ:\n" + facts);
+           (facts.empty() ? "by the same program on the same machine\n" : "although these differ:\n" + facts) +
+           (rerun.stays ? fmt::format("The rerun is in {}\n", one_line(rerun.out.string())) : "");
   }
   std::string out = fmt::format("differs: {} of {} files of {}\n", found.differences.size(), found.files, result);
   for (const FileDifference& difference : found.differences) out += "  " + to_text(difference) + "\n";
@@ -174,7 +181,7 @@ int reproduce(const ReproduceText& text, const Call& call) {
   const RerunComparison found = compare_rerun(rerun.result, rerun.recorded, rerun.changed, rerun.out, *again);
   call.out << (text.json ? json_reply(rerun, found) : text_reply(rerun, found));
   if (!found.differences.empty()) return exit_failed;
-  if (!text.out) fs::remove_all(rerun.out);
+  if (!rerun.stays) fs::remove_all(rerun.out);
   return exit_done;
 }
 

@@ -1,5 +1,9 @@
 #include <thinwall/experiments/results/manifest.hpp>
 
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/run/identity.hpp>
@@ -57,6 +61,11 @@ std::string manifest_text(const RunRecord& run, const Outcome& outcome,
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+bool stays_within(const std::string& path) {
+  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+  return !normal.empty() && normal.is_relative() && *normal.begin() != ".." && *normal.begin() != ".";
+}
+
 std::optional<Manifest> parse_manifest(const std::string& text) {
   using nlohmann::json;
   const json manifest = json::parse(text, nullptr, false);
@@ -68,11 +77,15 @@ std::optional<Manifest> parse_manifest(const std::string& text) {
                          .trials = std::nullopt,
                          .program = manifest.at("program").at("sha256")};
     if (!manifest.at("trials").is_null()) identity.trials = manifest.at("trials").get<std::int64_t>();
-    return Manifest{.identity = identity_text(identity),
-                    .answer = manifest.at("answer"),
-                    .summary = manifest.at("summary"),
-                    .self_test_passed = manifest.at("self_test_passed"),
-                    .hashes = manifest.at("files")};
+    Manifest out{.identity = identity_text(identity),
+                 .answer = manifest.at("answer"),
+                 .summary = manifest.at("summary"),
+                 .self_test_passed = manifest.at("self_test_passed"),
+                 .hashes = manifest.at("files"),
+                 .unhashed = manifest.value("files_of_times", std::vector<std::string>())};
+    const bool ours = std::ranges::all_of(out.unhashed, stays_within) &&
+                      std::ranges::all_of(out.hashes, stays_within, &std::pair<const std::string, std::string>::first);
+    return ours ? std::optional(std::move(out)) : std::nullopt;
   } catch (const json::exception&) {
     return std::nullopt;
   }

@@ -22,7 +22,11 @@ struct Manifest {
   std::string answer, summary;
   bool self_test_passed = false;
   std::map<std::string, std::string> hashes;
+  std::vector<std::string> unhashed;  ///< files that differ from run to run
 };
+
+/// True of a relative path that does not leave the folder it is seen from: of every file of a result.
+bool stays_within(const std::string& path);
 
 /// Nothing if `text` is no manifest of ours.
 std::optional<Manifest> parse_manifest(const std::string& text);

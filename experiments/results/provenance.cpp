@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/results/manifest.hpp>
+
 namespace thinwall {
 namespace {
 
@@ -29,6 +31,10 @@ std::optional<Provenance> parse_provenance(const std::string& text) {
     manifest.at("seed").get_to(out.run.seed);
     program.at("sha256").get_to(out.run.program);
     manifest.at("files").get_to(out.hashes);
+    for (const auto& [file, hash] : out.hashes) {
+      if (!stays_within(file)) return std::nullopt;
+    }
+    if (!manifest.at("seed").is_number_unsigned()) return std::nullopt;
     if (!manifest.at("trials").is_null()) out.run.trials = manifest.at("trials").get<std::int64_t>();
     const bool dirty = program.at("dirty");
     out.facts = {{"version", plain(program.at("version"))},

@@ -64,7 +64,7 @@ std::string reproduce_line(const RunRecord& run) {
   line += run.default_config ? run.experiment : "resolved.toml";
   line += fmt::format(" --seed {}", run.seed);
   if (run.trials) line += fmt::format(" --trials {}", *run.trials);
-  return line + " --out again";
+  return line + (run.default_config ? " --out again" : " --out ../again");  // a result within a result is none of it
 }
 
 std::string run_id(const RunRecord& run) {

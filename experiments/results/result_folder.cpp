@@ -86,7 +86,8 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
   }
   if (half_replaced) {
     replaced_ = manifest;
-    notes_.push_back(path_.string() + ": an earlier result was being replaced here; it is when this run ends");
+    notes_.push_back(one_line(path_.string()) +
+                     ": an earlier result was being replaced here; it is when this run ends");
     return;
   }
   std::string changed, missing;
@@ -97,22 +98,30 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
       changed = file;
     }
   }
+  for (const std::string& file : manifest->unhashed) {
+    if (!fs::exists(path_ / file)) missing = file;
+  }
   const bool ours = same_program(manifest->identity, identity);
   if (ours && missing.empty() && fs::exists(path_ / "report.html")) {
     complete_ = manifest;
     clear_up();  // after a run that was killed while it did
-    notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", path_.string(),
+    notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", one_line(path_.string()),
                                  changed.empty() ? "" : " (" + changed + " was changed since)"));
     return;
   }
   if (!changed.empty()) refuse(changed + " was changed since the run wrote it; name another folder, or move it away");
   replaced_ = manifest;
-  notes_.push_back(fmt::format("{}: {}; its result is replaced when this run ends", path_.string(),
+  notes_.push_back(fmt::format("{}: {}; its result is replaced when this run ends", one_line(path_.string()),
                                ours ? "incomplete" : "computed by another build of the program"));
 }
 
 void ResultFolder::look_at_journal(const RunIdentity& identity) {
   const fs::path file = path_ / journal_name;
+  for (const char* name : {journal_name, old_journal_name}) {
+    if (fs::exists(path_ / name) && !Journal::is_one(path_ / name)) {
+      refuse(fmt::format("holds '{}', which is not ours; name another folder", name));
+    }
+  }
   if (fs::exists(file)) {
     const std::string theirs = Journal::identity_in(file);
     const std::string difference = theirs.empty() ? "" : identity_difference(theirs, identity);
@@ -123,7 +132,7 @@ void ResultFolder::look_at_journal(const RunIdentity& identity) {
     if (theirs.empty() || !same_program(theirs, identity)) {
       fs::rename(file, path_ / old_journal_name);
       notes_.push_back(fmt::format(
-          "{}: {}; it is kept as {} until this run ends", file.string(),
+          "{}: {}; it is kept as {} until this run ends", one_line(file.string()),
           theirs.empty() ? "its first row is damaged" : "begun by another build of the program", old_journal_name));
     }
   } else if (!replaced_ && !fs::exists(path_ / old_journal_name)) {
@@ -200,6 +209,9 @@ void ResultFolder::publish() {
   }
   if (replaced_) {
     for (const auto& [file, hash] : replaced_->hashes) {
+      if (!staged.contains(file)) fs::remove(path_ / file);
+    }
+    for (const std::string& file : replaced_->unhashed) {
       if (!staged.contains(file)) fs::remove(path_ / file);
     }
   }

@@ -92,13 +92,22 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
       out.good_rows.append(row).append("\n");
     } else {
       const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));
-      out.damage.push_back(fmt::format("{}:{}: the row of '{}' is damaged", file.string(), line, one_line(key)));
+      out.damage.push_back(
+          fmt::format("{}:{}: the row of '{}' is damaged", one_line(file.string()), line, one_line(key)));
     }
   }
   return out;
 }
 
 }  // namespace
+
+bool Journal::is_one(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return false;
+  std::ifstream in(file, std::ios::binary);
+  std::string start(magic.size(), ' ');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == magic;
+}
 
 std::string Journal::identity_in(const std::filesystem::path& file) {
   errno = 0;

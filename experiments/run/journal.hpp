@@ -32,6 +32,9 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
+  /// True of a file that begins as a journal does, damaged or not.
+  static bool is_one(const std::filesystem::path& file);
+
   /// The identity that `file` was begun with; empty if there is no such file or its first row is damaged.
   static std::string identity_in(const std::filesystem::path& file);
 

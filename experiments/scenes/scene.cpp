@@ -92,12 +92,18 @@ TimePolicy policy_named(std::string_view name) {
   return TimePolicy::event_driven;
 }
 
+constexpr std::int64_t most_steps = 10'000'000;
+
 Scene read_scene(const Settings& settings, const RunOptions& options) {
   Scene scene;
   scene.name = scene_name(settings);
   settings.text("question");
   scene.dt = settings.number("dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
-  scene.steps = options.trials.value_or(settings.integer("steps", 1, 10'000'000));
+  scene.steps = options.trials.value_or(settings.integer("steps", 1, most_steps));
+  if (scene.steps > most_steps) {
+    throw UsageError(fmt::format("--trials: {} is not allowed; of a scene, its steps: a whole number from 1 to {}",
+                                 scene.steps, most_steps));
+  }
   scene.options = world_options(settings, options.threads);
   scene.bodies = read_bodies(settings, options.seed);
   for (const Settings& push : settings.tables("push", push_defaults)) scene.pushes.push_back(read_push(push, scene));

@@ -129,7 +129,7 @@ TEST_F(ToyRunTest, replies_in_json) {
 TEST_F(ToyRunTest, runs_its_own_resolved_configuration) {
   write_text(folder / "my.toml", "experiment = \"toy\"\ncells = 5\n");
   ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
-  EXPECT_EQ(manifest().at("reproduce"), "thinwall run resolved.toml --seed 0 --out again");
+  EXPECT_EQ(manifest().at("reproduce"), "thinwall run resolved.toml --seed 0 --out ../again");
   const std::string again = folder / "again";
   ASSERT_EQ(call({"run", out + "/resolved.toml", "--out", again}).status, 0);
   EXPECT_EQ(read_text(again + "/data/cells.csv"), read_text(out + "/data/cells.csv"));
