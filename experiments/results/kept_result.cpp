@@ -9,6 +9,7 @@
 #include <thinwall/experiments/results/shard_seal.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
 
 namespace thinwall {
 namespace {
@@ -24,6 +25,22 @@ std::string content(const fs::path& file) {
   if (!fs::is_regular_file(file, none)) return {};
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The configuration as its run id was computed from: numbers in their shortest form, which JSON may spell otherwise.
+std::string canonical(const nlohmann::json& value) {
+  std::string out;
+  if (value.is_object()) {
+    for (const auto& [key, item] : value.items())
+      out += (out.empty() ? "" : ",") + json_string(key) + ":" + canonical(item);
+    return "{" + out + "}";
+  }
+  if (value.is_array()) {
+    for (const auto& item : value) out += (out.empty() ? "" : ",") + canonical(item);
+    return "[" + out + "]";
+  }
+  if (value.is_string()) return json_string(value.get<std::string>());
+  return value.is_number_float() ? exact_text(value.get<double>()) : value.dump();
 }
 
 /// Nothing else is a run's: not 3.5, which would be read as 3, nor -1.
@@ -43,7 +60,7 @@ std::optional<KeptResult> parse_kept_result(const std::string& text) {
     KeptResult out{.folder = {},
                    .answer = manifest.at("answer"),
                    .summary = manifest.at("summary"),
-                   .config = config.dump(),
+                   .config = canonical(config),
                    .trials = trials.is_null() ? std::nullopt : std::optional(trials.get<std::int64_t>()),
                    .self_test_passed = manifest.at("self_test_passed"),
                    .reproduce = manifest.at("reproduce"),
