@@ -153,7 +153,8 @@ std::string check_resource(const json& resource, std::size_t number, const fs::p
     return path;
   }
   if (path.empty() || !fs::is_regular_file(folder / path)) {
-    if (!path.empty()) faults.push_back(fmt::format("{}: missing; {} describes it", one_line(path), package_file));
+    const char* const why = fs::exists(folder / path) ? "is not a file" : "missing";
+    if (!path.empty()) faults.push_back(fmt::format("{}: {}; {} describes it", one_line(path), why, package_file));
     return path;
   }
   const std::string text = file_text(folder / path);
@@ -171,6 +172,10 @@ std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
   std::vector<std::string> paths;
   if (!fs::exists(folder / package_file)) {
     add(faults, package_file, "missing");
+    return paths;
+  }
+  if (!fs::is_regular_file(folder / package_file)) {
+    add(faults, package_file, "is not a file");
     return paths;
   }
   const json package = json::parse(file_text(folder / package_file), nullptr, false);

@@ -55,6 +55,11 @@ void check_svg(const std::string& svg, const std::string& script, const std::str
 
 }  // namespace
 
+std::string title_of_script(const std::string& script) {
+  const auto at = script.find("\nset label 1 ");
+  return at == std::string::npos ? "" : quoted_after(script, at);
+}
+
 void check_figures(const fs::path& folder, Faults& faults) {
   if (!fs::is_directory(folder / "plots")) return;
   std::set<fs::path> scripts;

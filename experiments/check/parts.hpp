@@ -21,8 +21,20 @@ std::vector<std::string> check_data(const std::filesystem::path& folder, Faults&
 /// The script, the data and the SVG of each figure.
 void check_figures(const std::filesystem::path& folder, Faults& faults);
 
-/// report.html: whole, and it stands alone.
+/// The title of the figure that a script draws; empty if it has none.
+std::string title_of_script(const std::string& script);
+
+/// report.html: whole, it shows what the folder holds, and it stands alone.
 void check_page(const KeptResult& result, Faults& faults);
+
+/// Each SVG that the manifest names stands in the page.
+void check_page_figures(const KeptResult& result, const std::string& page, Faults& faults);
+
+/// Each table of tables/ stands in the page, cell for cell.
+void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults);
+
+/// Nothing in the page asks a host for anything, or runs; every link leads to something.
+void check_stands_alone(const KeptResult& result, const std::string& page, Faults& faults);
 
 /// resolved.toml and cite.bib.
 void check_texts(const KeptResult& result, Faults& faults);

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <thinwall/experiments/check/parts.hpp>
+#include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 
 namespace thinwall {
@@ -11,6 +12,14 @@ namespace {
 
 constexpr const char* toml_file = "resolved.toml";
 constexpr const char* bib_file = "cite.bib";
+
+/// The manifest's configuration as its file should have it.
+toml::table config_of(const KeptResult& result) {
+  RunRecord run;
+  run.experiment = result.citation.experiment;
+  run.config = result.config;
+  return toml::parse(resolved_toml(run));
+}
 
 void check_toml(const KeptResult& result, Faults& faults) {
   const std::string text = file_text(result.folder / toml_file);
@@ -22,6 +31,10 @@ void check_toml(const KeptResult& result, Faults& faults) {
       faults.push_back(fmt::format("{}: is of experiment '{}', the manifest of '{}'", toml_file, one_line(experiment),
                                    one_line(result.citation.experiment)));
     }
+    if (table != config_of(result))
+      faults.push_back(fmt::format("{}: is not the configuration that the manifest records", toml_file));
+    if (text.find("\n# " + result.reproduce + "\n") == std::string::npos)
+      faults.push_back(fmt::format("{}: does not give the manifest's line that reproduces the result", toml_file));
   } catch (const toml::parse_error& error) {
     faults.push_back(
         fmt::format("{}:{}: not TOML: {}", toml_file, error.source().begin.line, one_line(error.description())));

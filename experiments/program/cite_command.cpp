@@ -4,11 +4,13 @@
 #include <optional>
 #include <ostream>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/program/options.hpp>
 #include <thinwall/experiments/results/kept_result.hpp>
+#include <thinwall/experiments/settings.hpp>
 
 namespace thinwall {
 namespace {
@@ -42,13 +44,15 @@ std::string json_reply(const SoftwareCitation& software, const std::optional<Res
 
 struct CiteText {
   std::string target;
+  bool given = false;  ///< the target, be it empty
   bool json = false;
 };
 
 int cite(const CiteText& text, std::ostream& out) {
   SoftwareCitation software = this_software();
   std::optional<ResultCitation> result;
-  if (!text.target.empty()) {
+  if (text.given && text.target.empty()) throw UsageError("cite: the folder of a result is empty; name one, or none");
+  if (text.given) {
     const KeptResult kept = read_result(text.target);
     software = kept.software;
     result = kept.citation;
@@ -64,6 +68,7 @@ int cite(const CiteText& text, std::ostream& out) {
 Action declare_cite(CLI::App& self) {
   const auto text = std::make_shared<CiteText>();
   add_target(self, "result", text->target, "The folder of a result; without one the software alone is cited", "RESULT");
+  self.get_option("result")->each([text](const std::string&) { text->given = true; });
   add_json(self, text->json);
   return [text](const Call& call) { return cite(*text, call.out); };
 }

@@ -14,6 +14,7 @@
 #include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/kept_result.hpp>
 #include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/escape.hpp>
 
 namespace thinwall {
 namespace {
@@ -55,7 +56,7 @@ std::string result_text(const KeptResult& result) {
   std::string out = result.citation.question + "\n\n" + result.answer + "\n\n";
   if (!result.summary.empty()) out += result.summary + (result.summary.ends_with('\n') ? "\n" : "\n\n");
   if (!result.self_test_passed) out += "The self-test failed: do not cite these numbers.\n\n";
-  return out + "report: " + (result.folder / "report.html").string() + "\n";
+  return out + "report: " + one_line((result.folder / "report.html").string()) + "\n";
 }
 
 /// Checks a folder that may hold anything.
@@ -67,7 +68,7 @@ int check(const ReportText& text, const Call& call) {
     call.out << reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
   } else {
     for (const std::string& fault : faults) call.out << fault << "\n";
-    call.out << fmt::format("{}: {}\n", text.target,
+    call.out << fmt::format("{}: {}\n", one_line(text.target),
                             faults.empty()       ? "whole: no fault was found"
                             : faults.size() == 1 ? "1 fault"
                                                  : fmt::format("{} faults", faults.size()));
@@ -82,7 +83,7 @@ int report(const ReportText& text, const Call& call) {
   if (!formats.empty()) {
     read_result(text.target);
     drawn = draw_figures(text.target, formats);
-    for (const std::string& trouble : drawn.troubles) call.err << trouble << "\n";
+    for (const std::string& trouble : drawn.troubles) call.err << one_line(trouble) << "\n";
   }
   const int drawing = drawn.troubles.empty() ? exit_done : exit_failed;
   if (text.check) return std::max(check(text, call), drawing);
@@ -94,7 +95,8 @@ int report(const ReportText& text, const Call& call) {
     call.out << reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
   } else {
     call.out << result_text(result);
-    for (const std::string& file : drawn.files) call.out << "drawn: " << (result.folder / file).string() << "\n";
+    for (const std::string& file : drawn.files)
+      call.out << "drawn: " << one_line((result.folder / file).string()) << "\n";
   }
   return drawing;
 }
@@ -103,7 +105,7 @@ Action declare_report(CLI::App& self) {
   const auto text = std::make_shared<ReportText>();
   self.footer(footer);
   add_target(self, "result", text->target, "The folder of a result", "RESULT");
-  add_flag(self, "--check", text->check, "Check the whole folder, and name every fault");
+  add_flag(self, "--check", text->check, "Check the whole folder, and name each fault found");
   add_figures(self, text->figures);
   add_json(self, text->json);
   return [text](const Call& call) { return report(*text, call); };

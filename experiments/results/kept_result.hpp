@@ -1,6 +1,7 @@
 #pragma once
 /// A complete result, read back from its folder.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,6 +16,8 @@ namespace thinwall {
 struct KeptResult {
   std::filesystem::path folder;
   std::string answer, summary;
+  std::string config;                  ///< canonical JSON
+  std::optional<std::int64_t> trials;  ///< as given on the command line
   bool self_test_passed = false;
   std::string reproduce;                      ///< the command line that gives it again
   std::map<std::string, std::string> hashes;  ///< SHA-256 by path
@@ -25,6 +28,9 @@ struct KeptResult {
 
 /// Nothing if `text` is no manifest of ours.
 std::optional<KeptResult> parse_kept_result(const std::string& text);
+
+/// `1/3` if `folder` holds a finished shard of a run; empty if not.
+std::string shard_in(const std::filesystem::path& folder);
 
 /// Throws UsageError if `folder` holds no complete result.
 KeptResult read_result(const std::filesystem::path& folder);

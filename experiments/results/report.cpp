@@ -52,7 +52,8 @@ std::string provenance(const RunRecord& run) {
          fact("Libraries", libraries) +
          fact("Machine",
               fmt::format("{}, {} hardware threads, {}", run.machine.cpu, run.machine.cores, run.machine.system)) +
-         fact("Run", fmt::format("{} to {}, {} threads", utc_text(run.started), utc_text(run.finished), run.threads)) +
+         fact("Run", fmt::format("{} to {}, {} thread{}", utc_text(run.started), utc_text(run.finished), run.threads,
+                                 run.threads == 1 ? "" : "s")) +
          fact("Size", fmt::format("{} units, {} trials", grouped_text(static_cast<std::int64_t>(run.units)),
                                   grouped_text(run.total_trials))) +
          fact("Seed", std::to_string(run.seed)) + fact("Run id", run_id(run)) + fact("Command", shell_line(run.argv)) +

@@ -166,7 +166,7 @@ std::vector<Section> report_sections(const std::vector<Total>& totals, const Ver
            "exceed its bound, and no hit may be reported where ball and wall are apart. First contact is found by "
            "Newton's method, not by any of the methods under test."},
       {"Limits",
-       "The ball flies straight and does not turn; the wall is at rest; unless `response` says so, nothing bounces. There is no theory where the wall "
+       "The ball flies straight and does not turn; the wall is at rest; unless the setting 'response' says so, nothing bounces. There is no theory where the wall "
        "is finite and the poses are closer together than its longest chord, nor for the ray from the center at a finite "
        "wall that is not hit head-on: those cells are counted but judged by no formula.\n\nTime a shot includes drawing "
        "the shot and finding its true contact; it differs from run to run."},
