@@ -51,6 +51,13 @@ TEST_F(ReportTest, prints_question_answer_and_summary) {
   EXPECT_EQ(json.at("drawn"), nlohmann::json::array());
 }
 
+TEST_F(ReportTest, counts_a_single_thread_as_one) {
+  ASSERT_EQ(call({"run", "toy", "--threads", "1", "--out", out + "1"}).status, 0);
+  EXPECT_NE(read_text(out + "1/report.html").find(", 1 thread</dd>"), std::string::npos);
+  ASSERT_EQ(call({"run", "toy", "--threads", "2", "--out", out + "2"}).status, 0);
+  EXPECT_NE(read_text(out + "2/report.html").find(", 2 threads</dd>"), std::string::npos);
+}
+
 TEST_F(ReportTest, finds_a_fresh_folder_whole) {
   const Reply reply = call({"report", out, "--check"});
   EXPECT_EQ(reply.status, 0);
