@@ -1,6 +1,5 @@
 /// The thin wall's answers: who tunnels, and does theory agree?
 #include <thinwall/experiments/thin_wall.hpp>
-#include <thinwall/experiments/thin_wall/figures.hpp>
 
 #include <algorithm>
 #include <string>
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/thin_wall/figures.hpp>
 #include <thinwall/experiments/thin_wall/line.hpp>
 
 #include "experiments/thin_wall_run.hpp"
@@ -123,6 +123,11 @@ TEST(ThinWall, another_seed_gives_other_shots) {
   const Table first = table_of(outcome_of(*configured(small)), "cells");
   const Table second = table_of(outcome_of(*configured(small, {.seed = 2, .trials = {}})), "cells");
   EXPECT_NE(tunneled(first, "end_of_step"), tunneled(second, "end_of_step"));
+}
+
+TEST(ThinWall, speaks_plain_text) {
+  for (const Section& section : outcome_of(*configured(small)).sections)
+    EXPECT_EQ(section.text.find('`'), std::string::npos) << section.heading;
 }
 
 std::vector<std::string> figures_and_panels(const std::string& changes) {
