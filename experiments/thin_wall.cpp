@@ -67,7 +67,7 @@ class ThinWallRun final : public Run {
                     .tables = {bullet_table(lines), totals_table(sums), self_test_table(verdicts.counts),
                                stratified_table(verdicts.stratified), lateness_table(verdicts.lateness),
                                cells_table(lines, plan_.response), timings_table(lines)},
-                    .figures = {probability_figure(lines), lateness_figure(lines), finite_figure(lines)},
+                    .figures = with_points({probability_figure(lines), lateness_figure(lines), finite_figure(lines)}),
                     .sections = report_sections(sums, verdicts),
                     .self_test_passed = verdicts.passed()};
     if (plan_.response == Response::bounce) add_bounces(lines, outcome);
@@ -81,7 +81,8 @@ class ThinWallRun final : public Run {
     outcome.answer = bounce_answer(lines) + " " + outcome.answer;
     outcome.summary = bounce_text(lines, tests) + outcome.summary;
     outcome.tables.insert(outcome.tables.begin(), {bounce_table(lines), bounce_self_test_table(tests)});
-    outcome.figures.insert(outcome.figures.begin(), bounce_figure(lines));
+    for (Figure& figure : with_points({bounce_figure(lines)}))
+      outcome.figures.insert(outcome.figures.begin(), std::move(figure));
     outcome.sections.push_back(bounce_section(tests));
     outcome.self_test_passed &= all_passed(tests) && ends_agree(lines);
   }

@@ -12,6 +12,8 @@
 
 namespace thinwall {
 
+using namespace std::string_literals;
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -147,8 +149,10 @@ Figure probability_figure(const std::vector<Line>& lines) {
       .title = "How often a ball passes a thin wall unseen",
       .caption =
           "Infinite walls, double. Points are measured, with 95 % Wilson intervals; the line is the theory "
-          "max(0, 1 - n (w + 2 r) / (v h cos(angle))) for n poses a step. Above: one cell in each sixth of a "
-          "decade, methods that never tunnel taking turns on the zero line. Below: every cell in which at least 5 shots are expected to tunnel and 5 not to.",
+          "max(0, 1 - n (w + 2 r) / (v h cos(angle))) for n poses a step. "s +
+          (judged.empty() ? "O" : "Above: o") +
+          "ne cell in each sixth of a decade, methods that never tunnel taking turns on the zero line." +
+          (judged.empty() ? "" : " Below: every cell in which at least 5 shots are expected to tunnel and 5 not to."),
       .panels = {std::move(top), std::move(bottom)}};
 }
 
@@ -207,6 +211,18 @@ Figure finite_figure(const std::vector<Line>& lines) {
               "step over mean chord  v h shadow / volume  [1]", "tunneling probability [1]",
               taking_turns(by_method(thinned(finite, finite_step_ratio), finite_step_ratio, probability, interval)),
               theory_curves(finite, [](double x) { return miss_probability(1, x); }))}};
+}
+
+std::vector<Figure> with_points(std::vector<Figure> figures) {
+  const auto has_points = [](const Panel& panel) {
+    return std::any_of(panel.series.begin(), panel.series.end(), [](const Series& series) {
+      const auto is_drawn = [](double y) { return std::isfinite(y); };
+      return series.mark == Mark::points && std::any_of(series.y.begin(), series.y.end(), is_drawn);
+    });
+  };
+  for (Figure& figure : figures) std::erase_if(figure.panels, [&](const Panel& panel) { return !has_points(panel); });
+  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return figures;
 }
 
 }  // namespace thinwall

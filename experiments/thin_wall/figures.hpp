@@ -13,4 +13,7 @@ Figure bounce_figure(const std::vector<Line>& lines);       ///< the same with a
 Figure lateness_figure(const std::vector<Line>& lines);     ///< infinite walls
 Figure finite_figure(const std::vector<Line>& lines);       ///< finite walls
 
+/// Without the panels in which nothing was measured, and without the figures that then have none.
+std::vector<Figure> with_points(std::vector<Figure> figures);
+
 }  // namespace thinwall

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/thin_wall/figures.hpp>
 #include <thinwall/experiments/thin_wall/line.hpp>
 
 #include "experiments/thin_wall_run.hpp"
@@ -122,6 +123,27 @@ TEST(ThinWall, another_seed_gives_other_shots) {
   const Table first = table_of(outcome_of(*configured(small)), "cells");
   const Table second = table_of(outcome_of(*configured(small, {.seed = 2, .trials = {}})), "cells");
   EXPECT_NE(tunneled(first, "end_of_step"), tunneled(second, "end_of_step"));
+}
+
+TEST(ThinWall, speaks_plain_text) {
+  for (const Section& section : outcome_of(*configured(small)).sections)
+    EXPECT_EQ(section.text.find('`'), std::string::npos) << section.heading;
+}
+
+std::vector<std::string> figures_and_panels(const std::string& changes) {
+  std::vector<std::string> out;
+  for (const Figure& figure : outcome_of(*configured(changes + "\nspeed = [40]\nradius = [0.02]\nshots = 400")).figures)
+    out.push_back(figure.name + " " + std::to_string(figure.panels.size()));
+  return out;
+}
+
+TEST(ThinWall, draws_no_figure_and_no_panel_without_a_measured_point) {
+  using Names = std::vector<std::string>;
+  EXPECT_TRUE(with_points({finite_figure({}), lateness_figure({}), bounce_figure({})}).empty());
+  EXPECT_EQ(figures_and_panels("step = [0.01]"), (Names{"probability 2", "lateness 1", "finite 1"}));
+  EXPECT_EQ(figures_and_panels("step = [0.01]\nwall = [\"infinite\"]"), (Names{"probability 2", "lateness 1"}));
+  EXPECT_EQ(figures_and_panels("step = [0.01]\nwall = [\"infinite\"]\nmethod = [\"closed_form\"]"),
+            (Names{"probability 1", "lateness 1"}));
 }
 
 }  // namespace

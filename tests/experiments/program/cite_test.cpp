@@ -69,6 +69,9 @@ TEST_F(CiteTest, refuses_what_holds_no_result) {
   write_text(folder / "manifest.json", "{\"thinwall_manifest\": 1}");
   expect_refusal(folder.path().string(), "its manifest.json is damaged");
   expect_refusal(folder / "manifest.json", "is not a folder");
+  const Reply nameless = call({"cite", ""});
+  EXPECT_EQ(nameless.status, 2);
+  EXPECT_EQ(nameless.err, "cite: the folder of a result is empty; name one, or none\n");
 }
 
 }  // namespace

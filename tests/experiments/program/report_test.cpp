@@ -51,6 +51,13 @@ TEST_F(ReportTest, prints_question_answer_and_summary) {
   EXPECT_EQ(json.at("drawn"), nlohmann::json::array());
 }
 
+TEST_F(ReportTest, counts_a_single_thread_as_one) {
+  ASSERT_EQ(call({"run", "toy", "--threads", "1", "--out", out + "1"}).status, 0);
+  EXPECT_NE(read_text(out + "1/report.html").find(", 1 thread</dd>"), std::string::npos);
+  ASSERT_EQ(call({"run", "toy", "--threads", "2", "--out", out + "2"}).status, 0);
+  EXPECT_NE(read_text(out + "2/report.html").find(", 2 threads</dd>"), std::string::npos);
+}
+
 TEST_F(ReportTest, finds_a_fresh_folder_whole) {
   const Reply reply = call({"report", out, "--check"});
   EXPECT_EQ(reply.status, 0);
@@ -82,6 +89,90 @@ TEST_F(ReportTest, sees_what_became_of_the_manifest) {
   expect_fault("manifest.json: missing");
   EXPECT_EQ(call({"report", out, "--check"}).status, 1);
   EXPECT_EQ(call({"report", out}).status, 2);
+}
+
+TEST_F(ReportTest, sees_a_manifest_that_was_edited) {
+  const std::string good = read_text(out + "/manifest.json");
+  const auto expect_manifest_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
+    change("manifest.json", from, to);
+    expect_fault(fault);
+    write_text(out + "/manifest.json", good);
+  };
+  expect_manifest_fault("\"seed\": 3", "\"seed\": 4", "manifest.json: run_id is '");
+  expect_manifest_fault("\"trials\": null", "\"trials\": 7", "manifest.json: run_id is '");
+  expect_manifest_fault("\"cells\": 20", "\"cells\": 21", "manifest.json: run_id is '");
+  expect_manifest_fault("\"cells\": 20", "\"cells\": 21", "resolved.toml: is not the configuration");
+  expect_manifest_fault("run toy --seed", "run toy  --seed", "resolved.toml: does not give the manifest's line");
+  expect_manifest_fault("\"self_test_passed\": true", "\"self_test_passed\": false",
+                        "report.html: does not give the manifest's verdict");
+  expect_manifest_fault("\"seed\": 3", "\"seed\": 3.5", "manifest.json: damaged, or not ours");
+  expect_manifest_fault("\"seed\": 3", "\"seed\": -3", "manifest.json: damaged, or not ours");
+  expect_manifest_fault("\"trials\": null", "\"trials\": 1.5", "manifest.json: damaged, or not ours");
+}
+
+TEST_F(ReportTest, recomputes_a_run_id_however_json_spells_the_numbers) {
+  write_text(folder / "small.toml", "experiment = \"toy\"\nspeed = [0.0001, 1e20]\n");  // 1e-04 where numbers are short
+  ASSERT_EQ(call({"run", folder / "small.toml", "--out", out + "2"}).status, 0);
+  EXPECT_EQ(check_result(out + "2"), std::vector<std::string>{});
+}
+
+TEST_F(ReportTest, sees_what_is_no_file_of_the_result) {
+  const auto expect_stray = [&](const std::string& name, const std::string& fault) {
+    expect_fault(name + ": " + fault);
+    std::filesystem::remove(out + "/" + name);
+  };
+  std::filesystem::create_directory(out + "/empty");
+  expect_stray("empty", "an empty folder that the manifest does not name");
+  std::filesystem::create_symlink("manifest.json", out + "/link");
+  expect_stray("link", "a link that the manifest does not name");
+  std::filesystem::create_directory_symlink("data", out + "/linked");
+  expect_stray("linked", "a link that the manifest does not name");
+  for (const char* journal : {"journal.old.tsv", "journal.rank-12.tsv"}) {
+    write_text(out + "/" + journal, "");
+    expect_stray(journal, "a run is at work here");
+  }
+  for (const char* mine : {"journal.txt", "journal.rank-.tsv", "journal.rank-x.tsv"}) {
+    write_text(out + "/" + mine, "");
+    expect_stray(mine, "the manifest does not name it");
+  }
+  EXPECT_EQ(check_result(out), std::vector<std::string>{});
+}
+
+TEST_F(ReportTest, names_a_folder_that_stands_where_a_file_should) {
+  for (const char* file : {"data/cells.csv", "data/timings.csv", "datapackage.json", "resolved.toml", "cite.bib",
+                           "plots/squares.svg", "plots/squares.gp", "report.html", "manifest.json"}) {
+    std::filesystem::remove(out + "/" + file);
+    std::filesystem::create_directory(out + "/" + file);
+    expect_fault(file + std::string(": is not a file"));
+  }
+  for (const char* command : {"report", "cite"}) {
+    const Reply reply = call({command, out});
+    EXPECT_EQ(reply.status, 2);
+    EXPECT_EQ(reply.err, out + ": its manifest.json is not a file\n");
+  }
+}
+
+TEST_F(ReportTest, says_of_a_shard_that_it_is_one) {
+  const std::string shard = folder / "shard";
+  ASSERT_EQ(call({"run", "toy", "--shard", "1/3", "--out", shard}).status, 0);
+  const std::string said = "is shard 1/3 of a run; thinwall merge makes a result of all of them\n";
+  for (const char* command : {"report", "cite"}) {
+    const Reply reply = call({command, shard});
+    EXPECT_EQ(reply.status, 2);
+    EXPECT_EQ(reply.err, shard + ": " + said);
+  }
+  const Reply reply = call({"report", shard, "--check"});
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_EQ(reply.out, "shard.json: " + said + shard + ": 1 fault\n");
+}
+
+TEST_F(ReportTest, prints_a_folders_name_on_one_line_that_drives_no_terminal) {
+  const std::string awkward = folder / "a\x1b[31m\nb", shown = folder / "a\\x1b[31m\\x0ab";
+  std::filesystem::rename(out, awkward);
+  EXPECT_TRUE(call({"report", awkward}).out.ends_with("report: " + shown + "/report.html\n"));
+  EXPECT_EQ(call({"report", awkward, "--check"}).out, shown + ": whole: no fault was found\n");
+  const Reply drawn = call({"report", awkward, "--figures", "pdf"});
+  EXPECT_NE(drawn.out.find("drawn: " + shown + "/plots/cost.pdf\n"), std::string::npos) << drawn.out << drawn.err;
 }
 
 TEST_F(ReportTest, holds_each_table_against_its_description) {
@@ -132,6 +223,29 @@ TEST_F(ReportTest, wants_a_page_that_stands_alone_and_is_complete) {
   expect_page_fault("The squares &amp; &lt;their", "The circles &amp; &lt;their",
                     "does not give the manifest's answer");
   expect_page_fault("</html>", "", "not a whole page");
+  expect_page_fault("<main>", "<main><a href=http://a.org>x</a>", "asks for 'http://a.org'");
+  expect_page_fault("<main>", "<main><a HREF = \"http://a.org\">x</a>", "asks for 'http://a.org'");
+  expect_page_fault("<main>", "<main><a href=\"/etc\">x</a>", "asks for '/etc'");
+  expect_page_fault("<main>", "<main><a href=\"data/none.csv\">x</a>", "links to 'data/none.csv', which is not there");
+  expect_page_fault("<main>", "<main><img src=//a.org/x>", "asks for '//a.org/x'");
+  expect_page_fault("<main>", "<main><Video poster='//a.org/x'>", "'<video' in a page");
+  expect_page_fault("<main>", "<main><Video poster='//a.org/x'>", "asks for '//a.org/x'");
+  expect_page_fault("<head>", "<head><meta http-equiv=refresh content=1>", "attribute 'http-equiv' in a page");
+  expect_page_fault("<body>", "<body OnLoad=a()>", "attribute 'onload' in a page");
+  expect_page_fault("<body>", "<body class=\"x\"onload = a()>", "attribute 'onload' in a page");
+  expect_page_fault("<main>", "<main><svg/onload=a()>", "attribute 'onload' in a page");
+  expect_page_fault("<main>", "<main><p title='>' onclick=a()>", "attribute 'onclick' in a page");
+  expect_page_fault("</style>", "@Import 'a.css';</style>", "'@import' in a page");
+  expect_page_fault("The self-test passed.", "", "does not give the manifest's verdict");
+  expect_page_fault("<td class=\"n\">6.333</td>", "<td class=\"n\">6.334</td>", "does not show the rows");
+  expect_page_fault("Squares, and the seed.", "Cubes.", "does not show the rows and the caption of tables/cells.md");
+  for (const char* figure : {"squares", "cost"}) {
+    const auto first = figure == std::string("squares") ? good.find("<svg") : good.rfind("<svg");
+    std::string cut = good;
+    write_text(out + "/report.html", cut.erase(first, good.find("</svg>", first) - first));
+    expect_fault(std::string("report.html: does not show plots/") + figure + ".svg");
+    write_text(out + "/report.html", good);
+  }
   std::filesystem::remove(out + "/report.html");
   expect_fault("report.html: missing or empty");
 }
