@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace thinwall {
 namespace {
@@ -10,8 +11,9 @@ constexpr std::string_view space = " \t\n\f\r";
 
 /// Moves `at` past the word that ends before one of `ends`, and returns it.
 std::string_view take_word(std::string_view page, std::size_t& at, const std::string& ends) {
-  const std::size_t end = std::min(page.find_first_of(ends, at), page.size());
-  return page.substr(std::exchange(at, end), end - at);
+  const std::size_t begin = at;
+  at = std::min(page.find_first_of(ends, begin), page.size());
+  return page.substr(begin, at - begin);
 }
 
 void skip(std::string_view page, std::size_t& at, const std::string& letters) {
