@@ -9,8 +9,6 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* page_file = "report.html";
-
 /// What a report is made of, and the pictures in it; none of it runs, or loads anything but by `href`.
 bool is_plain(const std::string& element) {
   static const std::set<std::string> html = {

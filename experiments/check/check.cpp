@@ -101,9 +101,10 @@ void check_run_id(const KeptResult& result, Faults& faults) {
   run.config = result.config;
   run.seed = result.citation.seed;
   run.trials = result.trials;
-  if (const std::string id = run_id(run); id != result.citation.run_id)
+  if (const std::string id = run_id(run); id != result.citation.run_id) {
     faults.push_back(fmt::format("manifest.json: run_id is '{}', but its experiment, config, seed and trials give '{}'",
                                  one_line(result.citation.run_id), id));
+  }
 }
 
 }  // namespace

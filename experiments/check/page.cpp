@@ -8,8 +8,6 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* page_file = "report.html";
-
 void check_content(const KeptResult& result, const std::string& page, Faults& faults) {
   const auto require = [&](const std::string& html, const char* what) {
     if (page.find(html) == std::string::npos) faults.push_back(fmt::format("{}: {}", page_file, what));

@@ -10,8 +10,6 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* page_file = "report.html";
-
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);

@@ -9,6 +9,8 @@
 
 namespace thinwall {
 
+inline constexpr const char* page_file = "report.html";
+
 using Faults = std::vector<std::string>;
 
 /// The whole of a file; empty if it cannot be read.
