@@ -1,7 +1,6 @@
 #include <thinwall/experiments/check/check.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include <thinwall/experiments/check/parts.hpp>
 #include <thinwall/experiments/results/record.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
@@ -108,12 +108,6 @@ void check_run_id(const KeptResult& result, Faults& faults) {
 }
 
 }  // namespace
-
-std::string file_text(const fs::path& file) {
-  if (!fs::is_regular_file(file)) return {};
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<std::string> check_result(const fs::path& folder) {
   const bool complete = fs::exists(folder / "manifest.json");

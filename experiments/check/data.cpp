@@ -8,6 +8,7 @@
 #include <thinwall/experiments/check/csv_reader.hpp>
 #include <thinwall/experiments/check/parts.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {

@@ -5,6 +5,7 @@
 
 #include <thinwall/experiments/check/parts.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 
 namespace thinwall {
 namespace {

@@ -6,6 +6,7 @@
 #include <thinwall/experiments/check/parts.hpp>
 #include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 
 namespace thinwall {
 namespace {

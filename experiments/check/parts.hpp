@@ -13,9 +13,6 @@ inline constexpr const char* page_file = "report.html";
 
 using Faults = std::vector<std::string>;
 
-/// The whole of a file; empty if it cannot be read.
-std::string file_text(const std::filesystem::path& file);
-
 /// datapackage.json against the rules of a Tabular Data Package, and each of its tables against it. Returns the paths of the
 /// tables.
 std::vector<std::string> check_data(const std::filesystem::path& folder, Faults& faults);

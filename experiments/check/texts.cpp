@@ -6,6 +6,7 @@
 #include <thinwall/experiments/check/parts.hpp>
 #include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 
 namespace thinwall {
 namespace {

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,6 +6,7 @@
 #include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/figures/subprocess.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 
 namespace thinwall {
 namespace {
@@ -30,8 +29,7 @@ std::set<std::string> ids_in(const std::string& svg) {
 
 /// gnuplot does not always notice that the disk is full.
 bool ends_as_it_should(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = file_text(file);
   const std::string_view end = file.extension() == ".svg" ? "</svg>" : file.extension() == ".pdf" ? "%%EOF" : "\n";
   return text.find(end, text.size() - std::min<std::size_t>(text.size(), 16)) != std::string::npos;
 }

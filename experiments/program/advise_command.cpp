@@ -21,13 +21,13 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* examples = R"(  thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60
+constexpr const char* advise_examples = R"(  thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60
   thinwall advise --speed 900 --radius 0.004 --thickness 0.02 --angle 30 --step 0.001 --miss 0.01 --late 0.05
   thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60 --toml check.toml
   thinwall run check.toml --out results/check              fires the shots that put the advice to the test
 )";
 
-constexpr const char* footer =
+constexpr const char* advise_footer =
     R"(Chances and lateness are computed by formula, for one infinite wall, straight flight and no rotation; costs are measured,
 in about a second. --toml - prints the configuration instead of the advice. More: docs/advise.md.
 )";
@@ -102,7 +102,7 @@ int print_advice(const AdviseText& text, const Call& call) {
 
 Action declare_advise(CLI::App& self) {
   const auto text = std::make_shared<AdviseText>();
-  self.footer(footer);
+  self.footer(advise_footer);
   add_text(self, "--speed", text->words.speed, "How fast the ball flies, seen from the wall", "M/S");
   add_text(self, "--radius", text->words.radius, "Of the ball; 0 is a point", "M");
   add_text(self, "--thickness", text->words.thickness, "Of the wall; 0 is a sheet", "M");
@@ -119,7 +119,7 @@ Action declare_advise(CLI::App& self) {
 }  // namespace
 
 Command advise_command() {
-  return {"advise", "Name the cheapest method that is good enough for a speed, a wall and a step", examples,
+  return {"advise", "Name the cheapest method that is good enough for a speed, a wall and a step", advise_examples,
           declare_advise};
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* examples = R"(  thinwall cite                      the software
+constexpr const char* cite_examples = R"(  thinwall cite                      the software
   thinwall cite results/thin_wall    the software, and that result
 )";
 
@@ -75,6 +75,8 @@ Action declare_cite(CLI::App& self) {
 
 }  // namespace
 
-Command cite_command() { return {"cite", "Print BibTeX for the software, and for a result", examples, declare_cite}; }
+Command cite_command() {
+  return {"cite", "Print BibTeX for the software, and for a result", cite_examples, declare_cite};
+}
 
 }  // namespace thinwall

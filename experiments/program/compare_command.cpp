@@ -8,11 +8,11 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* examples = R"(  thinwall compare experiments/scenes/bullet_against_bullet.toml
+constexpr const char* compare_examples = R"(  thinwall compare experiments/scenes/bullet_against_bullet.toml
   thinwall compare my_scene.toml --out results/mine --threads 1
 )";
 
-constexpr const char* footer =
+constexpr const char* compare_footer =
     R"(The scene is stepped under every time policy and step that its [compare] names, and once more by events, with steps
 finer than the finest: the exact run that the others are held against. A folder is continued as by `run`.
 )";
@@ -20,7 +20,7 @@ finer than the finest: the exact run that the others are held against. A folder 
 Action declare_compare(CLI::App& self) {
   const auto text = std::make_shared<RunText>();
   text->wish.request.compare = true;
-  self.footer(footer);
+  self.footer(compare_footer);
   add_scene_target(self, text->wish.target);
   add_run_options(self, *text);
   return [text](const Call& call) {
@@ -32,7 +32,7 @@ Action declare_compare(CLI::App& self) {
 }  // namespace
 
 Command compare_command() {
-  return {"compare", "Step a scene under every time policy, and hold each against the exact run", examples,
+  return {"compare", "Step a scene under every time policy, and hold each against the exact run", compare_examples,
           declare_compare, true};
 }
 

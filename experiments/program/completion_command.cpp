@@ -14,7 +14,8 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* examples = R"(  source <(thinwall completion bash)      for this shell; in ~/.bashrc for every one
+constexpr const char* completion_examples =
+    R"(  source <(thinwall completion bash)      for this shell; in ~/.bashrc for every one
   source <(thinwall completion zsh)
   thinwall completion fish | source
 )";
@@ -46,8 +47,8 @@ Action declare_completion(CLI::App& self) {
 }  // namespace
 
 Command completion_command() {
-  return {"completion", "Print a script that completes commands, options and experiments in a shell", examples,
-          declare_completion};
+  return {"completion", "Print a script that completes commands, options and experiments in a shell",
+          completion_examples, declare_completion};
 }
 
 }  // namespace thinwall

@@ -33,12 +33,12 @@ Action declare_list(CLI::App& self) {
   };
 }
 
-constexpr const char* examples = R"(  thinwall list
+constexpr const char* list_examples = R"(  thinwall list
   thinwall list --json
 )";
 
 }  // namespace
 
-Command list_command() { return {"list", "Print every experiment and its question", examples, declare_list}; }
+Command list_command() { return {"list", "Print every experiment and its question", list_examples, declare_list}; }
 
 }  // namespace thinwall

@@ -12,12 +12,12 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* examples = R"(  thinwall run thin_wall --shard 1/2 --out part1
+constexpr const char* merge_examples = R"(  thinwall run thin_wall --shard 1/2 --out part1
   thinwall run thin_wall --shard 2/2 --out part2     on another machine
   thinwall merge part1 part2 --out results/mine
 )";
 
-constexpr const char* footer =
+constexpr const char* merge_footer =
     R"(The result is that of one run, to the byte, but for times. Every shard must be there once, whole, of the same
 configuration, seed and --trials, by the same build of the program as this one.
 )";
@@ -40,7 +40,7 @@ int merge(const MergeText& text, const Call& call) {
 
 Action declare_merge(CLI::App& self) {
   const auto text = std::make_shared<MergeText>();
-  self.footer(footer);
+  self.footer(merge_footer);
   self.add_option("shards", text->folders, "The folders that thinwall run --shard left, in any order")
       ->option_text("SHARD...");
   add_out(self, text->out);
@@ -50,6 +50,6 @@ Action declare_merge(CLI::App& self) {
 
 }  // namespace
 
-Command merge_command() { return {"merge", "Make one result of the shards of a run", examples, declare_merge}; }
+Command merge_command() { return {"merge", "Make one result of the shards of a run", merge_examples, declare_merge}; }
 
 }  // namespace thinwall

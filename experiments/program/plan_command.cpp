@@ -50,7 +50,7 @@ int print_plan(const PlanText& text, std::ostream& out) {
   return exit_done;
 }
 
-constexpr const char* examples = R"(  thinwall plan experiments/scenes/rain.toml
+constexpr const char* plan_examples = R"(  thinwall plan experiments/scenes/rain.toml
   thinwall plan my_scene.toml --json
 )";
 
@@ -83,6 +83,6 @@ std::string parse_plan_kind(const OptionText& plan) {
   return parse_choice("--plan", plan, kinds);
 }
 
-Command plan_command() { return {"plan", "Print what a scene does not need, and why", examples, declare_plan}; }
+Command plan_command() { return {"plan", "Print what a scene does not need, and why", plan_examples, declare_plan}; }
 
 }  // namespace thinwall

@@ -22,12 +22,12 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(  thinwall report results/thin_wall
+constexpr const char* report_examples = R"(  thinwall report results/thin_wall
   thinwall report results/thin_wall --check
   thinwall report results/thin_wall --figures pdf,tex
 )";
 
-constexpr const char* footer =
+constexpr const char* report_footer =
     R"(--check reads every file: hashes, missing and unknown files, each CSV against datapackage.json, the report, the figures,
 resolved.toml and cite.bib. Each fault is a line; one is enough for exit code 1.
 --figures draws plots/NAME.pdf; with tex, plots/NAME-latex.tex and NAME-latex.pdf, to \input in LaTeX (graphicx, color).
@@ -103,7 +103,7 @@ int report(const ReportText& text, const Call& call) {
 
 Action declare_report(CLI::App& self) {
   const auto text = std::make_shared<ReportText>();
-  self.footer(footer);
+  self.footer(report_footer);
   add_target(self, "result", text->target, "The folder of a result", "RESULT");
   add_flag(self, "--check", text->check, "Check the whole folder, and name each fault found");
   add_figures(self, text->figures);
@@ -131,7 +131,8 @@ std::vector<std::string> parse_figures(const OptionText& figures) {
 }
 
 Command report_command() {
-  return {"report", "Print what a result says, check its folder, draw its figures for print", examples, declare_report};
+  return {"report", "Print what a result says, check its folder, draw its figures for print", report_examples,
+          declare_report};
 }
 
 }  // namespace thinwall

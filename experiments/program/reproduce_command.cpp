@@ -1,8 +1,6 @@
 #include <thinwall/experiments/program/reproduce_command.hpp>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <ostream>
 #include <sstream>
@@ -20,18 +18,19 @@
 #include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 
 namespace thinwall {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(  thinwall reproduce results/thin_wall
+constexpr const char* reproduce_examples = R"(  thinwall reproduce results/thin_wall
   thinwall reproduce results/thin_wall --json
   thinwall reproduce results/thin_wall --out again --threads 1
 )";
 
-constexpr const char* footer =
+constexpr const char* reproduce_footer =
     R"(Runs again what RESULT/manifest.json says, into a folder beside it that is removed if all is the same, and compares every
 file that the manifest hashes. Times are not compared, nor the date and commit in cite.bib.
 Exit code 0: identical; 1: a file differs.
@@ -56,8 +55,7 @@ struct Rerun {
 }
 
 std::optional<Provenance> provenance_in(const fs::path& folder) {
-  std::ifstream in(folder / "manifest.json", std::ios::binary);
-  return parse_provenance({std::istreambuf_iterator<char>(in), {}});
+  return parse_provenance(file_text(folder / "manifest.json"));
 }
 
 Rerun prepare(const ReproduceText& text) {
@@ -187,7 +185,7 @@ int reproduce(const ReproduceText& text, const Call& call) {
 
 Action declare_reproduce(CLI::App& self) {
   const auto text = std::make_shared<ReproduceText>();
-  self.footer(footer);
+  self.footer(reproduce_footer);
   add_target(self, "result", text->target, "The folder of a complete result", "RESULT");
   add_text(self, "--out", text->out, "Where the rerun goes, and stays (default: RESULT.again, removed if identical)",
            "DIR");
@@ -199,7 +197,8 @@ Action declare_reproduce(CLI::App& self) {
 }  // namespace
 
 Command reproduce_command() {
-  return {"reproduce", "Run a result again from its manifest, and say what differs", examples, declare_reproduce};
+  return {"reproduce", "Run a result again from its manifest, and say what differs", reproduce_examples,
+          declare_reproduce};
 }
 
 }  // namespace thinwall

@@ -11,7 +11,7 @@
 namespace thinwall {
 namespace {
 
-constexpr const char* examples = R"(  thinwall run thin_wall
+constexpr const char* run_examples = R"(  thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
   thinwall run scene.toml --trace --plan full
   thinwall run thin_wall --list-cells
@@ -63,7 +63,7 @@ RunWish parse_run(const RunText& text) {
 }
 
 Command run_command() {
-  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", examples, declare_run,
+  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", run_examples, declare_run,
           true};
 }
 

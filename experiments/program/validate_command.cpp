@@ -86,11 +86,12 @@ std::string json_reply(const Validation& validation) {
   return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-constexpr const char* examples = R"(  thinwall validate ccd-queries                 every CSV file below the folder
+constexpr const char* validate_examples =
+    R"(  thinwall validate ccd-queries                 every CSV file below the folder
   thinwall validate ccd-queries/unit-tests --json
 )";
 
-constexpr const char* footer =
+constexpr const char* validate_footer =
     R"(A file has 8 rows a query and lies in a folder named vertex-face or edge-edge. Queries whose two primitives translate
 rigidly are checked, the others counted. Exit code 1: a verdict is wrong.
 )";
@@ -113,7 +114,7 @@ int print_validation(const ValidateText& text, const Call& call) {
 
 Action declare_validate(CLI::App& self) {
   const auto text = std::make_shared<ValidateText>();
-  self.footer(footer);
+  self.footer(validate_footer);
   add_target(self, "folder", text->folder, "Where the CSV files of queries are", "DIR");
   add_json(self, text->json);
   return [text](const Call& call) { return print_validation(*text, call); };
@@ -122,7 +123,8 @@ Action declare_validate(CLI::App& self) {
 }  // namespace
 
 Command validate_command() {
-  return {"validate", "Check the verdicts of published queries against exact arithmetic", examples, declare_validate};
+  return {"validate", "Check the verdicts of published queries against exact arithmetic", validate_examples,
+          declare_validate};
 }
 
 }  // namespace thinwall

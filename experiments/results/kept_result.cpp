@@ -1,14 +1,12 @@
 #include <thinwall/experiments/results/kept_result.hpp>
 
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/results/shard_seal.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 
 namespace thinwall {
@@ -18,13 +16,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
   throw UsageError(fmt::format("{}: {}", one_line(folder.string()), why));
-}
-
-std::string content(const fs::path& file) {
-  std::error_code none;
-  if (!fs::is_regular_file(file, none)) return {};
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// The configuration as its run id was computed from: numbers in their shortest form, which JSON may spell otherwise.
@@ -83,7 +74,7 @@ std::optional<KeptResult> parse_kept_result(const std::string& text) {
 }
 
 std::string shard_in(const fs::path& folder) {
-  const auto seal = parse_seal(content(folder / seal_name));
+  const auto seal = parse_seal(file_text(folder / seal_name));
   return seal ? to_text(seal->shard) : "";
 }
 
@@ -101,7 +92,7 @@ KeptResult read_result(const fs::path& folder) {
                        : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
   }
   if (!fs::is_regular_file(file, none)) refuse(folder, "its manifest.json is not a file");
-  auto result = parse_kept_result(content(file));
+  auto result = parse_kept_result(file_text(file));
   if (!result) refuse(folder, "its manifest.json is damaged, or not ours");
   result->folder = folder;
   return std::move(*result);

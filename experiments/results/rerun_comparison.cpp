@@ -1,26 +1,16 @@
 #include <thinwall/experiments/results/rerun_comparison.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
-#include <system_error>
 
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string());
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace
 
@@ -45,7 +35,7 @@ RerunComparison compare_rerun(const fs::path& result, const Provenance& recorded
     const bool there = recorded.hashes.contains(file) && fs::exists(result / file), here = again.hashes.contains(file);
     std::optional<FileDifference> difference;
     if (there && here) {
-      difference = first_difference(file, content(result / file), content(rerun / file));
+      difference = first_difference(file, file_text(result / file), file_text(rerun / file));
     } else {
       difference.emplace();
       difference->file = file;

@@ -18,6 +18,7 @@
 #include <thinwall/experiments/results/durable.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
@@ -33,11 +34,6 @@ constexpr const char* old_journal_name = "journal.old.tsv";  // begun by another
 constexpr std::array result_names = {manifest_name, seal_name,       "datapackage.json",
                                      "report.html", "resolved.toml", "cite.bib",
                                      "data",        "plots",         "tables"};
-
-std::string read_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace
 
@@ -79,7 +75,7 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
   const bool half_replaced = !fs::exists(path_ / manifest_name);  // if there is an old one
   const char* const name = half_replaced ? old_manifest_name : manifest_name;
   if (!fs::exists(path_ / name)) return;
-  const auto manifest = parse_manifest(read_file(path_ / name));
+  const auto manifest = parse_manifest(file_text(path_ / name));
   if (!manifest) refuse(fmt::format("holds a {} that is not ours; name another folder", name));
   if (const auto difference = identity_difference(manifest->identity, identity); !difference.empty()) {
     refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));

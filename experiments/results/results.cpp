@@ -1,8 +1,5 @@
 #include <thinwall/experiments/results/results.hpp>
 
-#include <fstream>
-#include <iterator>
-
 #include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/results/citation.hpp>
 #include <thinwall/experiments/results/manifest.hpp>
@@ -10,6 +7,7 @@
 #include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/tables/csv.hpp>
 #include <thinwall/experiments/tables/shown_table.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 
 namespace thinwall {
 namespace {
@@ -43,8 +41,7 @@ void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& pa
       std::filesystem::remove(folder.staging() / "plots" / (figure.name + ".svg"));
       continue;
     }
-    std::ifstream svg(folder.staging() / "plots" / (figure.name + ".svg"), std::ios::binary);
-    parts.svgs[figure.name] = {std::istreambuf_iterator<char>(svg), {}};
+    parts.svgs[figure.name] = file_text(folder.staging() / "plots" / (figure.name + ".svg"));
   }
 }
 

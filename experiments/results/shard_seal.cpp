@@ -1,11 +1,9 @@
 #include <thinwall/experiments/results/shard_seal.hpp>
 
-#include <fstream>
-#include <iterator>
-
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
@@ -14,13 +12,13 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr int format_version = 1;
+constexpr int seal_version = 1;
 
 }  // namespace
 
 std::optional<ShardSeal> parse_seal(const std::string& text) {
   const json seal = json::parse(text, nullptr, false);
-  if (!seal.is_object() || seal.value("thinwall_shard", json()) != format_version) return std::nullopt;
+  if (!seal.is_object() || seal.value("thinwall_shard", json()) != seal_version) return std::nullopt;
   try {
     const auto identity = parse_identity(seal.at("run").dump());
     if (!identity) return std::nullopt;
@@ -41,7 +39,7 @@ std::optional<ShardSeal> parse_seal(const std::string& text) {
 
 void seal_shard(ResultFolder& folder, const RunIdentity& identity, const RunRecord& run) {
   const ordered_json seal = {
-      {"thinwall_shard", format_version},
+      {"thinwall_shard", seal_version},
       {"run", ordered_json::parse(identity_text(identity))},
       {"units", run.units},
       {"total_trials", run.total_trials},
@@ -55,8 +53,7 @@ void seal_shard(ResultFolder& folder, const RunIdentity& identity, const RunReco
 }
 
 bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {
-  std::ifstream in(folder.path() / seal_name, std::ios::binary);
-  const auto seal = parse_seal({std::istreambuf_iterator<char>(in), {}});
+  const auto seal = parse_seal(file_text(folder.path() / seal_name));
   return seal && identity_text(seal->identity) == identity_text(identity) &&
          seal->journal_sha256 == sha256_of_file(folder.path() / journal_name);
 }

@@ -1,8 +1,6 @@
 #include <thinwall/experiments/results/shards.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -10,6 +8,7 @@
 #include <thinwall/experiments/results/shard_seal.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
 namespace thinwall {
@@ -33,14 +32,13 @@ SealedFolder read_seal(const std::string& folder) {
   std::error_code none;
   if (!fs::exists(path, none)) refuse(name, "there is no such folder");
   if (!fs::is_directory(path, none)) refuse(name, "is not a folder; a finished shard is needed");
-  std::ifstream in(path / seal_name, std::ios::binary);
-  if (!in) {
+  if (!fs::exists(path / seal_name, none)) {
     const auto begun = parse_identity(Journal::identity_in(path / journal_name));
     if (begun && !begun->shard.empty()) refuse(name, fmt::format("shard {} is unfinished{}", begun->shard, mend));
     if (fs::exists(path / manifest_name, none)) refuse(name, "holds a whole result, not a shard");
     refuse(name, "is not a shard of a run: it has no shard.json");
   }
-  const auto seal = parse_seal({std::istreambuf_iterator<char>(in), {}});
+  const auto seal = parse_seal(file_text(path / seal_name));
   if (!seal) refuse(name, std::string("its shard.json is damaged, or not ours") + mend);
   return {name, path, *seal};
 }

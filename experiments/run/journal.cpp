@@ -8,7 +8,6 @@
 #include <charconv>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
 
@@ -60,15 +60,6 @@ double parse_seconds(const std::string& text) {
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
   throw std::system_error(errno, std::generic_category(), file.string());
-}
-
-/// Empty if there is no such file; one that cannot be read is an error, lest it be taken for an empty one.
-std::string text_of(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in && errno == ENOENT) return {};
-  if (!in) fail(file);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Of the first row; empty if that is damaged.
@@ -118,10 +109,10 @@ std::string Journal::identity_in(const std::filesystem::path& file) {
   return identity_of(unsealed(row));
 }
 
-JournalText read_journal(const std::filesystem::path& file) { return parse_journal(text_of(file), file); }
+JournalText read_journal(const std::filesystem::path& file) { return parse_journal(file_text(file), file); }
 
 Journal::Journal(std::filesystem::path file, const std::string& identity) : file_(std::move(file)) {
-  const std::string text = text_of(file_);
+  const std::string text = file_text(file_);
   JournalText kept = parse_journal(text, file_);
   finished_ = std::move(kept.rows);
   for (const std::string& line : kept.damage) damage_.push_back(line + "; that unit is computed again");

@@ -19,7 +19,7 @@ Launch launch_of_this_process();
 class Ranks {
  public:
   explicit Ranks(const Launch& launch);
-  ~Ranks();
+  ~Ranks();  // NOLINT(performance-trivially-destructible): not where it has MPI to leave
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 

@@ -13,7 +13,7 @@ namespace thinwall {
 
 namespace {
 
-constexpr double most_steps = 1e7;  // of one run
+constexpr double most_exact_steps = 1e7;  // of one run
 
 }  // namespace
 
@@ -38,8 +38,8 @@ Comparison read_comparison(const Settings& settings, const RunOptions& options) 
   out.exact = {TimePolicy::event_driven, 1, steps.front() / finer};
   if (steps.back() > out.scene.duration())
     settings.complain("compare.dt", fmt::format("at most the scene's {} s", out.scene.duration()));
-  if (out.scene.duration() / out.exact.dt > most_steps)
-    settings.complain("compare.dt", fmt::format("at most {:.0f} steps of the exact run", most_steps));
+  if (out.scene.duration() / out.exact.dt > most_exact_steps)
+    settings.complain("compare.dt", fmt::format("at most {:.0f} steps of the exact run", most_exact_steps));
   return out;
 }
 
