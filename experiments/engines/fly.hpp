@@ -19,7 +19,7 @@ struct EngineVolley {
 };
 
 /// Long enough to be timed, short enough to be lost, and several make an interval.
-inline constexpr std::int64_t most_shots_an_engine_volley = 500;
+inline constexpr std::int64_t most_shots_an_engine_volley = 1000;
 
 std::vector<EngineVolley> engine_volleys(std::int64_t shots);
 
