@@ -104,7 +104,7 @@ std::string engines_answer(const std::vector<EngineLine>& lines) {
       return wrong_shots(a) < wrong_shots(b);
     });
     if (worst != wrong.end()) {
-      unsafe.push_back(fmt::format("{} at {} m a step and a wall {} m wide", with_interval(*worst), worst->cell->path,
+      unsafe.push_back(fmt::format("{} (at {} m, wall {} m wide)", with_interval(*worst), worst->cell->path,
                                    worst->cell->wall_size));
     }
   }
