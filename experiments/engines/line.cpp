@@ -31,7 +31,7 @@ std::optional<double> mean_of(std::int64_t sum, std::int64_t count) {
 }
 
 CellCount count_of(const EngineLine& line, double theory) {
-  return {line.setup->label(), is_ours(line) ? "double" : "its own", line.tally.shots, wrong_shots(line), theory};
+  return {line.setup->label(), "double", line.tally.shots, wrong_shots(line), theory};
 }
 
 }  // namespace
@@ -130,18 +130,29 @@ std::vector<CellCount> own_counts(const std::vector<EngineLine>& lines) {
   std::vector<CellCount> counts;
   for (const EngineLine& line : lines) {
     if (!is_ours(line)) continue;
-    if (line.theory) counts.push_back(count_of(line, *line.theory));
+    const bool first_wall = line.cell->wall_size == lines.front().cell->wall_size;
+    if (line.theory && first_wall) counts.push_back(count_of(line, *line.theory));
     if (line.setup->mode.exact) counts.push_back(count_of(line, 0));
   }
   return counts;
 }
 
-std::vector<CellCount> peer_counts(const std::vector<EngineLine>& lines) {
-  std::vector<CellCount> counts;
-  for (const EngineLine& line : lines) {
-    if (!is_ours(line) && line.theory) counts.push_back(count_of(line, *line.theory));
+std::vector<EngineAgreement> peer_agreement(const std::vector<EngineLine>& lines) {
+  std::vector<EngineAgreement> all;
+  for (const std::string& label : labels_of(lines)) {
+    EngineAgreement agreement = {.label = label};
+    for (const EngineLine& line : lines_of(lines, label, lines.front().cell->wall_size)) {
+      if (is_ours(line) || !line.theory) continue;
+      ++agreement.cells;
+      if (tunneled_interval(line).contains(*line.theory)) ++agreement.covered;
+      const double excess = tunneled_share(line) - *line.theory;
+      if (std::abs(excess) <= std::abs(agreement.largest_excess)) continue;
+      agreement.largest_excess = excess;
+      agreement.at_path = line.cell->path;
+    }
+    if (agreement.cells > 0) all.push_back(std::move(agreement));
   }
-  return counts;
+  return all;
 }
 
 }  // namespace thinwall

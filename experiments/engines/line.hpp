@@ -41,9 +41,17 @@ std::vector<std::string> labels_of(const std::vector<EngineLine>& lines);  ///< 
 /// [m] The longest path of those asked, at the wall, up to and with which no shot was wrong; 0 if that is none.
 double safe_up_to(const std::vector<EngineLine>& lines, const std::string& label, double wall_size);
 
-/// What ours must do: let none through where it sweeps, and what theory says where it looks at poses.
+/// What ours must do: let none through where it sweeps, and what theory says where it looks at poses. Of the latter only the
+/// first wall counts: all walls get the same shots, and a test wants independent ones.
 std::vector<CellCount> own_counts(const std::vector<EngineLine>& lines);
-/// What the engines of others do where they look at poses, against the same theory: told, and held against nobody.
-std::vector<CellCount> peer_counts(const std::vector<EngineLine>& lines);
+
+/// How an engine of others that looks at poses stands to the same theory, at the first wall: told, and held against nobody.
+struct EngineAgreement {
+  std::string label;
+  std::int64_t cells = 0, covered = 0;  ///< those whose 95 % interval holds the theory
+  double largest_excess = 0;            ///< [1] of measured over theory, the one farthest from 0
+  double at_path = 0;                   ///< [m] where that is
+};
+std::vector<EngineAgreement> peer_agreement(const std::vector<EngineLine>& lines);
 
 }  // namespace thinwall
