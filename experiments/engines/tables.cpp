@@ -70,26 +70,25 @@ std::vector<EngineField> engine_ends() {
 }
 
 std::vector<EngineField> engine_bounces() {
+  return {{{"lateness", number, "steps", "Mean over the turned, from first contact to where the lines of flight meet."},
+           [](const EngineLine& l) { return engine_value(mean_late(l)); }},
+          of_turned({"latest", number, "steps", "The most of them."}, &EngineTally::latest),
+          {{"energy", number, "1", "Energy after over energy before, mean over the turned."},
+           [](const EngineLine& l) { return engine_value(mean_energy(l)); }},
+          of_turned({"least_energy", number, "1", "The least of them."}, &EngineTally::least_energy),
+          of_turned({"most_energy", number, "1", "The most of them."}, &EngineTally::most_energy)};
+}
+
+std::vector<EngineField> engine_depths() {
   return {
-      {{"lateness", number, "steps", "Mean over the turned, from first contact to where the lines of flight meet."},
-       [](const EngineLine& l) { return engine_value(mean_late(l)); }},
-      of_turned({"earliest", number, "steps", "The least of them; < 0 is before contact."}, &EngineTally::earliest),
-      of_turned({"latest", number, "steps", "The most of them."}, &EngineTally::latest),
-      {{"lateness_path", number, "m", "The mean as a path."},
+      {{"lateness_path", number, "m", "The mean lateness as a path."},
        [](const EngineLine& l) {
          const auto late = mean_late(l);
          return late ? Value(*late * l.cell->path) : Value();
        }},
-      {{"energy", number, "1", "Energy after over energy before, mean over the turned."},
-       [](const EngineLine& l) { return engine_value(mean_energy(l)); }},
-      of_turned({"least_energy", number, "1", "The least of them."}, &EngineTally::least_energy),
-      of_turned({"most_energy", number, "1", "The most of them."}, &EngineTally::most_energy),
-  };
-}
-
-std::vector<EngineField> engine_depths() {
-  return {of_turned({"deepest", number, "m", "Deepest in the wall at the end of a step, of the turned; < 0 is apart."},
-                    &EngineTally::deepest)};
+      of_turned({"earliest", number, "steps", "The least lateness; < 0 is before contact."}, &EngineTally::earliest),
+      of_turned({"deepest", number, "m", "Deepest in the wall at the end of a step, of the turned; < 0 is apart."},
+                &EngineTally::deepest)};
 }
 
 Table engine_table(const std::vector<EngineLine>& lines, const std::vector<std::vector<EngineField>>& groups) {
