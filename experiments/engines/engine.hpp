@@ -1,6 +1,6 @@
 #pragma once
 /// A physics engine as this experiment sees it: something that makes a world of one wall and one ball, and steps it.
-/// An engine is one file, which makes an `Engine`, and one line in engine_list.cpp. Its own headers stay in that file.
+/// An engine is one file, which makes an `Engine`, and one line in engine_list.hpp. Its own headers stay in that file.
 
 #include <cstdint>
 #include <functional>

@@ -3,12 +3,9 @@
 namespace thinwall {
 
 std::vector<Engine> engine_list() {
-  return {
-      bullet_engine(),
-      ode_engine(),
-      box2d_engine(),
-      own_engine(),
-  };
+#define THINWALL_MAKE_ENGINE(make) make(),
+  return {THINWALL_ENGINES(THINWALL_MAKE_ENGINE)};
+#undef THINWALL_MAKE_ENGINE
 }
 
 }  // namespace thinwall

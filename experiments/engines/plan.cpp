@@ -48,8 +48,8 @@ void choose_engines(const Settings& settings, EnginePlan& plan) {
   }
 }
 
-/// A ball that is not stopped is behind the wall in time, and one that is did not get round it.
-void check(const Settings& settings, const EngineCell& cell) {
+/// A ball that is not stopped is behind the wall in time.
+void check_path(const Settings& settings, const EngineCell& cell) {
   const double thick = cell.thickness + 2 * cell.radius;
   const double ahead = cell.path * std::cos(cell.angle_deg * (std::numbers::pi / 180)) * (cell.steps - 2);
   if (ahead < thick) {
@@ -60,6 +60,9 @@ void check(const Settings& settings, const EngineCell& cell) {
     settings.complain(
         "path", fmt::format("at most {} times thickness + 2 * radius: not so at {} m", most_walls_a_path, cell.path));
   }
+}
+
+void check_wall(const Settings& settings, const EngineCell& cell) {
   if (cell.wall_size < least_wall_size(cell)) {
     settings.complain("wall_size",
                       fmt::format("at least {} m, so that no ball gets round it: path is {} m, steps is {}",
@@ -82,10 +85,12 @@ void choose_cells(const Settings& settings, EnginePlan& plan) {
     for (const double path : paths) {
       cell.path = path;
       cell.wall_size = wall_size;
-      check(settings, cell);
       plan.cells.push_back(cell);
     }
   }
+  // The shortest path is too short first, and the longest too long.
+  for (const EngineCell& one : plan.cells) check_path(settings, one);
+  for (auto one = plan.cells.rbegin(); one != plan.cells.rend(); ++one) check_wall(settings, *one);
   for (const EngineSetup& setup : plan.setups) {
     if (setup.can_do(plan.cells.front())) return;
   }
