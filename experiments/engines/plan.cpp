@@ -119,7 +119,7 @@ EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options)
 std::vector<std::string> missing_engines(const EnginePlan& plan) {
   std::vector<std::string> lines;
   for (const Engine& engine : plan.missing) {
-    lines.push_back(fmt::format("{} is left out: it is not in this program; {}", engine.called, remedy(engine)));
+    lines.push_back(fmt::format("{} is left out: {}", engine.called, remedy(engine)));
   }
   return lines;
 }

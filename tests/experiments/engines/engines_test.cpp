@@ -138,9 +138,8 @@ TEST(Engines, says_what_is_missing_and_does_the_rest) {
   EnginePlan plan = engine_plan(few_engine_shots);
   plan.missing = {engine_called(engine_list(), "bullet")};
   ASSERT_EQ(missing_engines(plan).size(), 1U);
-  EXPECT_EQ(
-      missing_engines(plan)[0],
-      "Bullet is left out: it is not in this program; install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
+  EXPECT_EQ(missing_engines(plan)[0],
+            "Bullet is left out: install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
 }
 
 TEST(Engines, hands_over_tables_that_are_described_and_a_summary_that_fits) {
