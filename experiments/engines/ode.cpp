@@ -3,6 +3,7 @@
 #ifdef THINWALL_HAS_ODE
 
 #include <array>
+#include <new>
 
 #include <ode/ode.h>
 
@@ -11,21 +12,17 @@ namespace thinwall {
 namespace {
 
 /// ODE keeps data of its own for every thread that collides anything.
-void prepare_this_thread() {
+dWorldID new_world() {
   static const bool prepared_once = [] { return dInitODE2(0) != 0; }();
   thread_local const bool prepared = dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
   if (!prepared_once || !prepared) throw std::bad_alloc();
+  return dWorldCreate();
 }
 
 class OdeWorld final : public EngineWorld {
  public:
   OdeWorld(const EngineScene& scene, const BallState& ball) : step_(scene.step) {
-    prepare_this_thread();
-    world_ = dWorldCreate();
-    space_ = dSimpleSpaceCreate(nullptr);
-    contacts_ = dJointGroupCreate(0);
     dCreateBox(space_, scene.thickness, 2 * scene.half_side, 2 * scene.half_side);
-    ball_ = dBodyCreate(world_);
     dMass mass;
     dMassSetSphereTotal(&mass, 1, scene.radius);
     dBodySetMass(ball_, &mass);
@@ -66,10 +63,10 @@ class OdeWorld final : public EngineWorld {
   }
 
   double step_;
-  dWorldID world_ = nullptr;
-  dSpaceID space_ = nullptr;
-  dJointGroupID contacts_ = nullptr;
-  dBodyID ball_ = nullptr;
+  dWorldID world_ = new_world();
+  dSpaceID space_ = dSimpleSpaceCreate(nullptr);
+  dJointGroupID contacts_ = dJointGroupCreate(0);
+  dBodyID ball_ = dBodyCreate(world_);
 };
 
 std::vector<EngineMode> ode_modes(const EngineChoices&) {

@@ -88,9 +88,10 @@ void choose_cells(const Settings& settings, EnginePlan& plan) {
       plan.cells.push_back(cell);
     }
   }
-  // The shortest path is too short first, and the longest too long.
-  for (const EngineCell& one : plan.cells) check_path(settings, one);
-  for (auto one = plan.cells.rbegin(); one != plan.cells.rend(); ++one) check_wall(settings, *one);
+  for (const EngineCell& one : plan.cells) {
+    check_path(settings, one);
+    if (one.path == paths.back()) check_wall(settings, one);  // the longest needs the widest
+  }
   for (const EngineSetup& setup : plan.setups) {
     if (setup.can_do(plan.cells.front())) return;
   }
