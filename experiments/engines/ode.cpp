@@ -3,6 +3,7 @@
 #ifdef THINWALL_HAS_ODE
 
 #include <array>
+#include <mutex>
 #include <new>
 
 #include <ode/ode.h>
@@ -11,7 +12,13 @@ namespace thinwall {
 
 namespace {
 
-/// ODE keeps data of its own for every thread that collides anything.
+/// Debian builds ODE without the locks that colliding on several threads needs: worlds of different threads wait for each other.
+/// The same thread may have several.
+std::recursive_mutex& ode_in_use() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 dWorldID new_world() {
   static const bool prepared_once = [] { return dInitODE2(0) != 0; }();
   thread_local const bool prepared = dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
@@ -62,6 +69,7 @@ class OdeWorld final : public EngineWorld {
     }
   }
 
+  std::lock_guard<std::recursive_mutex> alone_{ode_in_use()};  // until the rest is gone
   double step_;
   dWorldID world_ = new_world();
   dSpaceID space_ = dSimpleSpaceCreate(nullptr);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/engines/engine_list.hpp>
+#include <thinwall/experiments/engines/fly.hpp>
 #include <thinwall/experiments/engines/report.hpp>
 
 #include "experiments/engines/engines_run.hpp"
@@ -102,18 +103,19 @@ TEST(Engines, box2d_stops_balls_at_its_skin_and_no_ball_further_than_it_moves_an
 }
 
 /// In every engine of the build: no shot knows of another, on whatever thread.
-TEST(Engines, give_the_same_bits_on_two_threads_and_in_any_order) {
-  const auto run = engines_run(few_engine_shots, {.seed = 5, .trials = 40});
+TEST(Engines, give_the_same_bits_on_four_threads_and_in_any_order) {
+  const auto run = engines_run(few_engine_shots, {.seed = 5, .trials = 200});
   const std::vector<Unit> units = run->units();
   const std::vector<std::string> once = results_of(units);
   std::vector<std::string> again(units.size());
-  const auto every_other = [&](std::size_t from) {
-    for (std::size_t i = from; i < units.size(); i += 2)
-      again[units.size() - 1 - i] = units[units.size() - 1 - i].compute();
+  const auto some_of_each = [&](std::size_t from) {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      if (i % 4 == from) again[units.size() - 1 - i] = units[units.size() - 1 - i].compute();
+    }
   };
-  std::thread other(every_other, 1);
-  every_other(0);
-  other.join();
+  std::vector<std::thread> threads;
+  for (std::size_t from = 0; from < 4; ++from) threads.emplace_back(some_of_each, from);
+  for (std::thread& thread : threads) thread.join();
   const std::vector<double> seconds(units.size(), 1);
   const Outcome first = run->finish(once, seconds), second = run->finish(again, seconds);
   for (std::size_t i = 0; i < first.tables.size(); ++i) {
@@ -123,6 +125,25 @@ TEST(Engines, give_the_same_bits_on_two_threads_and_in_any_order) {
   }
   EXPECT_EQ(first.answer, second.answer);
   EXPECT_EQ(first.summary, second.summary);
+}
+
+/// As many worlds at once of one engine as there are threads.
+TEST(Engines, bear_worlds_of_their_own_kind_on_other_threads) {
+  for (const Engine& engine : engine_list()) {
+    if (!engine.is_there) continue;
+    const EngineMode mode = engine.modes({{0.5}, 0.5, {2}}).front();
+    const auto counts = [&](std::int64_t shots) {
+      const std::string line = to_line(fire(meter_cell, mode, {0, shots}, 3));
+      return line.substr(0, line.rfind(' '));  // the last word is a time
+    };
+    constexpr std::int64_t shots = 2000;
+    const std::string alone = counts(shots);
+    std::vector<std::string> lines(4);
+    std::vector<std::thread> threads;
+    for (std::string& line : lines) threads.emplace_back([&] { line = counts(shots); });
+    for (std::thread& thread : threads) thread.join();
+    for (const std::string& line : lines) EXPECT_EQ(line, alone) << engine.called;
+  }
 }
 
 TEST(Engines, says_what_is_missing_and_does_the_rest) {
