@@ -20,6 +20,9 @@ check_packages=(clang-14 libclang-rt-14-dev clang-format-16 clang-tidy-14)
 check_packages+=(chromium texlive-latex-base texlive-latex-recommended python3 python3-jsonschema)
 check_commands=(clang++-14 clang-format-16 clang-tidy-14)
 
+# The peers that are measured beside ours where they are installed (THINWALL_PEERS).
+check_packages+=(libbullet-dev libode-dev libfcl-dev libccd-dev libbox2d-dev)
+
 say() { printf '\n==> %s\n' "$*"; }
 die() {
   printf 'error: %s\n' "$*" >&2

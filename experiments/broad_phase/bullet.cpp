@@ -1,6 +1,6 @@
 #include <thinwall/experiments/broad_phase/finder.hpp>
 
-#ifdef THINWALL_BULLET
+#ifdef THINWALL_HAS_BULLET
 
 #include <algorithm>
 #include <cmath>
