@@ -10,6 +10,7 @@
 /// several passes counts, so a busy machine raises a floor less than it raises a time.
 
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -183,6 +184,8 @@ inline void add_floors_to_context() {
 /// For the terminal: as Google Benchmark's own, but `to_floor` is a number, where that one takes it for seconds.
 class FloorReporter : public benchmark::ConsoleReporter {
  public:
+  FloorReporter() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_ColorTabular : OO_Tabular) {}
+
   void ReportRuns(const std::vector<Run>& runs) override {
     std::vector<Run> shown = runs;
     for (Run& run : shown) {
