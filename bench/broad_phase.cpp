@@ -59,7 +59,7 @@ std::vector<std::int64_t> counts_for(std::string_view name) {
 }
 
 std::string key_of(std::string_view name, double speed, std::int64_t count) {
-  return std::string(name) + (speed < diameter ? "/slow/" : "/fast/") + std::to_string(count);
+  return "broad_phase/" + std::to_string(count) + (speed < diameter ? "_slow/" : "_fast/") + std::string(name);
 }
 
 const bool added = [] {

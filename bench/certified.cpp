@@ -130,9 +130,10 @@ void add_row(const std::string& row, const Operations& least, const Queries<A, B
 }
 
 template <class A, class B> void add_pair(const std::string& pair, const Operations& least) {
-  add_row<A, B>(pair + "/random", least, &random_queries<A, B>);
-  add_row<A, B>(pair + "/mixed", least, &mixed_queries<A, B>);
-  add_row<A, B>(pair + "/adversarial", least, &adversarial_queries<A, B>);
+  const std::string name = "certified/" + pair;
+  add_row<A, B>(name + "/random", least, &random_queries<A, B>);
+  add_row<A, B>(name + "/mixed", least, &mixed_queries<A, B>);
+  add_row<A, B>(name + "/adversarial", least, &adversarial_queries<A, B>);
 }
 
 const bool added = [] {
@@ -148,15 +149,15 @@ const bool added = [] {
 class TableReporter : public MedianTimes {
  public:
   void Finalize() override {
-    std::printf("\n%-28s%9s%10s%8s%8s |%-20s %-20s %-20s |%12s%11s%11s\n", "", "plain", "certified", "", "", " filter",
+    std::printf("\n%-36s%9s%10s%8s%8s |%-20s %-20s %-20s |%12s%11s%11s\n", "", "plain", "certified", "", "", " filter",
                 " certificate", " exact", "interval", "interval", "50 digits");
-    std::printf("%-28s%9s%10s%8s%8s |%8s%12s %8s%12s %8s%12s |%12s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "x floor",
+    std::printf("%-36s%9s%10s%8s%8s |%8s%12s %8s%12s %8s%12s |%12s%11s%11s\n", "", "[ns]", "[ns]", "x plain", "x floor",
                 "share", "x plain", "share", "x plain", "share", "x plain", "unprotected", "x plain", "x plain");
     for (const std::string& row : rows) {
       const double plain = time(row + "/plain");
       if (plain == 0) continue;
       const auto ratio = [&](const std::string& name) { return time(row + name) / plain; };
-      std::printf("%-28s%9.1f%10.1f%8.1f%8.1f |", row.c_str(), plain, time(row + "/certified"), ratio("/certified"),
+      std::printf("%-36s%9.1f%10.1f%8.1f%8.1f |", row.c_str(), plain, time(row + "/certified"), ratio("/certified"),
                   to_floor(row + "/certified"));
       for (const char* stage : {"filter", "certificate", "exact"}) {
         const std::string name = std::string("/") + stage;

@@ -20,7 +20,7 @@ template <class A, class B>
 void add(const std::string& set_name, const Shots<A, B>& (*set)(), const Operations& least) {
   for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (serves<Method, A, B>) {
-      const std::string name = set_name + "/" + std::string(Method::name);
+      const std::string name = "time_of_impact/" + set_name + "/" + std::string(Method::name);
       const auto time_of = [](const Shot<A, B>& query) {
         const Toi<double> toi = time_of_impact(Method{}, query.a, query.b);
         return toi.status == ToiStatus::apart ? never : toi.time;

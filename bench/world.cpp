@@ -60,7 +60,7 @@ std::vector<Row>& rows() {
 void add(const std::string& name, std::uint32_t count, const WorldOptions& options) {
   const std::size_t which = rows().size();
   rows().push_back({name, count, {}, 0});
-  benchmark::RegisterBenchmark((name + "/" + std::to_string(count)).c_str(),
+  benchmark::RegisterBenchmark(("world/rain_" + std::to_string(count) + "/" + name).c_str(),
                                [=](benchmark::State& state) {
                                  World world = rain(count, options);
                                  int left = steps;
