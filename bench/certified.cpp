@@ -39,18 +39,29 @@ constexpr std::array<const char*, 4> stages{"guard", "filter", "certificate", "e
 std::vector<std::string> rows;        ///< pair/set, in order of registration
 std::map<std::string, double> share;  ///< [1] by row and stage: how much of the set the stage decided
 
+/// The certified answers of a set, asked for once.
+template <class A, class B> const std::vector<CertifiedToi>& proven(const Queries<A, B>& queries) {
+  static std::map<const void*, std::vector<CertifiedToi>> known;
+  std::vector<CertifiedToi>& answers = known[queries.data()];
+  if (answers.empty()) {
+    for (const auto& query : queries) answers.push_back(certified_time_of_impact(query.a, query.b));
+  }
+  return answers;
+}
+
 /// Verdicts of `time_of` (over 1 for a miss) against the proven ones, and how far its hits lie outside the proven brackets.
 template <class Set, class TimeOf> Errors against_proof(const Set& queries, const TimeOf& time_of) {
   Errors errors;
   std::vector<double> times, lengths;
-  for (const auto& query : queries) {
-    const CertifiedToi proven = certified_time_of_impact(query.a, query.b);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    const auto& query = queries[k];
+    const CertifiedToi& truth = proven(queries)[k];
     const double time = time_of(query);
-    const bool hit = time <= 1, truly = proven.verdict != ToiStatus::apart;
+    const bool hit = time <= 1, truly = truth.verdict != ToiStatus::apart;
     errors.missed += truly && !hit ? 1 : 0;
     errors.false_hits += hit && !truly ? 1 : 0;
     if (!hit || !truly) continue;
-    times.push_back(std::max({0.0, proven.lower - time, time - proven.upper}));
+    times.push_back(std::max({0.0, truth.lower - time, time - truth.upper}));
     lengths.push_back(times.back() * std::sqrt(relative_displacement(query.a, query.b).squaredNorm()));
   }
   std::tie(errors.p99, errors.largest) = tail_of(std::move(times));
@@ -61,9 +72,8 @@ template <class Set, class TimeOf> Errors against_proof(const Set& queries, cons
 /// The widest of the brackets that hold the proven times, and their 99th percentile; of hits that do not overlap at the start.
 template <class Set> std::pair<double, double> widths_of(const Set& queries) {
   std::vector<double> widths;
-  for (const auto& query : queries) {
-    const CertifiedToi proven = certified_time_of_impact(query.a, query.b);
-    if (proven.verdict == ToiStatus::hit) widths.push_back(proven.upper - proven.lower);
+  for (const CertifiedToi& answer : proven(queries)) {
+    if (answer.verdict == ToiStatus::hit) widths.push_back(answer.upper - answer.lower);
   }
   return tail_of(std::move(widths));
 }
@@ -102,8 +112,8 @@ void add_row(const std::string& row, const Operations& least, const Queries<A, B
     const std::string name = row + "/" + stages[static_cast<std::size_t>(stage)];
     add(name, [set, stage, name, certified](benchmark::State& state) {
       Queries<A, B> decided;
-      for (const Query& query : set()) {
-        if (certified(query).decided_by == stage) decided.push_back(query);
+      for (std::size_t k = 0; k < set().size(); ++k) {
+        if (proven(set())[k].decided_by == stage) decided.push_back(set()[k]);
       }
       share[name] = static_cast<double>(decided.size()) / static_cast<double>(set().size());
       state.counters["share"] = share[name];

@@ -97,14 +97,14 @@ const bool added = [] {
   using O = Obb<D>;
   using C = Capsule<D>;
   using T = Triangle<D>;
-  add_impact<S, A>(
-      "sphere_aabb", 18, &any_shots<S, A>, flat_hit,
-      [](const auto& q) {
-        return rounded_box_entry<D>(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius).time;
-      },
-      [](const auto& q) {
-        return plain::rounded_box(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius);
-      });
+  const auto ball_at_box = [](const auto& q) {
+    return rounded_box_entry<D>(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius).time;
+  };
+  const auto plain_ball_at_box = [](const auto& q) {
+    return plain::rounded_box(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius);
+  };
+  add_impact<S, A>("sphere_thin_wall", 18, &thin_wall_shots, flat_hit, ball_at_box, plain_ball_at_box);
+  add_impact<S, A>("sphere_aabb", 18, &any_shots<S, A>, flat_hit, ball_at_box, plain_ball_at_box);
   add_impact<S, S>(
       "sphere_sphere", 13, &any_shots<S, S>, round_hit,
       [](const auto& q) { return ball_entry<D>(between(q), motion(q), q.a.shape.radius + q.b.shape.radius).time; },

@@ -19,6 +19,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> peer_name
 std::string spaced(std::string text) {
   std::replace(text.begin(), text.end(), '_', ' ');
   std::replace(text.begin(), text.end(), '/', ' ');
+  for (const auto& [low, high] : {std::pair{"gjk", "GJK"}, {"mpr", "MPR"}}) {
+    if (const std::size_t at = text.find(low); at != std::string::npos) text.replace(at, 3, high);
+  }
   return text;
 }
 
@@ -76,6 +79,7 @@ bool is_peer(const Contender& c) { return c.program == peers_program && !is_fron
 
 std::string name_of(const Contender& c) {
   if (is_front_door(c)) return "thinwall, front door";
+  if (c.way == "plain") return "plain form";
   if (c.program != peers_program) return "thinwall, " + spaced(c.way);
   for (const auto& [prefix, name] : peer_names) {
     if (!c.way.starts_with(prefix)) continue;
@@ -92,7 +96,10 @@ std::vector<const Contender*> drawn_contenders(const std::vector<Contender>& all
     const auto same = [&](const Contender* other) {
       return other->subject == c.subject && name_of(*other) == name_of(c);
     };
-    if (std::none_of(drawn.begin(), drawn.end(), same)) drawn.push_back(&c);
+    if (std::any_of(drawn.begin(), drawn.end(), same)) continue;
+    const auto beyond = [&](const Contender* other) { return other->subject == c.subject; };
+    const auto last = std::find_if(drawn.rbegin(), drawn.rend(), beyond);  // pairs stay together
+    drawn.insert(last == drawn.rend() ? drawn.end() : last.base(), &c);
   }
   return drawn;
 }

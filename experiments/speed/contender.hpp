@@ -32,13 +32,14 @@ ContenderTime time_of(const Contender& contender);
 /// The counter, where the row has it.
 std::optional<double> error_of(const Contender& contender, const std::string& counter);
 
-/// What a picture calls it: "thinwall (kernel)", "Bullet (subsimplex cast)".
+/// What a picture calls it: "thinwall, kernel", "Bullet, subsimplex cast".
 std::string name_of(const Contender& contender);
 
 /// True for what another library answers.
 bool is_peer(const Contender& contender);
 
-/// Asked for a time of impact, and its errors counted: what the picture shows. Of those of one name and subject, the first.
+/// Asked for a time of impact, and its errors counted: what the picture shows, pair by pair. Of those of one name and pair, the
+/// first.
 std::vector<const Contender*> drawn_contenders(const std::vector<Contender>& all);
 
 /// The program's own answer through the front door, for the subject of `contender`; null if it is not there.

@@ -86,7 +86,12 @@ Figure race_figure(const std::vector<const Contender*>& drawn, bool a_panel_a_pa
     figure.panels.push_back(race_panel(drawn, ""));
     return figure;
   }
-  for (const std::string& subject : subjects_of(drawn)) figure.panels.push_back(race_panel(drawn, subject));
+  const bool any_peer = std::any_of(drawn.begin(), drawn.end(), [](const Contender* c) { return is_peer(*c); });
+  for (const std::string& subject : subjects_of(drawn)) {
+    const auto rival = [&](const Contender* c) { return c->subject == subject && is_peer(*c); };
+    if (!any_peer || std::any_of(drawn.begin(), drawn.end(), rival))
+      figure.panels.push_back(race_panel(drawn, subject));
+  }
   return figure;
 }
 
@@ -95,25 +100,25 @@ Figure verdict_figure(const std::vector<const Contender*>& drawn) {
   const std::vector<std::string> subjects = subjects_of(drawn);
   Figure figure;
   figure.name = "wrong_verdicts";
-  figure.title = "Wrong verdicts of 100 000 queries, half of them hits";
+  figure.title = "Wrong verdicts";
   figure.caption = "Who is not there has none. " + wrong_text(drawn);
   for (const char* counter : {"missed", "false"}) {
     Panel panel;
-    panel.x_label = "pair";
+    panel.x_label = "of 100 000 queries, half of them hits";
     panel.y_label = std::string(counter) == "missed" ? "hits missed" : "hits invented";
-    panel.log_y = true;
+    panel.log_x = true;
     for (const std::string& name : names_of(drawn)) {
       Series series{.label = name, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
       for (const Contender* c : drawn) {
         const double wrong = error_of(*c, counter).value_or(0);
         if (name_of(*c) != name || wrong == 0) continue;
         const auto at = std::find(subjects.begin(), subjects.end(), c->subject) - subjects.begin();
-        series.x.push_back(static_cast<double>(at));
-        series.y.push_back(wrong);
+        series.x.push_back(wrong);
+        series.y.push_back(static_cast<double>(at));
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
-    for (std::size_t i = 0; i < subjects.size(); ++i) panel.x_tics.push_back({static_cast<double>(i), subjects[i]});
+    for (std::size_t i = 0; i < subjects.size(); ++i) panel.y_tics.push_back({static_cast<double>(i), subjects[i]});
     if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
   }
   return figure;

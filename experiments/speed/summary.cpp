@@ -11,6 +11,28 @@ namespace thinwall {
 
 namespace {
 
+/// Lines of at most 100 letters, broken between words.
+std::string wrapped(const std::string& text) {
+  std::string out;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+    if (line > 0 && line + 1 + (end - begin) > 100) {
+      out += '\n';
+      line = 0;
+    }
+    if (line > 0) out += ' ';
+    out.append(text, begin, end - begin);
+    line += end - begin + (line > 0 ? 1 : 0);
+    if (end < text.size() && text[end] == '\n') {
+      out += '\n';
+      line = 0;
+    }
+    begin = end + 1;
+  }
+  return out;
+}
+
 /// Programs and libraries that did not take part, a sentence each.
 std::string left_out_text(const SpeedResult& result) {
   std::string text;
@@ -91,7 +113,7 @@ std::string speed_answer(const SpeedResult& result) {
   text += ".";
   if (slower.any()) {
     text += fmt::format(
-        " The other libraries' casts take {:.1f} to {:.0f} times as long, at errors from {:.0e} m on, and give {} wrong verdicts.",
+        " The other libraries' casts take {:.1f} to {:.0f} times as long, at errors from {:.0e} m on, and give {} wrong verdicts over all pairs.",
         slower.least, slower.most, best_of_peers, grouped_text(static_cast<std::int64_t>(wrong)));
   } else {
     text += " No other library took part.";
@@ -110,7 +132,7 @@ std::string speed_summary(const SpeedResult& result) {
                         fmt::format("{:.0e}", error_of(*c, "p99_length").value_or(0)));
   }
   const std::string left_out = left_out_text(result);
-  return text + "\n" + (left_out.empty() ? "" : left_out + "\n") + self_test_words(result) + "\n";
+  return text + "\n" + (left_out.empty() ? "" : wrapped(left_out) + "\n") + wrapped(self_test_words(result)) + "\n";
 }
 
 std::vector<Section> speed_sections(const SpeedResult& result) {
