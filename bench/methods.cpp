@@ -1,60 +1,49 @@
 /// What does each way to find a time of impact cost, and how wrong is it?
 /// Every method of the list on the same queries. Counters beside the time: missed and false hits against the closed form in
-/// long double, and the largest error of the time of a hit, in fractions of the step.
+/// long double, the error of the time of a hit (99th percentile and largest, as a fraction of the step and as a length), and the
+/// floor of a query (floors.hpp) with the time over it.
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <thinwall/swept/methods.hpp>
 
-#include "query_sets.hpp"
+#include "errors.hpp"
 
 namespace {
 
 using namespace thinwall;
 using namespace thinwall::bench;
 
-/// Times `time_of(query)` (over 1 for a miss) over a set, then compares it with the truth.
-template <class Set, class TimeOf> void run(benchmark::State& state, const Set& set, const TimeOf& time_of) {
-  std::size_t i = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(time_of(set.queries[i]));
-    i = i + 1 == query_count ? 0 : i + 1;
-  }
-  double missed = 0, false_hits = 0, largest_error = 0;
-  for (std::size_t k = 0; k < query_count; ++k) {
-    const double time = time_of(set.queries[k]);
-    const bool hit = time <= 1, truly = set.truth[k] <= 1;
-    missed += truly && !hit ? 1 : 0;
-    false_hits += hit && !truly ? 1 : 0;
-    if (hit && truly) largest_error = std::max(largest_error, std::abs(time - set.truth[k]));
-  }
-  state.counters["missed"] = missed;
-  state.counters["false"] = false_hits;
-  state.counters["max_error"] = largest_error;
-}
-
-template <class A, class B> void add(const std::string& set_name, const Shots<A, B>& (*set)()) {
+template <class A, class B>
+void add(const std::string& set_name, const Shots<A, B>& (*set)(), const Operations& least) {
   for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (serves<Method, A, B>) {
-      const std::string name = set_name + "/" + std::string(Method::name);
-      benchmark::RegisterBenchmark(name.c_str(), [set](benchmark::State& state) {
-        run(state, set(), [](const Shot<A, B>& query) {
-          const Toi<double> toi = time_of_impact(Method{}, query.a, query.b);
-          return toi.status == ToiStatus::apart ? never : toi.time;
-        });
+      const std::string name = "time_of_impact/" + set_name + "/" + std::string(Method::name);
+      const auto time_of = [](const Shot<A, B>& query) {
+        const Toi<double> toi = time_of_impact(Method{}, query.a, query.b);
+        return toi.status == ToiStatus::apart ? never : toi.time;
+      };
+      const auto count = counted_once([set, time_of] { return errors_of(set(), time_of); });
+      benchmark::RegisterBenchmark(name.c_str(), [set, least, time_of, count](benchmark::State& state) {
+        time_queries(state, set().queries, time_of);
+        count(state);
+        add_query_floor(state, set().queries, least);
       });
     }
   });
 }
 
 const bool added = [] {
-  add("sphere_thin_wall", &thin_wall_shots);
-  add("sphere_sphere", &any_shots<Sphere<double>, Sphere<double>>);
+  add("sphere_thin_wall", &thin_wall_shots, flat_hit);
+  add("sphere_sphere", &any_shots<Sphere<double>, Sphere<double>>, round_hit);
   return true;
 }();
 
 }  // namespace
+
+int main(int argc, char** argv) {
+  FloorReporter reporter;
+  return run_benchmarks(argc, argv, reporter);
+}

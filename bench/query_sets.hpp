@@ -2,6 +2,7 @@
 /// Query sets for the benchmarks: 100 000 shots, half of them hits, in random order, all apart at the start, streamed from
 /// memory. A set small or regular enough for the branch predictor to learn would flatter every method.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -68,11 +69,38 @@ template <class A, class B> struct Shot {
   Moving<B> b;
 };
 
-/// Shots and when they truly hit, `never` for a miss: the closed form in long double.
-template <class A, class B> struct Shots {
-  std::vector<Shot<A, B>> queries;
+/// A ray at a shape; a hit is within one of its directions.
+template <class B> struct RayShot {
+  Ray<double> ray;
+  B shape;
+};
+
+/// Two shapes at one instant.
+template <class A, class B> struct Pose {
+  A a;
+  B b;
+};
+
+/// Queries and their true answers in long double, `never` for none: a shot's or a ray's time, a pose's depth.
+template <class Query> struct QuerySet {
+  std::vector<Query> queries;
   std::vector<double> truth;
 };
+template <class A, class B> using Shots = QuerySet<Shot<A, B>>;
+template <class B> using Rays = QuerySet<RayShot<B>>;
+template <class A, class B> using Poses = QuerySet<Pose<A, B>>;
+
+/// The largest answer that is a hit.
+template <class A, class B> double last_hit(const Shot<A, B>&) { return 1; }
+template <class B> double last_hit(const RayShot<B>&) { return 1; }
+template <class A, class B> double last_hit(const Pose<A, B>&) { return std::numeric_limits<double>::max(); }
+
+/// [length] What an answer's unit is worth.
+template <class A, class B> double unit_length(const Shot<A, B>& q) {
+  return std::sqrt(relative_displacement(q.a, q.b).squaredNorm());
+}
+template <class B> double unit_length(const RayShot<B>& q) { return std::sqrt(q.ray.direction.squaredNorm()); }
+template <class A, class B> double unit_length(const Pose<A, B>&) { return 1; }
 
 /// Shots of shapes made by `make_a` at shapes made by `make_b`, hits as likely as misses, both moving.
 template <class A, class B, class MakeA, class MakeB> Shots<A, B> shots(const MakeA& make_a, const MakeB& make_b) {
@@ -101,6 +129,41 @@ template <class A, class B> const Shots<A, B>& any_shots() {
                                              [](Uniform& u) { return any_shape<B>(u); });
   return set;
 }
+/// A ray along each shot's relative motion, from the center of A.
+template <class B> const Rays<B>& any_rays() {
+  static const Rays<B> set = [] {
+    Rays<B> rays;
+    for (const auto& shot : any_shots<Sphere<double>, B>().queries) {
+      const Ray<double> ray{shot.a.shape.center, relative_displacement(shot.a, shot.b), 1};
+      const Ray<long double> exact{ray.origin.template cast<long double>(), ray.direction.template cast<long double>(),
+                                   1};
+      const auto hit = raycast(exact, cast<long double>(shot.b.shape));
+      rays.queries.push_back({ray, shot.b.shape});
+      rays.truth.push_back(hit ? static_cast<double>(hit->t) : never);
+    }
+    return rays;
+  }();
+  return set;
+}
+
+/// Each shot a little (a twentieth of the time until then) after first contact, or where it ends.
+template <class A, class B> const Poses<A, B>& any_poses() {
+  static const Poses<A, B> set = [] {
+    Poses<A, B> poses;
+    const Shots<A, B>& shots = any_shots<A, B>();
+    for (std::size_t k = 0; k < shots.queries.size(); ++k) {
+      const double time = std::min(1.0, shots.truth[k] * 1.05);
+      const A a = pose_at(shots.queries[k].a, time);
+      const B b = pose_at(shots.queries[k].b, time);
+      const auto gap = separation(cast<long double>(a), cast<long double>(b)).distance;
+      poses.queries.push_back({a, b});
+      poses.truth.push_back(gap <= 0 ? static_cast<double>(-gap) : never);
+    }
+    return poses;
+  }();
+  return set;
+}
+
 inline const Shots<Sphere<double>, Aabb<double>>& thin_wall_shots() {
   static const auto set = shots<Sphere<double>, Aabb<double>>(
       [](Uniform& u) {

@@ -13,6 +13,8 @@
 #include <thinwall/experiments/random.hpp>
 #include <thinwall/experiments/world.hpp>
 
+#include "floors.hpp"
+
 namespace {
 
 using namespace thinwall;
@@ -48,6 +50,7 @@ struct Row {
   std::string name;
   std::uint32_t count;
   std::vector<StepReport> reports;
+  double floor_ns = 0;  ///< of a step: to read and write every body once
 };
 std::vector<Row>& rows() {
   static std::vector<Row> all;
@@ -56,8 +59,8 @@ std::vector<Row>& rows() {
 
 void add(const std::string& name, std::uint32_t count, const WorldOptions& options) {
   const std::size_t which = rows().size();
-  rows().push_back({name, count, {}});
-  benchmark::RegisterBenchmark((name + "/" + std::to_string(count)).c_str(),
+  rows().push_back({name, count, {}, 0});
+  benchmark::RegisterBenchmark(("world/rain_" + std::to_string(count) + "/" + name).c_str(),
                                [=](benchmark::State& state) {
                                  World world = rain(count, options);
                                  int left = steps;
@@ -70,6 +73,9 @@ void add(const std::string& name, std::uint32_t count, const WorldOptions& optio
                                    }
                                    rows()[which].reports.push_back(world.step(step_seconds));
                                  }
+                                 const double floor = bench::update_ns(count * sizeof(Body));
+                                 rows()[which].floor_ns = floor;
+                                 bench::add_floor(state, floor);
                                })
       ->Unit(benchmark::kMillisecond)
       ->Iterations(count < 1000 ? 100 * steps : steps);
@@ -118,8 +124,8 @@ double median(std::vector<double> values) {
 }
 
 void print_table() {
-  std::printf("\n%-28s%8s%10s%9s |%10s%8s%8s%10s%8s |%9s%8s%9s\n", "rain", "balls", "ms/step", "ns/body", "integrate",
-              "broad", "narrow", "response", "events", "pairs", "hits", "MB");
+  std::printf("\n%-28s%8s%10s%9s%9s |%10s%8s%8s%10s%8s |%9s%8s%9s\n", "rain", "balls", "ms/step", "ns/body", "x floor",
+              "integrate", "broad", "narrow", "response", "events", "pairs", "hits", "MB");
   for (const Row& row : rows()) {
     if (row.reports.empty()) continue;
     const auto of = [&](const auto& value) {
@@ -131,20 +137,22 @@ void print_table() {
     const auto ms = [&](double PhaseSeconds::*phase) {
       return 1e3 * of([&](const StepReport& r) { return r.seconds.*phase; });
     };
-    std::printf("%-28s%8u%10.3f%9.0f |%10.3f%8.3f%8.3f%10.3f%8.3f |%9.0f%8.0f%9.2f\n", row.name.c_str(), row.count,
-                1e3 * total, 1e9 * total / row.count, ms(&PhaseSeconds::integrate), ms(&PhaseSeconds::broad),
-                ms(&PhaseSeconds::narrow), ms(&PhaseSeconds::response), ms(&PhaseSeconds::events),
-                of([](const StepReport& r) { return r.pairs; }), of([](const StepReport& r) { return r.hits; }),
-                1e-6 * of([](const StepReport& r) { return r.bytes; }));
+    std::printf("%-28s%8u%10.3f%9.0f%9.0f |%10.3f%8.3f%8.3f%10.3f%8.3f |%9.0f%8.0f%9.2f\n", row.name.c_str(), row.count,
+                1e3 * total, 1e9 * total / row.count, 1e9 * total / row.floor_ns, ms(&PhaseSeconds::integrate),
+                ms(&PhaseSeconds::broad), ms(&PhaseSeconds::narrow), ms(&PhaseSeconds::response),
+                ms(&PhaseSeconds::events), of([](const StepReport& r) { return r.pairs; }),
+                of([](const StepReport& r) { return r.hits; }), 1e-6 * of([](const StepReport& r) { return r.bytes; }));
   }
-  std::printf("Medians over the steps; ms by phase. MB: what the world holds for stepping, bodies not included.\n");
+  std::printf(
+      "Medians over the steps; ms by phase. MB: what the world holds for stepping, bodies not included.\n"
+      "Floor: to read and write every body once, where so many stay.\n");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
+  bench::FloorReporter reporter;
+  const int code = bench::run_benchmarks(argc, argv, reporter);
   print_table();
+  return code;
 }

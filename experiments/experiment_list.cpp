@@ -10,6 +10,7 @@
 #include <thinwall/experiments/extremes.hpp>
 #include <thinwall/experiments/hitscan.hpp>
 #include <thinwall/experiments/plan.hpp>
+#include <thinwall/experiments/speed.hpp>
 #include <thinwall/experiments/stiff_contact.hpp>
 #include <thinwall/experiments/swept_bounds.hpp>
 #include <thinwall/experiments/thin_wall.hpp>
@@ -23,7 +24,7 @@ std::span<const Experiment> experiments() {
       thin_wall_experiment(),  //
       accuracy_experiment(),    work_precision_experiment(), swept_bounds_experiment(), crossing_bullets_experiment(),
       hitscan_experiment(),     stiff_contact_experiment(),  bouncing_experiment(),     extremes_experiment(),
-      broad_phase_experiment(), plan_experiment(),           engines_experiment(),
+      broad_phase_experiment(), plan_experiment(),           engines_experiment(),      speed_experiment(),
   };
   return list;
 }
