@@ -9,8 +9,8 @@ namespace thinwall::batch {
 /// One span of a batch.
 struct Column {
   std::span<const std::byte> bytes;
-  std::size_t rows;
-  const char* what;  ///< it belongs to
+  std::size_t rows = 0;
+  const char* what = "";  ///< it belongs to
 };
 
 template <class T> Column column_of(std::span<T> column, const char* what) {

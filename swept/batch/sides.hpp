@@ -1,10 +1,10 @@
 #pragma once
 /// The two sides of a batch and where its answers go.
 
+#include <array>
 #include <concepts>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/swept/batch/check_rows.hpp>
@@ -97,14 +97,17 @@ template <BatchSide T> inline constexpr int rank_of = decltype(ItemOf<T>::shape)
 template <class A, class B, class S> std::size_t checked_rows(const A& a, const B& b, const ToiRows<S>& out) {
   static_assert(std::same_as<typename A::Scalar, S> && std::same_as<typename B::Scalar, S>,
                 "both sides and the answers must have the same scalar");
-  std::vector<Column> read, answers{column_of(out.status, "the statuses"), column_of(out.time, "the times")};
-  a.for_each_column([&](auto column) { read.push_back(column_of(column, "what is read")); });
-  b.for_each_column([&](auto column) { read.push_back(column_of(column, "what is read")); });
+  std::array<Column, 2 * most_columns> read{};  // no vectors: a batch may be short
+  std::array<Column, 8> answers{column_of(out.status, "the statuses"), column_of(out.time, "the times")};
+  std::size_t reads = 0, writes = 2;
+  const auto add_read = [&](auto column) { read[reads++] = column_of(column, "what is read"); };
+  a.for_each_column(add_read);
+  b.for_each_column(add_read);
   for (const auto& [rows, what] : {std::pair(out.normal, "the normals"), std::pair(out.point, "the points")}) {
     if (rows.x.empty() && rows.y.empty() && rows.z.empty()) continue;
-    for (const auto& column : {rows.x, rows.y, rows.z}) answers.push_back(column_of(column, what));
+    for (const auto& column : {rows.x, rows.y, rows.z}) answers[writes++] = column_of(column, what);
   }
-  return common_rows(read, answers);
+  return common_rows(std::span(read).first(reads), std::span(answers).first(writes));
 }
 
 /// raycast() as a Toi whose time is t.
