@@ -10,7 +10,7 @@ program_packages=(
 program_commands=(c++ cmake ninja git gnuplot)
 
 # To build and run the tests and benchmarks as well.
-test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libopenmpi-dev openmpi-bin)
+test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libhwy-dev libopenmpi-dev openmpi-bin)
 
 # To check everything else. clang-format 16 is the first to lay out `requires` clauses well; the compiler is the oldest
 # we support; libclang-rt holds its sanitizers and libFuzzer.

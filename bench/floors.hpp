@@ -189,7 +189,7 @@ inline void add_floors_to_context() {
   benchmark::AddCustomContext("floor_root_ns", std::to_string(floors().root_ns));
 }
 
-/// For the terminal: as Google Benchmark's own, but `to_floor` is a number, where that one takes it for seconds.
+/// For the terminal: as Google Benchmark's own, but what counts per row is a number, where that one takes it for seconds.
 class FloorReporter : public benchmark::ConsoleReporter {
  public:
   FloorReporter() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_ColorTabular : OO_Tabular) {}
@@ -197,8 +197,9 @@ class FloorReporter : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     std::vector<Run> shown = runs;
     for (Run& run : shown) {
-      if (const auto ratio = run.counters.find("to_floor"); ratio != run.counters.end())
-        ratio->second.flags = benchmark::Counter::kDefaults;
+      for (auto& [name, counter] : run.counters) {
+        if ((counter.flags & benchmark::Counter::kInvert) != 0) counter.flags = benchmark::Counter::kDefaults;
+      }
     }
     ConsoleReporter::ReportRuns(shown);
   }

@@ -35,6 +35,9 @@ macro(thinwall_lookup name)
   elseif(${name} STREQUAL TBB)
     thinwall_describe(TBB TARGET TBB::tbb DEBIAN libtbb-dev MINIMUM 2021
       SOURCE GIT_REPOSITORY https://github.com/oneapi-src/oneTBB.git GIT_TAG v2021.8.0)
+  elseif(${name} STREQUAL hwy)
+    thinwall_describe(hwy TARGET hwy::hwy DEBIAN libhwy-dev MINIMUM 1.0
+      SOURCE GIT_REPOSITORY https://github.com/google/highway.git GIT_TAG 1.0.3)
   elseif(${name} STREQUAL GTest)
     thinwall_describe(GTest TARGET GTest::gtest_main DEBIAN libgtest-dev
       SOURCE GIT_REPOSITORY https://github.com/google/googletest.git GIT_TAG release-1.12.1)
@@ -100,7 +103,8 @@ function(thinwall_fetch name)
     return()
   endif()
   foreach(off IN ITEMS TBB_TEST TBB_STRICT BENCHMARK_ENABLE_TESTING BENCHMARK_ENABLE_GTEST_TESTS
-                       BENCHMARK_ENABLE_INSTALL BENCHMARK_ENABLE_WERROR INSTALL_GTEST)
+                       BENCHMARK_ENABLE_INSTALL BENCHMARK_ENABLE_WERROR INSTALL_GTEST
+                       HWY_ENABLE_CONTRIB HWY_ENABLE_EXAMPLES HWY_ENABLE_INSTALL HWY_ENABLE_TESTS)
     set(${off} OFF)
   endforeach()
   set(RC_ENABLE_GTEST ON)

@@ -51,6 +51,8 @@ class Run {
  public:
   virtual ~Run() = default;
   virtual std::vector<Unit> units() const = 0;
+  /// What whoever started it should know at once, such as what is left out and why: a line each, for stderr.
+  virtual std::vector<std::string> notes() const { return {}; }
   /// `results[i]` is what `units()[i].compute` returned, `seconds[i]` how long it took.
   virtual Outcome finish(const std::vector<std::string>& results, const std::vector<double>& seconds) const = 0;
 };

@@ -6,6 +6,7 @@
 #include <thinwall/experiments/bouncing.hpp>
 #include <thinwall/experiments/broad_phase.hpp>
 #include <thinwall/experiments/crossing_bullets.hpp>
+#include <thinwall/experiments/engines.hpp>
 #include <thinwall/experiments/extremes.hpp>
 #include <thinwall/experiments/hitscan.hpp>
 #include <thinwall/experiments/plan.hpp>
@@ -23,7 +24,7 @@ std::span<const Experiment> experiments() {
       thin_wall_experiment(),  //
       accuracy_experiment(),    work_precision_experiment(), swept_bounds_experiment(), crossing_bullets_experiment(),
       hitscan_experiment(),     stiff_contact_experiment(),  bouncing_experiment(),     extremes_experiment(),
-      broad_phase_experiment(), plan_experiment(),           speed_experiment(),
+      broad_phase_experiment(), plan_experiment(),           engines_experiment(),      speed_experiment(),
   };
   return list;
 }

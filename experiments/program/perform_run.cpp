@@ -180,6 +180,7 @@ int perform_run(const RunWish& given, const Call& call) try {
     if (stderr_is_terminal()) call.err << "\r\x1b[K";  // the progress bar
     std::_Exit(interrupted(wish, "finished units are kept", call));
   });
+  for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
   call.err << size_text(record) << std::endl;
   UnitResults results;
   {

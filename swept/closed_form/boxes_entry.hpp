@@ -45,13 +45,14 @@ template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   for (int j = 0; j < 3; ++j) {
     shared.narrow(3 + j, moving.between_on_b[j], moving.motion_on_b[j], pair.half_b[j] + reach_of_a[j]);
   }
-  if (!shared.ever()) return entry;  // most misses
+  if (!shared.ever() && !shared.close()) return entry;  // most misses
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const EdgeAxis<S> axis(pair, i, j);
       shared.narrow(6 + 3 * i + j, axis.along(pair.between), axis.along(moving.motion), axis.reach(pair));
     }
   }
+  entry.graze = shared.close();
   if (!shared.ever() || shared.decided_by < 0) return entry;
   moving.axis_a = shared.decided_by < 3 ? shared.decided_by : shared.decided_by < 6 ? -1 : (shared.decided_by - 6) / 3;
   moving.axis_b = shared.decided_by < 3 ? -1 : shared.decided_by % 3;

@@ -1,6 +1,7 @@
 # Reads the includes of the tree under ROOT and names, as file:line, each that breaks the rules of the house:
 # discrete <- capsule <- swept <- experiments; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers, and
-# Boost.Multiprecision in swept/certified alone, which nothing but swept/certified.hpp may include.
+# Boost.Multiprecision in swept/certified alone, which nothing but swept/certified.hpp may include; Highway and oneTBB in the
+# sources of swept/batch alone, which nothing but swept/batch.hpp may include.
 # What tests or benchmarks share among themselves they include by its path under tests/ or bench/, in quotes.
 cmake_minimum_required(VERSION 3.25)
 
@@ -36,6 +37,10 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
       if(file MATCHES "^swept/certified[./]")
         set(certified TRUE)
       endif()
+      set(batch FALSE)
+      if(file MATCHES "^swept/batch[./]")
+        set(batch TRUE)
+      endif()
       if(path MATCHES "\\.\\.")
         set(fault "a path goes up with '..'; write <thinwall/FOLDER/...>")
       elseif(quote STREQUAL "\"" AND NOT (folder MATCHES "^(tests|bench)$" AND EXISTS "${ROOT}/${folder}/${path}"))
@@ -46,7 +51,11 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
           set(fault "${folder} may include only ${allowed}")
         elseif(path MATCHES "^thinwall/swept/certified[./]" AND folder STREQUAL "swept" AND NOT certified)
           set(fault "swept is for everyone to link: what is certified needs Boost, and stands above it")
+        elseif(path MATCHES "^thinwall/swept/batch[./]" AND folder STREQUAL "swept" AND NOT batch)
+          set(fault "swept is for everyone to link: a batch is a library, and stands above it")
         endif()
+      elseif(file MATCHES "^swept/batch/.*[.]cpp$" AND path MATCHES "^(hwy|tbb)/")
+        continue()
       elseif(path MATCHES "/" AND certified AND path MATCHES "^boost/multiprecision/")
         continue()
       elseif(path MATCHES "/" AND libraries_${folder} AND NOT path MATCHES "${libraries_${folder}}")

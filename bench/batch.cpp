@@ -1,0 +1,145 @@
+/// What does a row cost in a batch, beside the scalar code, at every width of vector, in the first cache and from memory?
+/// One obstacle against many moving shapes, three in ten of them hits, and pairs row by row. Rows that rounding might turn are
+/// asked again in scalar code, and their share is a counter. The floor of a row in the first cache is that of the divisions and
+/// square roots of scalar code (floors.hpp), which vectors may go below; from memory it is the time to stream its bytes,
+/// measured in the same run.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <thinwall/swept/batch.hpp>
+#include <thinwall/swept/batch/table.hpp>
+#include <thinwall/swept/batch/targets.hpp>
+
+#include "floors.hpp"
+#include "query_sets.hpp"
+
+namespace {
+
+using namespace thinwall;
+using namespace thinwall::bench;
+
+constexpr std::size_t few_rows = 512;        // answers and all lie in the first cache
+constexpr std::size_t many_rows = 1U << 21;  // and here in none
+
+/// One shape of a size of about half against many, aimed so that three in ten hit.
+template <class A, class B> struct BatchSet {
+  using S = typename A::Scalar;
+  Moving<A> obstacle;
+  RowTable<Moving<A>> obstacles;  ///< the same for every row
+  RowTable<Moving<B>> rows;
+  double hits = 0;  ///< [1] share of the rows
+
+  explicit BatchSet(std::size_t count) {
+    using DoubleA = decltype(cast<double>(std::declval<A>()));
+    using DoubleB = decltype(cast<double>(std::declval<B>()));
+    Uniform uniform;
+    obstacle = at_rest(cast<S>(any_shape<DoubleA>(uniform)));
+    obstacles.reserve(count);
+    rows.reserve(count);
+    std::size_t hit_rows = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool wants_hit = uniform() < 0.3;
+      for (;;) {
+        const Vec3<double> from = uniform.direction() * uniform.between(1.5, 3);
+        const Vec3<double> aim = uniform.direction() * uniform.between(0, 2);
+        const Moving<DoubleB> ball{moved<double>(any_shape<DoubleB>(uniform), from),
+                                   (aim - from) * uniform.between(0.5, 3)};
+        const Moving<B> row = cast<S>(ball);
+        const ToiStatus status = time_of_impact(obstacle, row).status;
+        if (status == ToiStatus::overlapping || (status == ToiStatus::hit) != wants_hit) continue;
+        obstacles.push_back(obstacle);
+        rows.push_back(row);
+        if (wants_hit) ++hit_rows;
+        break;
+      }
+    }
+    hits = static_cast<double>(hit_rows) / static_cast<double>(count);
+  }
+};
+
+template <class A, class B> const BatchSet<A, B>& batch_set(std::size_t count) {
+  static const BatchSet<A, B> few(few_rows), many(many_rows);
+  return count == few_rows ? few : many;
+}
+
+/// [ns] to stream a row of so many scalars in, and a time and a status out.
+template <class S> double stream_ns(std::size_t columns) {
+  return floors().stream_row_ns / 64 * static_cast<double>((columns + 1) * sizeof(S) + sizeof(ToiStatus));
+}
+
+enum class Way { scalar, one_to_many, row_by_row };
+
+template <class A, class B>
+void time_batch(benchmark::State& state, Way way, std::size_t count, const std::string& target, const Operations& least,
+                std::size_t columns, int threads) {
+  using S = typename A::Scalar;
+  const BatchSet<A, B>& set = batch_set<A, B>(count);
+  std::vector<ToiStatus> status(count);
+  std::vector<S> time(count);
+  const ToiRows<S> out{status, time};
+  use_vectors(target);
+  BatchReport report;
+  for (auto _ : state) {
+    if (way == Way::scalar) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const Toi<S> toi = time_of_impact(set.obstacle, set.rows[i]);
+        status[i] = toi.status;
+        time[i] = toi.time;
+      }
+    } else if (way == Way::one_to_many) {
+      report = time_of_impact(set.obstacle, set.rows.rows(), out, {threads});
+    } else {
+      report = time_of_impact(set.obstacles.rows(), set.rows.rows(), out, {threads});
+    }
+    benchmark::ClobberMemory();
+  }
+  use_vectors("");
+  const double rows = static_cast<double>(count);
+  state.counters["ns_row"] =
+      benchmark::Counter(rows * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["asked_again"] = static_cast<double>(report.asked_again) / rows;
+  state.counters["hits"] = set.hits;
+  add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<S>(columns)), rows);
+}
+
+/// `columns`: how many arrays a row is read from, of B, and of A and B.
+template <class A, class B>
+void add(const std::string& pair, const Operations& least, std::size_t columns_b, std::size_t columns_both) {
+  const std::string scalar = sizeof(typename A::Scalar) == 8 ? "f64" : "f32";
+  const auto add_one = [&](const std::string& name, Way way, std::size_t count, const std::string& target,
+                           int threads) {
+    const std::size_t columns = way == Way::row_by_row ? columns_both : columns_b;
+    const std::string where = count == few_rows ? "cache" : "memory";
+    benchmark::RegisterBenchmark(
+        (pair + "/" + scalar + "/" + where + "/" + name).c_str(),
+        [=](benchmark::State& state) { time_batch<A, B>(state, way, count, target, least, columns, threads); })
+        ->UseRealTime();
+  };
+  for (const std::size_t count : {few_rows, many_rows}) {
+    add_one("scalar", Way::scalar, count, "", 1);
+    for (const std::string& target : vector_targets()) add_one(target, Way::one_to_many, count, target, 1);
+    add_one("row_by_row", Way::row_by_row, count, "", 1);
+  }
+  add_one("two_threads", Way::one_to_many, many_rows, "", 2);
+}
+
+template <class S> void add_pairs() {
+  add<Sphere<S>, Sphere<S>>("sphere_sphere", {1, 1}, 7, 14);
+  add<Aabb<S>, Sphere<S>>("aabb_sphere", {3, 0.2}, 7, 16);
+  add<Obb<S>, Sphere<S>>("obb_sphere", {3, 0.2}, 7, 25);
+  add<Capsule<S>, Sphere<S>>("capsule_sphere", {2, 2}, 7, 17);
+  add<Aabb<S>, Aabb<S>>("aabb_aabb", {3, 0}, 9, 18);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  add_pairs<double>();
+  add_pairs<float>();
+  FloorReporter reporter;
+  return run_benchmarks(argc, argv, reporter);
+}

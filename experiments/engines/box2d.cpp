@@ -1,0 +1,105 @@
+#include <thinwall/experiments/engines/engine_list.hpp>
+
+#ifdef THINWALL_HAS_BOX2D
+
+#include <box2d/box2d.h>
+
+namespace thinwall {
+
+namespace {
+
+b2Vec2 in_box2d(const Vec3<double>& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
+Vec3<double> out_of_box2d(const b2Vec2& v) { return Vec3<double>(v.x, v.y, 0); }
+
+class Box2dWorld final : public EngineWorld {
+ public:
+  Box2dWorld(const EngineScene& scene, const BallState& ball, bool continuous, bool bullet)
+      : world_(b2Vec2(0, 0)), step_(static_cast<float>(scene.step)) {
+    world_.SetContinuousPhysics(continuous);
+    b2PolygonShape wall_shape;
+    wall_shape.SetAsBox(static_cast<float>(scene.thickness / 2), static_cast<float>(scene.half_side));
+    const b2BodyDef wall_def;
+    b2FixtureDef fixture;
+    fixture.shape = &wall_shape;
+    fixture.friction = 0;
+    fixture.restitution = 1;
+    world_.CreateBody(&wall_def)->CreateFixture(&fixture);
+
+    b2BodyDef ball_def;
+    ball_def.type = b2_dynamicBody;
+    ball_def.position = in_box2d(ball.position);
+    ball_def.linearVelocity = in_box2d(ball.velocity);
+    ball_def.bullet = bullet;
+    b2CircleShape ball_shape;
+    ball_shape.m_radius = static_cast<float>(scene.radius);
+    fixture.shape = &ball_shape;
+    fixture.density = 1;
+    ball_ = world_.CreateBody(&ball_def);
+    ball_->CreateFixture(&fixture);
+  }
+
+  void step() override { world_.Step(step_, 8, 3); }  // iterations as its manual advises
+  BallState ball() const override {
+    return {out_of_box2d(ball_->GetPosition()), out_of_box2d(ball_->GetLinearVelocity())};
+  }
+
+ private:
+  b2World world_;
+  float step_;
+  b2Body* ball_ = nullptr;
+};
+
+EngineMode box2d_mode(std::string name, std::string what, bool continuous, bool bullet) {
+  return {.name = std::move(name),
+          .what = std::move(what),
+          .poses_per_step = continuous ? 0 : 1,
+          .skin = b2_polygonRadius,
+          .exact = false,
+          .make = [continuous, bullet](const EngineScene& scene, const BallState& ball) {
+            return std::make_unique<Box2dWorld>(scene, ball, continuous, bullet);
+          }};
+}
+
+std::vector<EngineMode> box2d_modes(const EngineChoices&) {
+  return {box2d_mode("discrete", "SetContinuousPhysics(false)", false, false),
+          box2d_mode("continuous", "as it comes: what moves is swept against what stays", true, false),
+          box2d_mode("bullet", "the ball's bullet flag is set", true, true)};
+}
+
+constexpr bool has_box2d_engine = true;
+
+}  // namespace
+
+}  // namespace thinwall
+
+#else
+
+namespace thinwall {
+
+namespace {
+
+std::vector<EngineMode> box2d_modes(const EngineChoices&) { return {}; }
+constexpr bool has_box2d_engine = false;
+
+}  // namespace
+
+}  // namespace thinwall
+
+#endif
+
+namespace thinwall {
+
+Engine box2d_engine() {
+  return {.name = "box2d",
+          .called = "Box2D",
+          .package = "libbox2d-dev",
+          .is_there = has_box2d_engine,
+          .made_of =
+              "b2World in the plane of motion, 8 velocity and 3 position iterations, a circle and a static polygon, in "
+              "float and in meters. Its polygons have a skin of 1 cm.",
+          .modes = box2d_modes,
+          .most_path = 2,
+          .why_most_path = "b2_maxTranslation"};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,126 @@
+#include <thinwall/experiments/engines/engine_list.hpp>
+
+#ifdef THINWALL_HAS_ODE
+
+#include <array>
+#include <mutex>
+#include <new>
+
+#include <ode/ode.h>
+
+namespace thinwall {
+
+namespace {
+
+/// Debian builds ODE without the locks that colliding on several threads needs: worlds of different threads wait for each other.
+/// The same thread may have several.
+std::recursive_mutex& ode_in_use() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+dWorldID new_world() {
+  static const bool prepared_once = [] { return dInitODE2(0) != 0; }();
+  thread_local const bool prepared = dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
+  if (!prepared_once || !prepared) throw std::bad_alloc();
+  return dWorldCreate();
+}
+
+class OdeWorld final : public EngineWorld {
+ public:
+  OdeWorld(const EngineScene& scene, const BallState& ball) : step_(scene.step) {
+    dCreateBox(space_, scene.thickness, 2 * scene.half_side, 2 * scene.half_side);
+    dMass mass;
+    dMassSetSphereTotal(&mass, 1, scene.radius);
+    dBodySetMass(ball_, &mass);
+    dGeomSetBody(dCreateSphere(space_, scene.radius), ball_);
+    dBodySetPosition(ball_, ball.position[0], ball.position[1], ball.position[2]);
+    dBodySetLinearVel(ball_, ball.velocity[0], ball.velocity[1], ball.velocity[2]);
+  }
+  ~OdeWorld() override {
+    dJointGroupDestroy(contacts_);
+    dSpaceDestroy(space_);
+    dWorldDestroy(world_);
+  }
+  OdeWorld(const OdeWorld&) = delete;
+  OdeWorld& operator=(const OdeWorld&) = delete;
+
+  void step() override {
+    dSpaceCollide(space_, this, &OdeWorld::meet);
+    dWorldStep(world_, step_);
+    dJointGroupEmpty(contacts_);
+  }
+  BallState ball() const override {
+    const dReal* p = dBodyGetPosition(ball_);
+    const dReal* v = dBodyGetLinearVel(ball_);
+    return {Vec3<double>(p[0], p[1], p[2]), Vec3<double>(v[0], v[1], v[2])};
+  }
+
+ private:
+  static void meet(void* data, dGeomID a, dGeomID b) {
+    auto& self = *static_cast<OdeWorld*>(data);
+    std::array<dContact, 4> contacts = {};
+    const int count = dCollide(a, b, static_cast<int>(contacts.size()), &contacts[0].geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = contacts[static_cast<std::size_t>(i)];
+      contact.surface.mode = dContactBounce;
+      contact.surface.bounce = 1;
+      dJointAttach(dJointCreateContact(self.world_, self.contacts_, &contact), dGeomGetBody(a), dGeomGetBody(b));
+    }
+  }
+
+  std::lock_guard<std::recursive_mutex> alone_{ode_in_use()};  // until the rest is gone
+  double step_;
+  dWorldID world_ = new_world();
+  dSpaceID space_ = dSimpleSpaceCreate(nullptr);
+  dJointGroupID contacts_ = dJointGroupCreate(0);
+  dBodyID ball_ = dBodyCreate(world_);
+};
+
+std::vector<EngineMode> ode_modes(const EngineChoices&) {
+  return {{.name = "discrete",
+           .what = "as it comes",
+           .poses_per_step = 1,
+           .skin = 0,
+           .exact = false,
+           .make = [](const EngineScene& scene, const BallState& ball) {
+             return std::make_unique<OdeWorld>(scene, ball);
+           }}};
+}
+
+constexpr bool has_ode_engine = true;
+
+}  // namespace
+
+}  // namespace thinwall
+
+#else
+
+namespace thinwall {
+
+namespace {
+
+std::vector<EngineMode> ode_modes(const EngineChoices&) { return {}; }
+constexpr bool has_ode_engine = false;
+
+}  // namespace
+
+}  // namespace thinwall
+
+#endif
+
+namespace thinwall {
+
+Engine ode_engine() {
+  return {
+      .name = "ode",
+      .called = "ODE",
+      .package = "libode-dev",
+      .is_there = has_ode_engine,
+      .made_of =
+          "dWorldStep with a dContactBounce joint for each contact (bounce 1, no friction) and the world's own error "
+          "reduction, a sphere and a box without a body. It has no continuous detection.",
+      .modes = ode_modes};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,89 @@
+// A capsule and a sphere, lane by lane: the capsule widened by the sphere's radius, and the sphere's center on its way.
+//
+// The center enters the endless cylinder around the axis beside the segment, and touches there, or beyond one end, and then it can
+// touch only the ball around that end. With m the place from end a, d the axis, w = v x d:
+//
+//   t = (|m x d|^2 - R^2 d.d) / (-(m x d).w + sqrt(d.d (R^2 w.w - (m.w)^2))).
+//
+// Columns of a capsule: 0-2 a, 3-5 b, 6 radius, 7-9 displacement; of a sphere: 0-2 center, 3 radius, 4-6 displacement.
+
+#if defined(THINWALL_BATCH_CAPSULE_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef THINWALL_BATCH_CAPSULE_LANES
+#undef THINWALL_BATCH_CAPSULE_LANES
+#else
+#define THINWALL_BATCH_CAPSULE_LANES
+#endif
+
+#include <thinwall/swept/batch/ball_lanes.inl>
+
+HWY_BEFORE_NAMESPACE();
+namespace thinwall::batch::HWY_NAMESPACE {
+
+struct CapsuleSphere {
+  static constexpr std::size_t columns_a = 10, columns_b = 7;
+
+  template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& capsule, const B& sphere) const {
+    using S = hn::TFromD<D>;
+    using Limits = Bounds<S>;
+    using Vector = Vec3Lanes<hn::Vec<D>>;
+    const auto zero = hn::Zero(d), one = hn::Set(d, S(1));
+    const Vector a{capsule(0), capsule(1), capsule(2)}, b{capsule(3), capsule(4), capsule(5)};
+    const Vector c{sphere(0), sphere(1), sphere(2)};
+    const Vector m = minus(c, a), axis = minus(b, a);
+    const Vector v{hn::Sub(sphere(4), capsule(7)), hn::Sub(sphere(5), capsule(8)), hn::Sub(sphere(6), capsule(9))};
+    const auto R = hn::Add(capsule(6), sphere(3)), RR = hn::Mul(R, R);
+    const auto dd = dot(axis, axis), mm = dot(m, m), vv = dot(v, v);
+
+    // The endless cylinder.
+    const Vector k = cross(m, axis), w = cross(v, axis);
+    const auto kk = dot(k, k), ww = dot(w, w), offset = dot(m, w);
+    const auto reach = hn::Mul(RR, ww), square = hn::Mul(offset, offset);
+    const auto discriminant = hn::Sub(reach, square);
+    const auto noise = hn::MulAdd(hn::Set(d, Limits::graze), reach,
+                                  hn::Mul(hn::Set(d, Limits::far * 16), hn::Mul(mm, hn::Mul(vv, dd))));
+    const auto crosses = hn::Gt(discriminant, noise), misses = hn::Lt(discriminant, hn::Neg(noise));
+    const auto within = hn::Mul(RR, dd), excess = hn::Sub(kk, within);
+    const auto touch = hn::Mul(hn::Set(d, Limits::touch), hn::Add(hn::Mul(mm, dd), within));
+    const auto outside = hn::Gt(excess, touch), inside = hn::Lt(excess, hn::Neg(touch));
+    const auto approach = hn::Neg(dot(k, w));
+    const auto denominator = hn::Add(approach, hn::Sqrt(hn::Mul(dd, hn::Max(discriminant, zero))));
+    const auto entry = hn::Div(excess, denominator);
+    const auto late = hn::Sub(excess, denominator);
+    const auto end = hn::Mul(hn::Set(d, Limits::end), hn::Add(hn::Add(hn::Mul(mm, dd), within), hn::Abs(denominator)));
+
+    // Where along the axis: at the start, where that is in the cylinder, else at its entry.
+    const auto from_start = hn::IfThenElse(outside, entry, zero);
+    const auto along = hn::MulAdd(dot(v, axis), from_start, dot(m, axis));
+    const auto beyond_a = hn::Lt(along, zero), beyond_b = hn::Gt(along, dd);
+    const auto beside = hn::Not(hn::Or(beyond_a, beyond_b));
+    const Vector from_b = minus(c, b);
+    const Vector q{hn::IfThenElse(beyond_b, from_b.x, m.x), hn::IfThenElse(beyond_b, from_b.y, m.y),
+                   hn::IfThenElse(beyond_b, from_b.z, m.z)};
+    const auto ball = chord_lanes(d, q, v, R, zero);
+    const auto at_end = verdict_of(d, ball);
+
+    const auto most = hn::Set(d, Limits::most_capsule), least = hn::Set(d, Limits::least_capsule);
+    const auto size = hn::Max(hn::Max(largest(m), largest(axis)), hn::Max(largest(v), R));
+    const auto smallest = hn::Min(hn::Min(largest(m), largest(axis)), largest(v));
+    const auto sums = hn::Add(hn::Add(mm, dd), vv);
+    const auto valid = hn::And(hn::Ge(hn::Min(capsule(6), sphere(3)), zero), hn::Eq(sums, sums));
+    const auto ordinary = hn::And(hn::And(valid, hn::Gt(smallest, least)), hn::Le(size, most));
+
+    const auto toward = hn::And(crosses, hn::Gt(approach, zero));
+    const auto side = hn::And(outside, hn::And(toward, beside));
+    const auto side_hit = hn::And(side, hn::Lt(late, hn::Neg(end)));
+    const auto side_late = hn::And(side, hn::Gt(late, end));
+    const auto by_ball = hn::Or(hn::And(outside, hn::AndNot(beside, toward)), hn::AndNot(beside, inside));
+    const auto never = hn::And(outside, hn::Or(misses, hn::Le(approach, zero)));
+    Verdict<D> out;
+    out.hit = hn::And(ordinary, hn::Or(side_hit, hn::And(by_ball, at_end.hit)));
+    out.apart = hn::And(ordinary, hn::Or(hn::Or(never, side_late), hn::And(by_ball, at_end.apart)));
+    out.overlapping = hn::And(ordinary, hn::Or(hn::And(inside, beside), hn::And(by_ball, at_end.overlapping)));
+    out.time = hn::IfThenElse(out.hit, hn::IfThenElse(side_hit, entry, at_end.time), one);
+    return out;
+  }
+};
+
+}  // namespace thinwall::batch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

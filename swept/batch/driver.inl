@@ -1,0 +1,101 @@
+// Runs a kernel over rows: whole vectors, then the ragged end in one more that repeats its last row.
+
+#if defined(THINWALL_BATCH_DRIVER) == defined(HWY_TARGET_TOGGLE)
+#ifdef THINWALL_BATCH_DRIVER
+#undef THINWALL_BATCH_DRIVER
+#else
+#define THINWALL_BATCH_DRIVER
+#endif
+
+#include <algorithm>
+#include <cstdint>
+
+#include <thinwall/swept/batch/lanes.inl>
+#include <thinwall/swept/batch/run.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace thinwall::batch::HWY_NAMESPACE {
+
+/// Reads column k of the vector of rows that begins at `at`.
+template <class D> struct EachRow {
+  using S = hn::TFromD<D>;
+  D d;
+  const S* const* columns;  ///< of the caller's own, lest every store make the compiler read them again
+  std::size_t at = 0;
+  HWY_INLINE hn::Vec<D> operator()(int k) const { return hn::LoadU(d, columns[k] + at); }
+};
+
+/// The same number for every row.
+template <class D> struct SameRow {
+  using S = hn::TFromD<D>;
+  D d;
+  const S* const* columns;
+  std::size_t at = 0;
+  HWY_INLINE hn::Vec<D> operator()(int k) const { return hn::Set(d, *columns[k]); }
+};
+
+/// Writes times and verdicts; returns how many rows are not clear.
+template <class D>
+HWY_INLINE std::size_t store(D d, const Verdict<D>& verdict, hn::TFromD<D>* time, ToiStatus* status) {
+  using S = hn::TFromD<D>;
+  static_assert(sizeof(ToiStatus) == sizeof(std::int32_t));
+  const hn::Rebind<std::int32_t, D> di;
+  const auto clear = hn::Or(verdict.hit, hn::Or(verdict.apart, verdict.overlapping));
+  hn::StoreU(hn::IfThenZeroElse(verdict.overlapping, verdict.time), d, time);
+  auto code = hn::Set(d, static_cast<S>(not_clear));
+  code = hn::IfThenElse(verdict.hit, hn::Set(d, static_cast<S>(ToiStatus::hit)), code);
+  code = hn::IfThenElse(verdict.apart, hn::Set(d, static_cast<S>(ToiStatus::apart)), code);
+  code = hn::IfThenElse(verdict.overlapping, hn::Set(d, static_cast<S>(ToiStatus::overlapping)), code);
+  if constexpr (sizeof(S) == 8) {
+    hn::StoreU(hn::DemoteTo(di, code), di, reinterpret_cast<std::int32_t*>(status));
+  } else {
+    hn::StoreU(hn::ConvertTo(di, code), di, reinterpret_cast<std::int32_t*>(status));
+  }
+  return hn::Lanes(d) - hn::CountTrue(d, clear);
+}
+
+template <class Kernel, template <class> class A, template <class> class B, class S>
+HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t n, S* time, ToiStatus* status) {
+  const hn::ScalableTag<S> d;
+  using D = hn::ScalableTag<S>;
+  const std::size_t lanes = hn::Lanes(d);
+  const Kernel kernel;
+  const S *of_a[most_columns], *of_b[most_columns];
+  std::copy_n(a.columns, Kernel::columns_a, of_a);
+  std::copy_n(b.columns, Kernel::columns_b, of_b);
+  std::size_t unclear = 0, i = 0;
+  for (; i + lanes <= n; i += lanes)
+    unclear += store(d, kernel(d, A<D>{d, of_a, i}, B<D>{d, of_b, i}), time + i, status + i);
+  if (i == n) return unclear;
+  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(S);
+  S room_a[most_columns][most], room_b[most_columns][most], times[most];
+  const S *end_a[most_columns], *end_b[most_columns];
+  ToiStatus statuses[most];
+  const auto copy = [&](const Rows<S>& rows, S(*room)[most], const S** end) {
+    for (std::size_t k = 0; k < rows.count; ++k) {
+      end[k] = room[k];
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        room[k][lane] = rows.columns[k][rows.is_one ? 0 : std::min(i + lane, n - 1)];
+    }
+  };
+  copy(a, room_a, end_a);
+  copy(b, room_b, end_b);
+  store(d, kernel(d, A<D>{d, end_a, 0}, B<D>{d, end_b, 0}), times, statuses);
+  for (std::size_t lane = 0; i < n; ++i, ++lane) {
+    time[i] = times[lane];
+    status[i] = statuses[lane];
+    unclear += status[i] == not_clear ? 1 : 0;
+  }
+  return unclear;
+}
+
+template <class Kernel, class S>
+HWY_ATTR std::size_t run_target(const Rows<S>& a, const Rows<S>& b, std::size_t n, S* time, ToiStatus* status) {
+  if (a.is_one) return run_rows<Kernel, SameRow, EachRow>(a, b, n, time, status);
+  if (b.is_one) return run_rows<Kernel, EachRow, SameRow>(a, b, n, time, status);
+  return run_rows<Kernel, EachRow, EachRow>(a, b, n, time, status);
+}
+
+}  // namespace thinwall::batch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,204 @@
+// What a batch does with its rows, whatever they hold: splits, one against many, threads, vectors, rays, bad input.
+
+#include <gtest/gtest.h>
+
+#include "support/batch_rows.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+using Ball = Moving<Sphere<double>>;
+using Box = Moving<Aabb<double>>;
+
+/// The same bits, NaN included.
+template <class S>::testing::AssertionResult same_answers(const Answers<S>& a, const Answers<S>& b) {
+  for (std::size_t i = 0; i < a.time.size(); ++i) {
+    const bool both_nan = std::isnan(a.time[i]) && std::isnan(b.time[i]);
+    if (a.status[i] != b.status[i] || (a.time[i] != b.time[i] && !both_nan))
+      return ::testing::AssertionFailure() << "row " << i << ": " << a.time[i] << " and " << b.time[i];
+  }
+  return ::testing::AssertionSuccess();
+}
+
+class BatchRowsOfBoxesAndBalls : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { use_vectors(GetParam()); }
+  void TearDown() override { use_vectors(""); }
+
+  static constexpr std::size_t count = 5003;  // blocks, vectors and a ragged end
+  BatchRows<Aabb<double>, Sphere<double>> rows{count, 3};
+};
+
+TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_for_any_split) {
+  Answers<double> whole(count), split(count);
+  time_of_impact(rows.a.rows(), rows.b.rows(), whole.rows());
+  std::size_t begin = 0;
+  for (std::size_t length = 1; begin < count; ++length) {
+    const std::size_t end = std::min(begin + length, count), n = end - begin;
+    const ToiRows<double> part{std::span(split.status).subspan(begin, n), std::span(split.time).subspan(begin, n)};
+    EXPECT_EQ(time_of_impact(rows.a.rows(begin, end), rows.b.rows(begin, end), part).rows, n);
+    begin = end;
+  }
+  EXPECT_TRUE(same_answers(whole, split));
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_for_any_number_of_threads) {
+  Answers<double> one(count);
+  const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), one.rows());
+  for (const int threads : {0, 2, 3, 8}) {
+    Answers<double> many(count);
+    const BatchReport again = time_of_impact(rows.a.rows(), rows.b.rows(), many.rows(), {threads});
+    EXPECT_TRUE(same_answers(one, many));
+    EXPECT_EQ(again.asked_again, report.asked_again);
+  }
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_one_against_many_as_row_by_row) {
+  for (const std::size_t i : {std::size_t{0}, std::size_t{7}, std::size_t{400}}) {
+    RowTable<Box> boxes;
+    RowTable<Ball> balls;
+    for (std::size_t k = 0; k < count; ++k) {
+      boxes.push_back(rows.a[i]);
+      balls.push_back(rows.b[i]);
+    }
+    Answers<double> one(count), many(count);
+    time_of_impact(rows.a[i], rows.b.rows(), one.rows());
+    time_of_impact(boxes.rows(), rows.b.rows(), many.rows());
+    EXPECT_TRUE(same_answers(one, many));
+    time_of_impact(rows.a.rows(), rows.b[i], one.rows());
+    time_of_impact(rows.a.rows(), balls.rows(), many.rows());
+    EXPECT_TRUE(same_answers(one, many));
+  }
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_the_other_way_round) {
+  Answers<double> there(count), back(count);
+  time_of_impact(rows.a.rows(), rows.b.rows(), there.rows());
+  time_of_impact(rows.b.rows(), rows.a.rows(), back.rows());
+  EXPECT_TRUE(same_answers(there, back));
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, have_the_scalar_codes_normals_and_points_on_request) {
+  Answers<double> answers(count);
+  std::array<std::vector<double>, 6> v;
+  for (auto& column : v) column.assign(count, -7);
+  ToiRows<double> out = answers.rows();
+  out.normal = {v[0], v[1], v[2]};
+  out.point = {v[3], v[4], v[5]};
+  time_of_impact(rows.b.rows(), rows.a.rows(), out);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Toi<double> toi = time_of_impact(rows.b[i], rows.a[i]);
+    ASSERT_EQ(answers.status[i], toi.status);
+    if (toi.status == ToiStatus::invalid) continue;
+    ASSERT_EQ(Vec3<double>(v[0][i], v[1][i], v[2][i]), toi.normal) << i;
+    ASSERT_EQ(Vec3<double>(v[3][i], v[4][i], v[5][i]), toi.point) << i;
+  }
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, need_no_alignment) {
+  Answers<double> whole(count);
+  time_of_impact(rows.a.rows(), rows.b.rows(), whole.rows());
+  for (std::size_t off = 1; off < 9; ++off) {
+    Answers<double> shifted(count);
+    const ToiRows<double> part{std::span(shifted.status).subspan(off), std::span(shifted.time).subspan(off)};
+    time_of_impact(rows.a.rows(off, count), rows.b.rows(off, count), part);
+    for (std::size_t i = 0; i < off; ++i) {
+      shifted.status[i] = whole.status[i];
+      shifted.time[i] = whole.time[i];
+    }
+    EXPECT_TRUE(same_answers(whole, shifted));
+  }
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, are_not_spoiled_by_a_neighbor) {
+  RowTable<Box> boxes;
+  RowTable<Ball> balls;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < 64; ++i) {
+    boxes.push_back(at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}}));
+    balls.push_back({{{5, 0.25, 0.5}, i % 3 == 1 ? nan : 0.5}, {-8, 0, 0}});
+  }
+  Answers<double> answers(64);
+  time_of_impact(boxes.rows(), balls.rows(), answers.rows());
+  for (std::size_t i = 0; i < 64; ++i) {
+    EXPECT_EQ(answers.status[i], i % 3 == 1 ? ToiStatus::invalid : ToiStatus::hit);
+    if (i % 3 != 1) {
+      EXPECT_EQ(answers.time[i], 3.5 / 8);
+    }
+  }
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, of_rays_are_raycasts) {
+  Shaker<double> draw(5);
+  RowTable<Ray<double>> rays;
+  RowTable<Aabb<double>> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto motion = batch_motion<Sphere<double>, Aabb<double>>(draw);
+    const std::array most = {1.0, 0.5, std::numeric_limits<double>::infinity(), 0.0, -1.0};
+    rays.push_back({motion.a.shape.center, motion.a.displacement, most[static_cast<std::size_t>(draw.pick(0, 4))]});
+    boxes.push_back(motion.b.shape);
+  }
+  Answers<double> answers(count);
+  raycast(rays.rows(), boxes.rows(), answers.rows());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Toi<double> toi = batch::cast(rays[i], boxes[i]);
+    ASSERT_EQ(answers.status[i], toi.status) << i;
+    if (toi.status == ToiStatus::hit) {
+      ASSERT_NEAR(answers.time[i], toi.time, 1e-9 * toi.time) << i;
+    } else if (toi.status != ToiStatus::invalid) {
+      ASSERT_EQ(answers.time[i], toi.time) << i;
+    }
+  }
+  Answers<double> one(count);
+  raycast(rays[0], boxes.rows(), one.rows());
+  raycast(rays.rows(), boxes[0], one.rows());
+}
+
+INSTANTIATE_TEST_SUITE_P(Vectors, BatchRowsOfBoxesAndBalls, ::testing::ValuesIn(vector_targets()),
+                         [](const auto& name) { return name.param; });
+
+/// What a call throws.
+template <class Call> std::string refusal(const Call& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& refused) {
+    return refused.what();
+  }
+  return "nothing";
+}
+
+TEST(BatchRefusals, name_what_is_wrong) {
+  const BatchRows<Aabb<double>, Sphere<double>> rows(100, 3);
+  Answers<double> answers(100), short_one(99);
+  EXPECT_EQ(refusal([&] { time_of_impact(rows.a.rows(), rows.b.rows(), short_one.rows()); }),
+            "thinwall batch: the statuses have 99 rows, and a column of what is read has 100");
+  EXPECT_EQ(refusal([&] {
+              time_of_impact(rows.a.rows(), rows.b.rows(), {answers.status, short_one.time});
+            }),
+            "thinwall batch: the statuses have 100 rows, and a column of the times has 99");
+  EXPECT_EQ(refusal([&] {
+              RowsOf<Ball> in_place = rows.b.rows();
+              in_place.radius = answers.time;
+              time_of_impact(rows.a.rows(), in_place, answers.rows());
+            }),
+            "thinwall batch: the times share memory with what is read");
+  EXPECT_EQ(refusal([&] {
+              ToiRows<double> out = answers.rows();
+              out.normal = {short_one.time, short_one.time, short_one.time};
+              time_of_impact(rows.a.rows(0, 99), rows.b.rows(0, 99),
+                             {std::span(answers.status).first(99), std::span(answers.time).first(99), out.normal});
+            }),
+            "thinwall batch: the normals share memory with the normals");
+  EXPECT_EQ(refusal([&] { time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows(), {-1}); }),
+            "thinwall batch: threads must be at least 0, which takes all; they are -1");
+  EXPECT_TRUE(refusal([&] { use_vectors("MMX"); }).starts_with("thinwall batch: no vectors \"MMX\" on this machine"));
+}
+
+TEST(BatchRefusals, are_none_for_no_rows) {
+  const RowTable<Ball> none;
+  Answers<double> answers(0);
+  EXPECT_EQ(time_of_impact(none.rows(), none.rows(), answers.rows()).rows, 0U);
+}
+
+}  // namespace
+}  // namespace thinwall::testing

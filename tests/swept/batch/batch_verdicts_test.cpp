@@ -1,0 +1,96 @@
+// Ten million rows, plain and the worst: every vector width gives the scalar code's verdicts, and its times to the bound.
+// THINWALL_ROWS=100 tests_swept --gtest_filter='BatchVerdicts*' judges a hundred times as many.
+
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "support/batch_rows.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+/// What rounding may turn a time by, in 4 u kappa: swept/toi.hpp's coordinates over the closing speed.
+template <class A, class B> double bound_on_time(const A& a, const B& b, const Toi<double>& toi, double u) {
+  const Vec3<double> n = toi.normal.cwiseAbs();
+  const double closing = std::abs(toi.normal.dot(b.displacement - a.displacement));
+  const double lengths =
+      n.dot(center(a.shape).cwiseAbs() + center(b.shape).cwiseAbs() + half_widths(a.shape) + half_widths(b.shape) +
+            toi.time * (a.displacement.cwiseAbs() + b.displacement.cwiseAbs()));
+  return 4 * u * lengths / closing;
+}
+
+/// Judges every width on `count` rows of one pair.
+template <class A, class B> void judge_rows(const char* name, std::size_t count) {
+  using S = typename A::Scalar;
+  SCOPED_TRACE(name);
+  const BatchRows<A, B> rows(count, 7);
+  ASSERT_TRUE(rows.has_every_status());
+  for (const std::string& target : vector_targets()) {
+    SCOPED_TRACE(target);
+    use_vectors(target);
+    Answers<S> answers(count);
+    const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows());
+    std::size_t wrong = 0, late = 0;
+    double worst = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (answers.status[i] != rows.truth[i].status) ++wrong;
+      if (answers.status[i] != ToiStatus::hit || rows.truth[i].status != ToiStatus::hit) continue;
+      const auto a = cast<double>(rows.a[i]);
+      const auto b = cast<double>(rows.b[i]);
+      const double off = std::abs(double(answers.time[i]) - rows.truth[i].time);
+      const double bound = bound_on_time(a, b, rows.truth[i], double(std::numeric_limits<S>::epsilon()) / 2);
+      if (off > 3 * bound) ++late;  // the scalar code's own 4 u kappa t, and the bound of kappa by half widths
+      worst = std::max(worst, off / bound);
+    }
+    std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu; time off by up to %.2f u kappa t\n", name,
+                target.c_str(), count, 100.0 * double(report.asked_again) / double(count), wrong, 4 * worst);
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_EQ(late, 0U);
+  }
+  use_vectors("");
+}
+
+/// The same of rays at boxes, held against raycast.
+template <class S> void judge_rays(std::size_t count) {
+  Shaker<S> draw(11);
+  RowTable<Ray<S>> rays;
+  RowTable<Aabb<S>> boxes;
+  const S longest = std::numeric_limits<S>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto motion = batch_motion<Sphere<S>, Aabb<S>>(draw);
+    const std::array<S, 6> most = {1, S(0.5), longest, longest, 0, -1};
+    rays.push_back({motion.a.shape.center, motion.a.displacement, most[static_cast<std::size_t>(draw.pick(0, 5))]});
+    boxes.push_back(motion.b.shape);
+  }
+  for (const std::string& target : vector_targets()) {
+    SCOPED_TRACE(target);
+    use_vectors(target);
+    Answers<S> answers(count);
+    const BatchReport report = raycast(rays.rows(), boxes.rows(), answers.rows());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (answers.status[i] != batch::cast(rays[i], boxes[i]).status) ++wrong;
+    }
+    std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu\n", "ray aabb", target.c_str(), count,
+                100.0 * double(report.asked_again) / double(count), wrong);
+    EXPECT_EQ(wrong, 0U);
+  }
+  use_vectors("");
+}
+
+template <class S> void judge_every_pair() {
+  const std::size_t count = batch_rows_to_judge(1'000'000);
+  judge_rows<Sphere<S>, Sphere<S>>("sphere sphere", count);
+  judge_rows<Aabb<S>, Sphere<S>>("aabb sphere", count);
+  judge_rows<Obb<S>, Sphere<S>>("obb sphere", count);
+  judge_rows<Capsule<S>, Sphere<S>>("capsule sphere", count);
+  judge_rows<Aabb<S>, Aabb<S>>("aabb aabb", count);
+  judge_rays<S>(count);
+}
+
+TEST(BatchVerdicts, are_the_scalar_codes_own_in_double) { judge_every_pair<double>(); }
+TEST(BatchVerdicts, are_the_scalar_codes_own_in_float) { judge_every_pair<float>(); }
+
+}  // namespace
+}  // namespace thinwall::testing
