@@ -129,8 +129,9 @@ Figure verdict_figure(const std::vector<const Contender*>& drawn) {
 
 std::vector<Figure> speed_figures(const SpeedResult& result) {
   const std::vector<const Contender*> drawn = drawn_contenders(result.contenders);
-  if (drawn.empty()) return {};
-  std::vector<Figure> figures = {race_figure(drawn, false), verdict_figure(drawn), race_figure(drawn, true)};
+  std::vector<Figure> figures;
+  if (!drawn.empty()) figures = {race_figure(drawn, false), verdict_figure(drawn), race_figure(drawn, true)};
+  figures.push_back(batch_figure(result.contenders));
   std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
   return figures;
 }

@@ -120,7 +120,7 @@ TEST(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
 
 TEST(Speed, reads_units_items_and_options) {
   const BenchOutput output = bench_output_from_json(
-      "batch", bench_json(R"({"run_name": "world/rain_10/clamp/iterations:12", "cpu_time": 1.5, "time_unit": "ms"},
+      "world", bench_json(R"({"run_name": "world/rain_10/clamp/iterations:12", "cpu_time": 1.5, "time_unit": "ms"},
                              {"run_name": "a/b/c", "cpu_time": 9, "time_unit": "ns", "items_per_second": 2e9},
                              {"run_name": "a/b/c", "run_type": "aggregate", "cpu_time": 7, "time_unit": "ns"},
                              {"run_name": "alone", "cpu_time": 7, "time_unit": "ns"})"));
@@ -131,6 +131,27 @@ TEST(Speed, reads_units_items_and_options) {
   EXPECT_EQ(output.rows[2].kind, "alone");
   EXPECT_EQ(output.rows[2].subject, "");
   EXPECT_EQ(output.floors.at("division_ns"), 1.5);
+}
+
+TEST(Speed, draws_batches_by_where_they_lie_with_their_floor) {
+  const TemporaryFolder folder;
+  std::string rows;
+  for (const char* way : {"f64/cache/scalar", "f64/cache/AVX2", "f32/memory/AVX2"}) {
+    rows += fmt::format(
+        R"({}{{"run_name": "sphere_sphere/{}/real_time", "cpu_time": 9e9, "time_unit": "ns", "ns_row": 4, "floor_ns": 2, "to_floor": 2}})",
+        rows.empty() ? "" : ", ", way);
+  }
+  write_bench(folder.path(), "batch", bench_json(rows));
+  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+  EXPECT_EQ(value_of(table_of(outcome, "timings"), 1, "nanoseconds"), Value(4.0));
+  ASSERT_EQ(outcome.figures.size(), 1U);
+  const std::vector<Panel>& panels = outcome.figures[0].panels;
+  ASSERT_EQ(panels.size(), 2U);  // in the cache, from memory
+  ASSERT_EQ(panels[0].series.size(), 3U);
+  EXPECT_EQ(panels[0].series[1].label, "batch, AVX2");
+  EXPECT_EQ(panels[0].series[2].label, "floor");
+  EXPECT_EQ(panels[0].series[2].x, std::vector<double>{2});
+  EXPECT_EQ(panels[1].series.size(), 2U);
 }
 
 TEST(Speed, an_output_survives_the_journal) {
