@@ -117,16 +117,24 @@ inline double read_ns(const void* data, std::size_t bytes) {
 /// [ns] to read so many bytes, change them and write them back.
 inline double update_ns(std::size_t bytes) {
   std::vector<std::uint64_t> words(std::max<std::size_t>(1, bytes / 8));
-  return best_ns(
+  const std::size_t passes =
+      1 + (std::size_t{1} << 14) / words.size();  // a few passes of little, lest the clock be timed
+  const double ns = best_ns(
       [&] {
+        for (std::size_t i = 0; i < passes; ++i) {
 #if defined(THINWALL_WIDE)
-        if (wide::has_avx2()) wide::add_one_avx2(words.data(), words.size());
-#else
-        wide::add_one(words.data(), words.size());
+          if (wide::has_avx2()) {
+            wide::add_one_avx2(words.data(), words.size());
+            benchmark::ClobberMemory();
+            continue;
+          }
 #endif
-        benchmark::ClobberMemory();
+          wide::add_one(words.data(), words.size());
+          benchmark::ClobberMemory();
+        }
       },
       5e6);
+  return ns / static_cast<double>(passes);
 }
 
 /// [ns] of `operation` on a double, in scalar code, independent of the one before.

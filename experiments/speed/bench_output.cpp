@@ -21,24 +21,30 @@ constexpr std::array<std::string_view, 10> kept_counters = {"missed",     "false
                                                             "p99_length", "max_length", "p99_width", "max_width",
                                                             "floor_ns",   "to_floor"};
 
-/// [ns] of one answer. A row that counts items answers so many a second.
+/// [ns] of one answer. A row that answers many at once says so, or how many items it answers a second.
 double nanoseconds_of(const Json& row) {
+  if (const auto each = row.find("ns_row"); each != row.end()) return each->get<double>();
   if (const auto rate = row.find("items_per_second"); rate != row.end()) return 1e9 / rate->get<double>();
   const auto unit = row.at("time_unit").get<std::string>();
   const double scale = unit == "s" ? 1e9 : unit == "ms" ? 1e6 : unit == "us" ? 1e3 : 1;
   return scale * row.at("cpu_time").get<double>();
 }
 
-BenchRow row_from(const Json& json) {
+/// Without what Google Benchmark adds to a name; rows of batches are named by their pair alone.
+std::string row_name(const std::string& program, std::string name) {
+  for (const char* option : {"/iterations:", "/real_time"}) name.resize(std::min(name.find(option), name.size()));
+  return program == "batch" && !name.starts_with("batch/") ? "batch/" + name : name;
+}
+
+BenchRow row_from(const std::string& program, const Json& json) {
   BenchRow row;
-  const auto name = json.at("run_name").get<std::string>();
+  const std::string name = row_name(program, json.at("run_name").get<std::string>());
   if (json.value("error_occurred", false))
     throw std::runtime_error(name + ": " + json.value("error_message", "it says that it failed"));
   const std::size_t first = name.find('/'), second = name.find('/', std::min(first, name.size() - 1) + 1);
   row.kind = name.substr(0, first);
   if (first != std::string::npos) row.subject = name.substr(first + 1, second - first - 1);
   if (second != std::string::npos) row.way = name.substr(second + 1);
-  if (const std::size_t option = row.way.find("/iterations:"); option != std::string::npos) row.way.resize(option);
   row.nanoseconds = nanoseconds_of(json);
   if (!std::isfinite(row.nanoseconds) || row.nanoseconds < 0) throw std::runtime_error(name + ": its time is no time");
   for (const std::string_view counter : kept_counters) {
@@ -66,7 +72,7 @@ BenchOutput bench_output_from_json(const std::string& program, const std::string
     const Json all = Json::parse(json);
     read_context(all.at("context"), output);
     for (const Json& row : all.at("benchmarks")) {
-      if (row.value("run_type", "iteration") == "iteration") output.rows.push_back(row_from(row));
+      if (row.value("run_type", "iteration") == "iteration") output.rows.push_back(row_from(program, row));
     }
   } catch (const Json::exception& error) {
     throw std::runtime_error("what it wrote is not Google Benchmark's JSON: " + one_line(error.what()));

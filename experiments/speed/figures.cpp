@@ -112,13 +112,14 @@ Figure verdict_figure(const std::vector<const Contender*>& drawn) {
       for (const Contender* c : drawn) {
         const double wrong = error_of(*c, counter).value_or(0);
         if (name_of(*c) != name || wrong == 0) continue;
-        const auto at = std::find(subjects.begin(), subjects.end(), c->subject) - subjects.begin();
+        const auto at = std::find(subjects.begin(), subjects.end(), c->subject);
         series.x.push_back(wrong);
-        series.y.push_back(static_cast<double>(at));
+        series.y.push_back(static_cast<double>(subjects.end() - at));  // the first on top
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
-    for (std::size_t i = 0; i < subjects.size(); ++i) panel.y_tics.push_back({static_cast<double>(i), subjects[i]});
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+      panel.y_tics.push_back({static_cast<double>(i + 1), subjects[subjects.size() - 1 - i]});
     if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -128,8 +129,9 @@ Figure verdict_figure(const std::vector<const Contender*>& drawn) {
 
 std::vector<Figure> speed_figures(const SpeedResult& result) {
   const std::vector<const Contender*> drawn = drawn_contenders(result.contenders);
-  if (drawn.empty()) return {};
-  std::vector<Figure> figures = {race_figure(drawn, false), verdict_figure(drawn), race_figure(drawn, true)};
+  std::vector<Figure> figures;
+  if (!drawn.empty()) figures = {race_figure(drawn, false), verdict_figure(drawn), race_figure(drawn, true)};
+  figures.push_back(batch_figure(result.contenders));
   std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
   return figures;
 }

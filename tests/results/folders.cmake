@@ -11,7 +11,7 @@ endif()
 
 # call(WORDS...): stops with what the program said if it does not exit with 0.
 function(call)
-  execute_process(COMMAND "${PROGRAM}" ${ARGN} OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE status)
+  execute_process(COMMAND "${PROGRAM}" ${ARGN} WORKING_DIRECTORY "${SMALL}" OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
     list(JOIN ARGN " " words)
     message(FATAL_ERROR "thinwall ${words}\nended with ${status}:\n${err}${out}")

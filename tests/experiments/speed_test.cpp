@@ -1,0 +1,235 @@
+/// The experiment speed: what it makes of what benchmark programs say, and of those that fail. It never looks at a time of ours.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/speed/bench_program.hpp>
+#include <thinwall/experiments/speed/report.hpp>
+
+#include "experiments/speed_run.hpp"
+#include "support/described_tables.hpp"
+
+namespace thinwall {
+namespace {
+
+const std::string our_rows = bench_row("time_of_impact/sphere_aabb/front_door", 40, 0, 0, 1e-15) + ", " +
+                             bench_row("time_of_impact/sphere_aabb/plain", 20, 1, 0, 1e-14) + ", " +
+                             bench_row("raycast/aabb/front_door", 30, 0, 0, 1e-15);
+const std::string peer_rows = bench_row("time_of_impact/sphere_aabb/thinwall", 44, 0, 0, 1e-15) + ", " +
+                              bench_row("time_of_impact/sphere_aabb/bullet_gjk_cast", 880, 376, 4, 3e-2);
+
+/// pairs and peers, with Bullet but without ODE.
+void write_both(const std::filesystem::path& folder) {
+  write_bench(folder, "pairs", bench_json(our_rows));
+  write_bench(folder, "peers", bench_json(peer_rows, R"("peer_Bullet": "built in", "peer_ODE": "missing")"));
+}
+
+std::string whole_text(const Outcome& outcome) {
+  std::string text = outcome.answer + "\n" + outcome.summary;
+  for (const Section& section : outcome.sections) text += section.heading + "\n" + section.text + "\n";
+  return text;
+}
+
+TEST(Speed, gathers_rows_of_every_program_and_round) {
+  const TemporaryFolder folder;
+  write_both(folder.path());
+  const auto run = speed_run(folder.path());
+  EXPECT_EQ(run->units().size(), 2 * bench_program_names().size());
+  const Outcome outcome = outcome_of(*run);
+  expect_described_tables(outcome);
+  EXPECT_TRUE(outcome.self_test_passed);
+  const Table& timings = table_of(outcome, "timings");
+  EXPECT_TRUE(timings.is_timing);
+  ASSERT_EQ(timings.rows.size(), 5U);
+  EXPECT_EQ(value_of(timings, 0, "nanoseconds"), Value(40.0));
+  EXPECT_EQ(value_of(timings, 0, "rounds"), Value(std::int64_t{2}));
+  EXPECT_EQ(value_of(timings, 0, "to_floor"), Value(20.0));
+  EXPECT_EQ(value_of(timings, 4, "way"), Value(std::string("bullet_gjk_cast")));
+  const Table& errors = table_of(outcome, "errors");
+  EXPECT_FALSE(errors.is_timing);
+  EXPECT_EQ(value_of(errors, 4, "missed"), Value(std::int64_t{376}));
+  EXPECT_EQ(value_of(errors, 4, "false_hits"), Value(std::int64_t{4}));
+  EXPECT_EQ(value_of(errors, 4, "length_p99"), Value(3e-2));
+}
+
+TEST(Speed, errors_are_no_part_of_what_changes_with_the_machine) {
+  const TemporaryFolder first, second;
+  write_bench(first.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 40, 0, 0, 1e-15)));
+  write_bench(second.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 77, 0, 0, 1e-15)));
+  const Outcome a = outcome_of(*speed_run(first.path())), b = outcome_of(*speed_run(second.path()));
+  for (std::size_t i = 0; i < a.tables.size(); ++i) {
+    if (!a.tables[i].is_timing) {
+      EXPECT_EQ(a.tables[i].rows, b.tables[i].rows) << a.tables[i].name;
+    }
+  }
+  EXPECT_NE(table_of(a, "timings").rows, table_of(b, "timings").rows);
+  for (const Figure& figure : a.figures) EXPECT_TRUE(figure.is_timing) << figure.name;
+}
+
+TEST(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
+  const TemporaryFolder folder;
+  write_both(folder.path());
+  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+  ASSERT_EQ(outcome.figures.size(), 3U);
+  const Panel& race = outcome.figures[0].panels.at(0);
+  EXPECT_TRUE(race.log_x && race.log_y);
+  ASSERT_EQ(race.series.size(), 3U);  // the front door once, though both programs ask it
+  EXPECT_EQ(race.series[0].label, "thinwall, front door");
+  EXPECT_EQ(race.series[0].y, std::vector<double>{40});
+  EXPECT_EQ(race.series[2].label, "Bullet, GJK cast");
+  EXPECT_EQ(race.series[2].x, std::vector<double>{3e-2});
+  EXPECT_NE(outcome.figures[0].caption.find("Bullet, GJK cast misses 376 and invents 4"), std::string::npos);
+  const std::string text = whole_text(outcome);
+  EXPECT_NE(text.find("380 wrong verdicts"), std::string::npos);
+  EXPECT_NE(text.find("take 20.0 to 20 times as long"), std::string::npos) << text;  // 880 ns to the 44 of the same run
+}
+
+TEST(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_rest) {
+  const TemporaryFolder folder;
+  write_both(folder.path());
+  const std::string text = whole_text(outcome_of(*speed_run(folder.path())));
+  EXPECT_NE(text.find("Left out: batch: it is not in the folder of the benchmarks"), std::string::npos);
+  EXPECT_NE(text.find("Left out: peers: built without ODE."), std::string::npos) << text;
+  std::filesystem::remove(folder.path() / "peers");
+  const std::string without = whole_text(outcome_of(*speed_run(folder.path())));
+  EXPECT_NE(without.find("No other library took part."), std::string::npos);
+  EXPECT_NE(without.find("configure with -DTHINWALL_PEERS=ON and build again"), std::string::npos);
+}
+
+TEST(Speed, summary_fits_the_terminal) {
+  const TemporaryFolder folder;
+  write_both(folder.path());
+  std::istringstream text(outcome_of(*speed_run(folder.path())).summary);
+  for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
+  const TemporaryFolder folder;
+  write_bench(folder.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 40, 1, 0, 1e-15)));
+  EXPECT_FALSE(outcome_of(*speed_run(folder.path())).self_test_passed);
+  write_script(folder.path(), "pairs",
+               "cat >\"$out\" <<END\n" +
+                   bench_json(R"({"run_name": "raycast/aabb/plain", "cpu_time": 1, "time_unit": "ns", "missed": $$})") +
+                   "\nEND");
+  const Outcome outcome = outcome_of(*speed_run(folder.path()));  // the number of the process, in every round another
+  EXPECT_FALSE(outcome.self_test_passed);
+  EXPECT_NE(outcome.summary.find("FAILED"), std::string::npos);
+}
+
+TEST(Speed, reads_units_items_and_options) {
+  const BenchOutput output = bench_output_from_json(
+      "world", bench_json(R"({"run_name": "world/rain_10/clamp/iterations:12", "cpu_time": 1.5, "time_unit": "ms"},
+                             {"run_name": "a/b/c", "cpu_time": 9, "time_unit": "ns", "items_per_second": 2e9},
+                             {"run_name": "a/b/c", "run_type": "aggregate", "cpu_time": 7, "time_unit": "ns"},
+                             {"run_name": "alone", "cpu_time": 7, "time_unit": "ns"})"));
+  ASSERT_EQ(output.rows.size(), 3U);
+  EXPECT_EQ(output.rows[0].way, "clamp");
+  EXPECT_EQ(output.rows[0].nanoseconds, 1.5e6);
+  EXPECT_EQ(output.rows[1].nanoseconds, 0.5);
+  EXPECT_EQ(output.rows[2].kind, "alone");
+  EXPECT_EQ(output.rows[2].subject, "");
+  EXPECT_EQ(output.floors.at("division_ns"), 1.5);
+}
+
+TEST(Speed, draws_batches_by_where_they_lie_with_their_floor) {
+  const TemporaryFolder folder;
+  std::string rows;
+  for (const char* way : {"f64/cache/scalar", "f64/cache/AVX2", "f32/memory/AVX2"}) {
+    rows += fmt::format(
+        R"({}{{"run_name": "sphere_sphere/{}/real_time", "cpu_time": 9e9, "time_unit": "ns", "ns_row": 4, "floor_ns": 2, "to_floor": 2}})",
+        rows.empty() ? "" : ", ", way);
+  }
+  write_bench(folder.path(), "batch", bench_json(rows));
+  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+  EXPECT_EQ(value_of(table_of(outcome, "timings"), 1, "nanoseconds"), Value(4.0));
+  ASSERT_EQ(outcome.figures.size(), 1U);
+  const std::vector<Panel>& panels = outcome.figures[0].panels;
+  ASSERT_EQ(panels.size(), 2U);  // in the cache, from memory
+  ASSERT_EQ(panels[0].series.size(), 3U);
+  EXPECT_EQ(panels[0].series[1].label, "batch, AVX2");
+  EXPECT_EQ(panels[0].series[2].label, "floor");
+  EXPECT_EQ(panels[0].series[2].x, std::vector<double>{2});
+  EXPECT_EQ(panels[1].series.size(), 2U);
+}
+
+TEST(Speed, an_output_survives_the_journal) {
+  const BenchOutput output =
+      bench_output_from_json("peers", bench_json(peer_rows, R"("peer_ODE": "missing", "floor_root_ns": "0.1")"));
+  const std::string line = to_line(output);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  EXPECT_EQ(to_line(bench_output_from_line(line)), line);
+  EXPECT_EQ(bench_output_from_line(line).peers_left_out, std::vector<std::string>{"ODE"});
+  EXPECT_THROW(bench_output_from_line("nonsense"), std::runtime_error);
+  EXPECT_THROW(bench_output_from_line(R"({"program": "pairs"})"), std::runtime_error);
+}
+
+std::string failure_of(const std::filesystem::path& folder) {
+  try {
+    run_bench_program(folder, "pairs", {});
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Speed, says_which_program_failed_and_how_in_one_line) {
+  const TemporaryFolder folder;
+  for (
+      const auto& [body, said] :
+      {std::pair{"kill -9 $$", "was killed by a signal"},
+       {"echo first; echo 'no such flag' >&2; exit 3", "ended with status 3: no such flag"},
+       {"exit 4", "ended with status 4: it said nothing"},
+       {"echo '{\"context\": {' >\"$out\"", "not Google Benchmark's JSON"},
+       {"true", "not Google Benchmark's JSON"},
+       {"echo '{\"context\": {}, \"benchmarks\": [{\"run_name\": \"a\"}]}' >\"$out\"", "not Google Benchmark's JSON"},
+       {"echo '{\"context\": {}, \"benchmarks\": [{\"run_name\": \"a/b/c\", \"error_occurred\": true, \"error_message\": "
+        "\"no core\"}]}' >\"$out\"",
+        "a/b/c: no core"}}) {
+    write_script(folder.path(), "pairs", body);
+    const std::string failure = failure_of(folder.path());
+    EXPECT_NE(failure.find(said), std::string::npos) << body << ": " << failure;
+    EXPECT_NE(failure.find((folder.path() / "pairs").string()), std::string::npos) << failure;
+    EXPECT_EQ(failure.find('\n'), std::string::npos) << failure;
+  }
+}
+
+TEST(Speed, a_filter_may_leave_a_program_without_a_row) {
+  const TemporaryFolder folder;
+  write_script(folder.path(), "pairs", "true");
+  EXPECT_TRUE(run_bench_program(folder.path(), "pairs", {.filter = "nothing"}).rows.empty());
+  EXPECT_NE(outcome_of(*speed_run(folder.path(), "filter = \"nothing\"")).answer.find("no race"), std::string::npos);
+}
+
+std::string complaint_of(const std::filesystem::path& folder, const std::string& more) {
+  try {
+    speed_run(folder, more);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Speed, names_the_setting_that_is_wrong) {
+  const TemporaryFolder folder, empty;
+  write_both(folder.path());
+  EXPECT_EQ(complaint_of(folder.path(), ""), "none");
+  for (const auto& [key, more] : {std::pair{"programs", "programs = [\"peer\"]"},
+                                  {"programs", "programs = []"},
+                                  {"seconds", "seconds = 0"},
+                                  {"filter", "filter = \"(\""},
+                                  {"benchmarks", "programs = [\"world\"]"}}) {
+    const std::string said = complaint_of(folder.path(), more);
+    EXPECT_NE(said.find(key), std::string::npos) << more << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+  for (const std::filesystem::path& nowhere : {empty.path(), empty.path() / "missing"}) {
+    const std::string said = complaint_of(nowhere, "");
+    EXPECT_NE(said.find(nowhere.string()), std::string::npos) << said;
+    EXPECT_NE(said.find("cmake --build"), std::string::npos) << said;
+  }
+}
+
+}  // namespace
+}  // namespace thinwall
