@@ -13,6 +13,7 @@
 #include <thinwall/swept/batch.hpp>
 #include <thinwall/swept/batch/table.hpp>
 #include <thinwall/swept/batch/targets.hpp>
+#include <thinwall/swept/certified_batch.hpp>
 
 #include "floors.hpp"
 #include "query_sets.hpp"
@@ -71,6 +72,14 @@ template <class S> double stream_ns(std::size_t columns) {
   return floors().stream_row_ns / 64 * static_cast<double>((columns + 1) * sizeof(S) + sizeof(ToiStatus));
 }
 
+void count_rows(benchmark::State& state, std::size_t count, const BatchReport& report, double hits) {
+  const double rows = static_cast<double>(count);
+  state.counters["ns_row"] =
+      benchmark::Counter(1e-9 * rows, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["asked_again"] = static_cast<double>(report.asked_again) / rows;
+  state.counters["hits"] = hits;
+}
+
 enum class Way { scalar, one_to_many, row_by_row };
 
 template <class A, class B>
@@ -98,12 +107,34 @@ void time_batch(benchmark::State& state, Way way, std::size_t count, const std::
     benchmark::ClobberMemory();
   }
   use_vectors("");
+  count_rows(state, count, report, set.hits);
   const double rows = static_cast<double>(count);
-  state.counters["ns_row"] =
-      benchmark::Counter(rows * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-  state.counters["asked_again"] = static_cast<double>(report.asked_again) / rows;
-  state.counters["hits"] = set.hits;
   add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<S>(columns)), rows);
+}
+
+/// The same of certified spheres.
+void time_certified(benchmark::State& state, bool by_vectors, std::size_t count) {
+  const auto& set = batch_set<Sphere<double>, Sphere<double>>(count);
+  std::vector<ToiStatus> verdict(count);
+  std::vector<double> lower(count), upper(count);
+  BatchReport report;
+  for (auto _ : state) {
+    if (by_vectors) {
+      report = certified_time_of_impact(set.obstacle, set.rows.rows(), {verdict, lower, upper});
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        const CertifiedToi toi = certified_time_of_impact(set.obstacle, set.rows[i]);
+        verdict[i] = toi.verdict;
+        lower[i] = toi.lower;
+        upper[i] = toi.upper;
+      }
+    }
+    benchmark::ClobberMemory();
+  }
+  count_rows(state, count, report, set.hits);
+  const Operations least{2, 2};
+  const double rows = static_cast<double>(count);
+  add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<double>(8)), rows);
 }
 
 /// `columns`: how many arrays a row is read from, of B, and of A and B.
@@ -127,6 +158,18 @@ void add(const std::string& pair, const Operations& least, std::size_t columns_b
   add_one("two_threads", Way::one_to_many, many_rows, "", 2);
 }
 
+void add_certified() {
+  for (const std::size_t count : {few_rows, many_rows}) {
+    for (const bool by_vectors : {false, true}) {
+      const std::string name = std::string("certified_sphere_sphere/f64/") + (count == few_rows ? "cache" : "memory") +
+                               (by_vectors ? "/" + vectors_in_use() : "/scalar");
+      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        time_certified(state, by_vectors, count);
+      })->UseRealTime();
+    }
+  }
+}
+
 template <class S> void add_pairs() {
   add<Sphere<S>, Sphere<S>>("sphere_sphere", {1, 1}, 7, 14);
   add<Aabb<S>, Sphere<S>>("aabb_sphere", {3, 0.2}, 7, 16);
@@ -139,6 +182,7 @@ template <class S> void add_pairs() {
 
 int main(int argc, char** argv) {
   add_pairs<double>();
+  add_certified();
   add_pairs<float>();
   FloorReporter reporter;
   return run_benchmarks(argc, argv, reporter);

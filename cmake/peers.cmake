@@ -42,6 +42,22 @@ function(thinwall_peer name)
   set(thinwall_peers ${thinwall_peers} ${name} PARENT_SCOPE)
 endfunction()
 
+# thinwall_adapters(TARGET PEER): the sources FOLDER/PEER.cpp of this directory adapt it. They alone see it, and all others are
+# compiled as they are without.
+function(thinwall_adapters target peer)
+  file(GLOB adapters "*/${peer}.cpp")
+  if(NOT adapters)
+    return()
+  endif()
+  get_target_property(folders thinwall_peers::${peer} INTERFACE_INCLUDE_DIRECTORIES)
+  list(REMOVE_ITEM folders ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES})  # -isystem would reorder them
+  list(TRANSFORM folders PREPEND "-isystem")
+  get_target_property(definitions thinwall_peers::${peer} INTERFACE_COMPILE_DEFINITIONS)
+  set_source_files_properties(${adapters} PROPERTIES
+    COMPILE_DEFINITIONS "${definitions}" COMPILE_OPTIONS "${folders}")
+  target_link_libraries(${target} PRIVATE $<LINK_ONLY:thinwall_peers::${peer}>)
+endfunction()
+
 set(thinwall_peers "")
 if(THINWALL_PEERS)
   thinwall_peer(bullet CALLED Bullet PACKAGE libbullet-dev FOLDER bullet HEADER btBulletDynamicsCommon.h PC bullet

@@ -28,8 +28,9 @@ namespace batch {
 template <class A, class B, class S, class Ask>
 std::size_t answer_block(const A& a, const B& b, const ToiRows<S>& out, std::size_t begin, std::size_t end,
                          const Ask& ask) {
-  std::size_t unclear = run<typename A::Item, typename B::Item>(a.rows_from(begin), b.rows_from(begin), end - begin,
-                                                                out.time.data() + begin, out.status.data() + begin);
+  const Answers<S> answers{out.status.data() + begin, out.time.data() + begin};
+  const std::size_t unclear =
+      run<typename A::Item, typename B::Item>(a.rows_from(begin), b.rows_from(begin), end - begin, answers);
   const bool wants_vectors = !out.normal.x.empty() || !out.point.x.empty();
   if (unclear == 0 && !wants_vectors) return 0;
   for (std::size_t i = begin; i < end; ++i) {
@@ -43,14 +44,18 @@ std::size_t answer_block(const A& a, const B& b, const ToiRows<S>& out, std::siz
   return unclear;
 }
 
+/// `answer(begin, end)` answers a block and returns how many of its rows it asked again.
+template <class Answer> BatchReport in_blocks(std::size_t rows, const BatchOptions& options, const Answer& answer) {
+  constexpr std::size_t block = 2048;  // rows whose answers are still in the first cache when they are asked again
+  std::atomic<std::size_t> asked_again = 0;
+  for_each_block(rows, block, options, [&](std::size_t begin, std::size_t end) { asked_again += answer(begin, end); });
+  return {rows, asked_again};
+}
+
 template <class A, class B, class S, class Ask>
 BatchReport answer(const A& a, const B& b, const ToiRows<S>& out, const BatchOptions& options, const Ask& ask) {
-  constexpr std::size_t block = 2048;  // rows whose answers are still in the first cache when they are asked again
-  const std::size_t rows = checked_rows(a, b, out);
-  std::atomic<std::size_t> asked_again = 0;
-  for_each_block(rows, block, options,
-                 [&](std::size_t begin, std::size_t end) { asked_again += answer_block(a, b, out, begin, end, ask); });
-  return {rows, asked_again};
+  return in_blocks(checked_rows(a, b, out), options,
+                   [&](std::size_t begin, std::size_t end) { return answer_block(a, b, out, begin, end, ask); });
 }
 
 }  // namespace batch

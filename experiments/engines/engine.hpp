@@ -26,7 +26,8 @@ struct BallState {
   Vec3<double> velocity;  ///< [m/s]
 };
 
-/// One wall, one ball, nothing that an earlier shot left behind. Used by one thread, several at a time.
+/// One wall, one ball, nothing that an earlier shot left behind. Every thread has one of its own: an engine that does not bear
+/// that makes them wait for each other.
 class EngineWorld {
  public:
   virtual ~EngineWorld() = default;

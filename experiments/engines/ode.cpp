@@ -12,8 +12,8 @@ namespace thinwall {
 
 namespace {
 
-/// Debian builds ODE without the locks that colliding on several threads needs: worlds of different threads wait for each other.
-/// The same thread may have several.
+/// ODE's worlds share data, and Debian builds it without the locks that would take (no ODE_EXT_mt_collisions): two threads crash
+/// it. So worlds of different threads wait for each other; the same thread may have several.
 std::recursive_mutex& ode_in_use() {
   static std::recursive_mutex mutex;
   return mutex;

@@ -42,7 +42,9 @@ std::vector<EngineField> engine_verdicts() {
       {{"tunneled", integer, "1", "Balls whose center ended beyond the wall."},
        [](const EngineLine& l) { return l.tally.tunneled; }},
       {{"tunneled_percent", number, "%", "100 tunneled / shots.", "percent_lower", "percent_upper"},
-       [](const EngineLine& l) { return 100 * tunneled_share(l); }},
+       [](const EngineLine& l) {
+         return 100.0 * static_cast<double>(l.tally.tunneled) / static_cast<double>(l.tally.shots);
+       }},
       {{"percent_lower", number, "%", "Lower end of its 95 % Wilson interval."},
        [](const EngineLine& l) { return 100 * tunneled_interval(l).lower; }},
       {{"percent_upper", number, "%", "Upper end of it."},

@@ -34,28 +34,31 @@ template <class D> struct SameRow {
   HWY_INLINE hn::Vec<D> operator()(int k) const { return hn::Set(d, *columns[k]); }
 };
 
-/// Writes times and verdicts; returns how many rows are not clear.
-template <class D>
-HWY_INLINE std::size_t store(D d, const Verdict<D>& verdict, hn::TFromD<D>* time, ToiStatus* status) {
+/// Writes times and verdicts, of a certified kernel both bounds; returns how many rows are not clear.
+template <class D, class V>
+HWY_INLINE std::size_t store(D d, const V& verdict, const Answers<hn::TFromD<D>>& out, std::size_t at) {
   using S = hn::TFromD<D>;
   static_assert(sizeof(ToiStatus) == sizeof(std::int32_t));
   const hn::Rebind<std::int32_t, D> di;
   const auto clear = hn::Or(verdict.hit, hn::Or(verdict.apart, verdict.overlapping));
-  hn::StoreU(hn::IfThenZeroElse(verdict.overlapping, verdict.time), d, time);
+  hn::StoreU(hn::IfThenZeroElse(verdict.overlapping, verdict.time), d, out.time + at);
+  if constexpr (requires { verdict.upper; })
+    hn::StoreU(hn::IfThenZeroElse(verdict.overlapping, verdict.upper), d, out.upper + at);
+  auto* const status = reinterpret_cast<std::int32_t*>(out.status + at);
   auto code = hn::Set(d, static_cast<S>(not_clear));
   code = hn::IfThenElse(verdict.hit, hn::Set(d, static_cast<S>(ToiStatus::hit)), code);
   code = hn::IfThenElse(verdict.apart, hn::Set(d, static_cast<S>(ToiStatus::apart)), code);
   code = hn::IfThenElse(verdict.overlapping, hn::Set(d, static_cast<S>(ToiStatus::overlapping)), code);
   if constexpr (sizeof(S) == 8) {
-    hn::StoreU(hn::DemoteTo(di, code), di, reinterpret_cast<std::int32_t*>(status));
+    hn::StoreU(hn::DemoteTo(di, code), di, status);
   } else {
-    hn::StoreU(hn::ConvertTo(di, code), di, reinterpret_cast<std::int32_t*>(status));
+    hn::StoreU(hn::ConvertTo(di, code), di, status);
   }
   return hn::Lanes(d) - hn::CountTrue(d, clear);
 }
 
 template <class Kernel, template <class> class A, template <class> class B, class S>
-HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t n, S* time, ToiStatus* status) {
+HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t n, const Answers<S>& out) {
   const hn::ScalableTag<S> d;
   using D = hn::ScalableTag<S>;
   const std::size_t lanes = hn::Lanes(d);
@@ -64,11 +67,10 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t 
   std::copy_n(a.columns, Kernel::columns_a, of_a);
   std::copy_n(b.columns, Kernel::columns_b, of_b);
   std::size_t unclear = 0, i = 0;
-  for (; i + lanes <= n; i += lanes)
-    unclear += store(d, kernel(d, A<D>{d, of_a, i}, B<D>{d, of_b, i}), time + i, status + i);
+  for (; i + lanes <= n; i += lanes) unclear += store(d, kernel(d, A<D>{d, of_a, i}, B<D>{d, of_b, i}), out, i);
   if (i == n) return unclear;
   constexpr std::size_t most = HWY_MAX_BYTES / sizeof(S);
-  S room_a[most_columns][most], room_b[most_columns][most], times[most];
+  S room_a[most_columns][most], room_b[most_columns][most], times[most], uppers[most] = {};
   const S *end_a[most_columns], *end_b[most_columns];
   ToiStatus statuses[most];
   const auto copy = [&](const Rows<S>& rows, S(*room)[most], const S** end) {
@@ -80,20 +82,21 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t 
   };
   copy(a, room_a, end_a);
   copy(b, room_b, end_b);
-  store(d, kernel(d, A<D>{d, end_a, 0}, B<D>{d, end_b, 0}), times, statuses);
+  store(d, kernel(d, A<D>{d, end_a, 0}, B<D>{d, end_b, 0}), Answers<S>{statuses, times, uppers}, 0);
   for (std::size_t lane = 0; i < n; ++i, ++lane) {
-    time[i] = times[lane];
-    status[i] = statuses[lane];
-    unclear += status[i] == not_clear ? 1 : 0;
+    out.time[i] = times[lane];
+    if (out.upper != nullptr) out.upper[i] = uppers[lane];
+    out.status[i] = statuses[lane];
+    unclear += out.status[i] == not_clear ? 1 : 0;
   }
   return unclear;
 }
 
 template <class Kernel, class S>
-HWY_ATTR std::size_t run_target(const Rows<S>& a, const Rows<S>& b, std::size_t n, S* time, ToiStatus* status) {
-  if (a.is_one) return run_rows<Kernel, SameRow, EachRow>(a, b, n, time, status);
-  if (b.is_one) return run_rows<Kernel, EachRow, SameRow>(a, b, n, time, status);
-  return run_rows<Kernel, EachRow, EachRow>(a, b, n, time, status);
+HWY_ATTR std::size_t run_target(const Rows<S>& a, const Rows<S>& b, std::size_t n, const Answers<S>& out) {
+  if (a.is_one) return run_rows<Kernel, SameRow, EachRow>(a, b, n, out);
+  if (b.is_one) return run_rows<Kernel, EachRow, SameRow>(a, b, n, out);
+  return run_rows<Kernel, EachRow, EachRow>(a, b, n, out);
 }
 
 }  // namespace thinwall::batch::HWY_NAMESPACE

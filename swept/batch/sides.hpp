@@ -93,21 +93,24 @@ template <BatchSide T> using ItemOf = typename Side<T>::Item;
 template <BatchSide T> using ScalarOf = typename Side<T>::Scalar;
 template <BatchSide T> inline constexpr int rank_of = decltype(ItemOf<T>::shape)::rank;
 
-/// How many rows there are, once every span was found right.
-template <class A, class B, class S> std::size_t checked_rows(const A& a, const B& b, const ToiRows<S>& out) {
-  static_assert(std::same_as<typename A::Scalar, S> && std::same_as<typename B::Scalar, S>,
-                "both sides and the answers must have the same scalar");
+/// How many rows there are, once every span, those read and those of the answers, was found right.
+template <class A, class B> std::size_t checked_rows(const A& a, const B& b, std::span<const Column> answers) {
+  static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both sides must have the same scalar");
   std::array<Column, 2 * most_columns> read{};  // no vectors: a batch may be short
-  std::array<Column, 8> answers{column_of(out.status, "the statuses"), column_of(out.time, "the times")};
-  std::size_t reads = 0, writes = 2;
+  std::size_t reads = 0;
   const auto add_read = [&](auto column) { read[reads++] = column_of(column, "what is read"); };
   a.for_each_column(add_read);
   b.for_each_column(add_read);
+  return common_rows(std::span(read).first(reads), answers);
+}
+template <class A, class B, class S> std::size_t checked_rows(const A& a, const B& b, const ToiRows<S>& out) {
+  std::array<Column, 8> answers{column_of(out.status, "the statuses"), column_of(out.time, "the times")};
+  std::size_t writes = 2;
   for (const auto& [rows, what] : {std::pair(out.normal, "the normals"), std::pair(out.point, "the points")}) {
     if (rows.x.empty() && rows.y.empty() && rows.z.empty()) continue;
     for (const auto& column : {rows.x, rows.y, rows.z}) answers[writes++] = column_of(column, what);
   }
-  return common_rows(std::span(read).first(reads), std::span(answers).first(writes));
+  return checked_rows(a, b, std::span<const Column>(answers).first(writes));
 }
 
 /// raycast() as a Toi whose time is t.

@@ -10,9 +10,9 @@ namespace thinwall {
 /// last is scalar code and always there.
 std::vector<std::string> vector_targets();
 
-/// Makes batches use that target from now on, in every thread; "" is the widest again. Throws std::invalid_argument
+/// Makes batches use the target of that name from now on, in every thread; "" is the widest again. Throws std::invalid_argument
 /// for one that vector_targets() does not name. For tests and benchmarks: call it while no batch runs.
-void use_vectors(const std::string& target);
+void use_vectors(const std::string& name);
 
 /// The one in use.
 std::string vectors_in_use();

@@ -10,6 +10,11 @@ execute_process(COMMAND ${configure} -B "${WORK}/build" COMMAND_ERROR_IS_FATAL A
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${WORK}/build/consumer" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${WORK}/build/prover" COMMAND_ERROR_IS_FATAL ANY)
+if(BATCH)  # a library, not headers: built as the consumer is
+  execute_process(COMMAND ${configure} -B "${WORK}/build" "-DCOMPONENTS=swept;certified;batch" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${WORK}/build/batcher" COMMAND_ERROR_IS_FATAL ANY)
+endif()
 
 # A component that does not exist, and a version that is not there, are refused by name.
 function(expect_refusal option message)

@@ -2,7 +2,6 @@
 /// Rows for batches, plain and the worst, with the scalar code's answers.
 
 #include <array>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -11,16 +10,16 @@
 #include <thinwall/swept/batch/targets.hpp>
 
 #include "support/moving_shaker.hpp"
+#include "support/thorough.hpp"
 
 namespace thinwall::testing {
 
-/// As many rows as asked for, times THINWALL_ROWS; a fiftieth where sanitized or not optimized.
+/// As many rows as asked for; a fiftieth where sanitized or not optimized.
 inline std::size_t batch_rows_to_judge(std::size_t rows) {
 #if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(THINWALL_TWO_SCALARS)
   rows = rows / 50 + 1;
 #endif
-  const char* times = std::getenv("THINWALL_ROWS");
-  return times != nullptr ? rows * std::stoul(times) : rows;
+  return thorough(rows);
 }
 
 template <class S> Vec3<S> spoiled(Vec3<S> v, Shaker<S>& draw) {

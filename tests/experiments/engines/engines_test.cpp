@@ -9,9 +9,11 @@
 #include <thinwall/experiments/engines/engine_list.hpp>
 #include <thinwall/experiments/engines/fly.hpp>
 #include <thinwall/experiments/engines/report.hpp>
+#include <thinwall/experiments/program/program.hpp>
 
 #include "experiments/engines/engines_run.hpp"
 #include "support/described_tables.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace thinwall {
 namespace {
@@ -161,6 +163,18 @@ TEST(Engines, says_what_is_missing_and_does_the_rest) {
   ASSERT_EQ(missing_engines(plan).size(), 1U);
   EXPECT_EQ(missing_engines(plan)[0],
             "Bullet is left out: install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
+}
+
+TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {
+  const TemporaryFolder folder;
+  write_text(folder / "few.toml", "experiment = 'engines'" + std::string(few_engine_shots));
+  std::ostringstream reply, notes;
+  const int status = run_program({"thinwall", "run", folder / "few.toml", "--trials", "2", "--out", folder / "out"},
+                                 std::vector{engines_experiment()}, reply, notes);
+  EXPECT_NE(status, 2) << notes.str();
+  std::string expected;
+  for (const std::string& note : engines_run(few_engine_shots)->notes()) expected += note + "\n";
+  EXPECT_TRUE(notes.str().starts_with(expected + "engines: ")) << notes.str();
 }
 
 TEST(Engines, hands_over_tables_that_are_described_and_a_summary_that_fits) {

@@ -1,5 +1,5 @@
 // Ten million rows, plain and the worst: every vector width gives the scalar code's verdicts, and its times to the bound.
-// THINWALL_ROWS=100 tests_swept --gtest_filter='BatchVerdicts*' judges a hundred times as many.
+// THINWALL_THOROUGH=100 tests_swept --gtest_filter='BatchVerdicts*' judges a hundred times as many.
 
 #include <cstdio>
 

@@ -1,4 +1,5 @@
 // Every pair, on plain motions and on the worst: verdict, bracket, order, and which stage decided, tallied.
+// THINWALL_THOROUGH=2275 tests_swept --gtest_filter='CertifiedPairs.worst*' judges ten million.
 
 #include <cstdio>
 
@@ -6,6 +7,7 @@
 
 #include "support/certified_oracle.hpp"
 #include "support/certified_queries.hpp"
+#include "support/thorough.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -15,14 +17,14 @@ void print(const char* name, const Tally& tally) {
               tally.decided(DecidedBy::certificate), tally.decided(DecidedBy::exact));
 }
 
-/// Asks `judge` about `count` motions of every pair; the answers must be the same bits the other way round.
+/// Asks `judge` about `cases` motions, or more where thoroughness is asked for, of every pair; the answers must be the same bits the other way round.
 template <class DrawMotion, class Judge>
-void judge_every_pair(int count, const DrawMotion& draw_motion, const Judge& judge) {
+void judge_every_pair(std::size_t cases, const DrawMotion& draw_motion, const Judge& judge) {
   for_each_certified_pair([&]<class A, class B>(const char* name, PairOf<A, B> pair) {
     SCOPED_TRACE(name);
     Shaker<double> draw(1);
     Tally tally;
-    for (int i = 0; i < count && !::testing::Test::HasFailure(); ++i) {
+    for (std::size_t i = 0; i < thorough(cases) && !::testing::Test::HasFailure(); ++i) {
       SCOPED_TRACE(i);
       const Motion<A, B> motion = draw_motion(draw, pair);
       const CertifiedToi toi = certified_time_of_impact(motion.a, motion.b);

@@ -3,7 +3,7 @@
 #include <thinwall/swept/batch/run.hpp>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE <thinwall/swept/batch/aabb_sphere.cpp>
+#define HWY_TARGET_INCLUDE <thinwall/swept/batch/pairs/aabb_sphere.cpp>
 #include <hwy/foreach_target.h>
 
 #include <thinwall/swept/batch/driver.inl>

@@ -3,7 +3,7 @@
 #include <thinwall/swept/batch/run.hpp>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE <thinwall/swept/batch/aabb_ray.cpp>
+#define HWY_TARGET_INCLUDE <thinwall/swept/batch/pairs/aabb_ray.cpp>
 #include <hwy/foreach_target.h>
 
 #include <thinwall/swept/batch/box_lanes.inl>
