@@ -103,8 +103,9 @@ std::string speed_answer(const SpeedResult& result) {
   }
   if (!ours.any()) {
     return fmt::format(
-        "{} rows were timed; none asks our front door for a time of impact, so that there is no race to tell of.",
-        result.contenders.size());
+               "{} rows were timed; none asks our front door for a time of impact, so that there is no race to tell of.",
+               result.contenders.size()) +
+           batch_text(result.contenders);
   }
   std::string text = fmt::format(
       "A time of impact through the front door takes {:.0f} to {:.0f} ns, by pair, at a 99th percentile error of at most {:.0e} m",
@@ -118,7 +119,7 @@ std::string speed_answer(const SpeedResult& result) {
   } else {
     text += " No other library took part.";
   }
-  return text;
+  return text + batch_text(result.contenders);
 }
 
 std::string speed_summary(const SpeedResult& result) {
