@@ -1,7 +1,7 @@
 /// Bullet, in float as Debian builds it by default: three of its casts, its rays, and its contacts as contactPairTest finds them.
 /// Without it this is empty.
 
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #ifndef THINWALL_HAS_BULLET
 

@@ -1,7 +1,7 @@
 /// FCL: its continuous collision, by conservative advancement and as it is by default (poses along the way, the first of which is
 /// in contact), and its contacts and overlap tests. Without it this is empty.
 
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #ifndef THINWALL_HAS_FCL
 

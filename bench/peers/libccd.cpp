@@ -1,6 +1,6 @@
 /// libccd: GJK with EPA, and MPR, on support functions of our own. It has no cast. Without it this is empty.
 
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #ifndef THINWALL_HAS_CCD
 

@@ -1,6 +1,6 @@
 /// ODE: its rays and its contacts (it has no cast). Without it this is empty.
 
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #ifndef THINWALL_HAS_ODE
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "../errors.hpp"
+#include "errors.hpp"
 
 namespace thinwall::bench {
 

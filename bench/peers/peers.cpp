@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <thinwall/discrete/manifold.hpp>
 
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 namespace thinwall::bench {
 
