@@ -15,9 +15,9 @@ namespace thinwall::batch::HWY_NAMESPACE {
 /// Of a chord whose line is walked from time 0.
 template <class D> HWY_INLINE Verdict<D> verdict_of(D d, const ChordLanes<D>& chord) {
   const auto zero = hn::Zero(d);
-  const auto toward = hn::Gt(chord.approach, zero);
+  const auto toward = hn::Lt(chord.recess, zero);
   const auto hit = hn::And(hn::And(chord.chord, chord.before_end), toward);
-  const auto miss = hn::Or(chord.none, hn::Or(hn::And(chord.chord, chord.after_end), hn::Le(chord.approach, zero)));
+  const auto miss = hn::Or(chord.none, hn::Or(hn::And(chord.chord, chord.after_end), hn::Ge(chord.recess, zero)));
   const auto outside = hn::And(chord.ordinary, chord.outside);
   const auto time = hn::IfThenElse(hit, chord.time, hn::Set(d, hn::TFromD<D>(1)));
   return {hn::And(outside, hit), hn::And(outside, miss), hn::And(chord.ordinary, chord.inside), time};

@@ -20,7 +20,7 @@ namespace thinwall::batch::HWY_NAMESPACE {
 template <class D> struct EachRow {
   using S = hn::TFromD<D>;
   D d;
-  const S* const* columns;  ///< of the caller's own, lest every store make the compiler read them again
+  const S* const* columns;
   std::size_t at = 0;
   HWY_INLINE hn::Vec<D> operator()(int k) const { return hn::LoadU(d, columns[k] + at); }
 };
@@ -29,9 +29,24 @@ template <class D> struct EachRow {
 template <class D> struct SameRow {
   using S = hn::TFromD<D>;
   D d;
-  const S* const* columns;
-  std::size_t at = 0;
-  HWY_INLINE hn::Vec<D> operator()(int k) const { return hn::Set(d, *columns[k]); }
+  const S* numbers;
+  HWY_INLINE hn::Vec<D> operator()(int k) const { return hn::Set(d, numbers[k]); }
+};
+
+/// One side of a kernel. It holds what it reads by: read through `rows`, every store would make the compiler fetch that again.
+template <class D, std::size_t columns> struct EachRowOf {
+  using S = hn::TFromD<D>;
+  const S* of[most_columns];
+  explicit EachRowOf(const Rows<S>& rows) { std::copy_n(rows.columns, columns, of); }
+  HWY_INLINE EachRow<D> at(D d, std::size_t i) const { return {d, of, i}; }
+};
+template <class D, std::size_t columns> struct SameRowOf {
+  using S = hn::TFromD<D>;
+  S numbers[most_columns];
+  explicit SameRowOf(const Rows<S>& rows) {
+    for (std::size_t k = 0; k < columns; ++k) numbers[k] = *rows.columns[k];
+  }
+  HWY_INLINE SameRow<D> at(D d, std::size_t) const { return {d, numbers}; }
 };
 
 /// Writes times and verdicts, of a certified kernel both bounds; returns how many rows are not clear.
@@ -57,32 +72,35 @@ HWY_INLINE std::size_t store(D d, const V& verdict, const Answers<hn::TFromD<D>>
   return hn::Lanes(d) - hn::CountTrue(d, clear);
 }
 
-template <class Kernel, template <class> class A, template <class> class B, class S>
-HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t n, const Answers<S>& out) {
-  const hn::ScalableTag<S> d;
+template <class Kernel, template <class, std::size_t> class A, template <class, std::size_t> class B, class S>
+HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t n, const Answers<S>& answers) {
   using D = hn::ScalableTag<S>;
+  using SideA = A<D, Kernel::columns_a>;
+  using SideB = B<D, Kernel::columns_b>;
+  const D d;
   const std::size_t lanes = hn::Lanes(d);
   const Kernel kernel;
-  const S *of_a[most_columns], *of_b[most_columns];
-  std::copy_n(a.columns, Kernel::columns_a, of_a);
-  std::copy_n(b.columns, Kernel::columns_b, of_b);
+  const Answers<S> out = answers;
+  const SideA side_a(a);
+  const SideB side_b(b);
   std::size_t unclear = 0, i = 0;
-  for (; i + lanes <= n; i += lanes) unclear += store(d, kernel(d, A<D>{d, of_a, i}, B<D>{d, of_b, i}), out, i);
+  for (; i + lanes <= n; i += lanes) unclear += store(d, kernel(d, side_a.at(d, i), side_b.at(d, i)), out, i);
   if (i == n) return unclear;
+
   constexpr std::size_t most = HWY_MAX_BYTES / sizeof(S);
   S room_a[most_columns][most], room_b[most_columns][most], times[most], uppers[most] = {};
-  const S *end_a[most_columns], *end_b[most_columns];
   ToiStatus statuses[most];
-  const auto copy = [&](const Rows<S>& rows, S(*room)[most], const S** end) {
-    for (std::size_t k = 0; k < rows.count; ++k) {
-      end[k] = room[k];
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        room[k][lane] = rows.columns[k][rows.is_one ? 0 : std::min(i + lane, n - 1)];
+  const auto copied = [&](const Rows<S>& rows, S(*room)[most]) {
+    Rows<S> end = rows;
+    for (std::size_t k = 0; k < rows.count && !rows.is_one; ++k) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) room[k][lane] = rows.columns[k][std::min(i + lane, n - 1)];
+      end.columns[k] = room[k];
     }
+    return end;
   };
-  copy(a, room_a, end_a);
-  copy(b, room_b, end_b);
-  store(d, kernel(d, A<D>{d, end_a, 0}, B<D>{d, end_b, 0}), Answers<S>{statuses, times, uppers}, 0);
+  const SideA end_a(copied(a, room_a));
+  const SideB end_b(copied(b, room_b));
+  store(d, kernel(d, end_a.at(d, 0), end_b.at(d, 0)), Answers<S>{statuses, times, uppers}, 0);
   for (std::size_t lane = 0; i < n; ++i, ++lane) {
     out.time[i] = times[lane];
     if (out.upper != nullptr) out.upper[i] = uppers[lane];
@@ -94,9 +112,9 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t 
 
 template <class Kernel, class S>
 HWY_ATTR std::size_t run_target(const Rows<S>& a, const Rows<S>& b, std::size_t n, const Answers<S>& out) {
-  if (a.is_one) return run_rows<Kernel, SameRow, EachRow>(a, b, n, out);
-  if (b.is_one) return run_rows<Kernel, EachRow, SameRow>(a, b, n, out);
-  return run_rows<Kernel, EachRow, EachRow>(a, b, n, out);
+  if (a.is_one) return run_rows<Kernel, SameRowOf, EachRowOf>(a, b, n, out);
+  if (b.is_one) return run_rows<Kernel, EachRowOf, SameRowOf>(a, b, n, out);
+  return run_rows<Kernel, EachRowOf, EachRowOf>(a, b, n, out);
 }
 
 }  // namespace thinwall::batch::HWY_NAMESPACE

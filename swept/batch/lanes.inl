@@ -75,11 +75,11 @@ template <class S> struct Bounds {
 template <class D> struct ChordLanes {
   using V = hn::Vec<D>;
   using M = hn::Mask<D>;
-  V speed_square, approach, half, time;
-  M outside, inside;        ///< at the start, clearly
-  M chord, none;            ///< the line meets the ball, or does not, clearly
-  M before_end, after_end;  ///< the entry is before time 1, or after it, clearly, where there is a chord
-  M ordinary;               ///< no square or product of squares overflows or vanishes
+  V speed_square, recess, half, time;  ///< recess: p.v, negative while the closest approach is ahead
+  M outside, inside;                   ///< at the start, clearly
+  M chord, none;                       ///< the line meets the ball, or does not, clearly
+  M before_end, after_end;             ///< the entry is before time 1, or after it, clearly, where there is a chord
+  M ordinary;                          ///< no square or product of squares overflows or vanishes
 };
 
 /// Where `blurred`, every coordinate of p may be off by `blur` [length] beyond its own rounding.
@@ -96,12 +96,12 @@ HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const 
   auto touch = hn::Mul(hn::Set(d, B::touch), size);
   ChordLanes<D> out;
   out.speed_square = vv;
-  out.approach = hn::Neg(dot(p, v));
-  out.half = hn::Sqrt(hn::Max(discriminant, hn::Zero(d)));
-  const auto denominator = hn::Add(out.approach, out.half);
+  out.recess = dot(p, v);
+  out.half = hn::Sqrt(discriminant);  // NaN where there is no chord
+  const auto denominator = hn::Sub(out.half, out.recess);
   out.time = hn::Div(excess, denominator);
   const auto late = hn::Sub(excess, denominator);
-  auto end = hn::Mul(hn::Set(d, B::end), hn::Add(size, hn::Abs(denominator)));
+  auto end = hn::Mul(hn::Set(d, B::end), hn::Add(size, denominator));
   if constexpr (blurred) {
     using S = hn::TFromD<D>;
     const auto times = [&](S factor, hn::Vec<D> x) HWY_ATTR { return hn::Mul(hn::Mul(hn::Set(d, factor), x), blur); };
@@ -118,8 +118,7 @@ HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const 
   out.before_end = hn::Lt(late, hn::Neg(end));
   out.after_end = hn::Gt(late, end);
   const auto most = hn::Set(d, B::most);
-  const auto sizes = hn::And(hn::And(hn::Le(pp, most), hn::Ge(pp, hn::Set(d, B::least_place))),
-                             hn::And(hn::Le(RR, most), hn::Ge(R, hn::Zero(d))));
+  const auto sizes = hn::And(hn::Le(size, most), hn::Ge(size, hn::Set(d, B::least_place)));
   const auto speeds =
       hn::And(hn::Le(vv, most), hn::Or(hn::Ge(vv, hn::Set(d, B::least_speed)), hn::Eq(vv, hn::Zero(d))));
   out.ordinary = hn::And(sizes, speeds);

@@ -56,13 +56,13 @@ HWY_INLINE RegionLanes<D> region_lanes(D d, const BoxLanes<D>& box, const Vec3La
   out.next = hn::Min(x.next, hn::Min(y.next, z.next));
   out.time = hn::Max(chord.time, start);
   const auto solvable = hn::And(chord.ordinary, chord.outside);
-  const auto leave = hn::Add(chord.approach, chord.half);
+  const auto leave = hn::Sub(chord.half, chord.recess);
   const auto in_region = hn::And(hn::Le(chord.time, out.next), hn::Ge(leave, hn::Mul(start, chord.speed_square)));
-  const auto crosses = hn::And(chord.chord, hn::And(in_region, hn::Gt(chord.approach, zero)));
+  const auto crosses = hn::And(chord.chord, hn::And(in_region, hn::Lt(chord.recess, zero)));
   // Past its closest approach before the region ends; the distance is convex, so it never comes nearer.
-  const auto passed = hn::Ge(hn::Mul(chord.speed_square, out.next), chord.approach);
+  const auto passed = hn::Ge(hn::MulAdd(chord.speed_square, out.next, chord.recess), zero);
   const auto over = hn::Or(passed, hn::Ge(out.next, one));
-  const auto late = hn::Or(hn::And(crosses, chord.after_end), hn::Le(chord.approach, zero));
+  const auto late = hn::Or(hn::And(crosses, chord.after_end), hn::Ge(chord.recess, zero));
   const auto later = hn::Or(chord.none, hn::And(chord.chord, hn::Gt(chord.time, out.next)));
   out.hit = hn::And(solvable, hn::And(crosses, chord.before_end));
   out.apart = hn::And(solvable, hn::Or(hn::And(chord.none, over), late));
