@@ -114,11 +114,12 @@ TEST(TouchToRounding, parallel_rods_are_parted_across_them) {  // not from one's
   EXPECT_NEAR(gap.normal[2], 0, 1e-14);
 }
 
-TEST(TouchToRounding, boxes_that_pass_corner_by_corner_do_not_hit) {  // by 6 u; the turned one's arithmetic said they do
-  const Moving turned{Obb<double>{V(-0x1.3333333333334p-2, 8, -0x1.999999999999ap-1),
-                                  V(0x1.3333333333334p-2, 0x1.999999999999ap-2, 0x1.3333333333334p-2),
-                                  Mat3<double>::Identity()},
-                      V(-0x1.bfffp+2, -0x1.ccccccccccccep-1, -0x1.b4fc44p-1)};
+TEST(TouchToRounding,
+     boxes_that_pass_corner_by_corner_do_not_hit) {  // by 6 u; the turned one's arithmetic said they do
+  const Moving turned{
+      Obb<double>{V(-0x1.3333333333334p-2, 8, -0x1.999999999999ap-1),
+                  V(0x1.3333333333334p-2, 0x1.999999999999ap-2, 0x1.3333333333334p-2), Mat3<double>::Identity()},
+      V(-0x1.bfffp+2, -0x1.ccccccccccccep-1, -0x1.b4fc44p-1)};
   const Moving box{Aabb<double>{V(-0x1.2324552d524ddp-2, -0x1.5a49d3006dae8p-2, 0x1.999999999999ap-1),
                                 V(0x1.3333333333334p-2, 0x1.fp+2, 0x1.804p+2)},
                    V(-0x1.199999999999ap+0, 1, -0x1.b4fc43fffffffp-1)};
