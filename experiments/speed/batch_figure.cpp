@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <thinwall/experiments/speed/report.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
 
 namespace thinwall {
 
@@ -37,6 +41,7 @@ std::string way_label(const std::string& how) {
   if (how == "SCALAR") return "batch, without vectors";
   if (how == "row_by_row") return "batch, pair by pair";
   if (how == "two_threads") return "batch, two threads";
+  if (how.starts_with("AVX3")) return "batch, AVX-512";
   return "batch, " + how;
 }
 
@@ -51,6 +56,30 @@ void add_row(Series& series, const BatchRow& row, double at) {
 }
 
 }  // namespace
+
+std::string batch_text(const std::vector<Contender>& all) {
+  const std::vector<BatchRow> rows = batch_rows(all);
+  double least = std::numeric_limits<double>::infinity(), most = 0, least_gain = least, most_gain = 0;
+  for (const BatchRow& scalar : rows) {
+    if (scalar.how != "scalar") continue;
+    double best = std::numeric_limits<double>::infinity();
+    for (const BatchRow& row : rows) {
+      if (row.what != scalar.what || row.where != scalar.where || row.how == "scalar" || row.how == "two_threads")
+        continue;
+      best = std::min(best, median(row.contender->nanoseconds));
+    }
+    const double gain = median(scalar.contender->nanoseconds) / best;
+    if (gain == 0) continue;  // nothing but the scalar code
+    least = std::min(least, best);
+    most = std::max(most, best);
+    least_gain = std::min(least_gain, gain);
+    most_gain = std::max(most_gain, gain);
+  }
+  if (most == 0) return "";
+  return fmt::format(
+      " A batch on one thread takes {} to {} ns a row at its quickest, {} to {} times as fast as the same rows one after another.",
+      rounded_text(least, 2), rounded_text(most, 2), rounded_text(least_gain, 2), rounded_text(most_gain, 2));
+}
 
 Figure batch_figure(const std::vector<Contender>& all) {
   const std::vector<BatchRow> rows = batch_rows(all);
@@ -68,6 +97,7 @@ Figure batch_figure(const std::vector<Contender>& all) {
     panel.y_label = where == "cache" ? "in the first cache" : where == "memory" ? "streamed from memory" : where;
     panel.log_x = true;
     Series floor{.label = "floor", .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
+    floor.color = "#000000";
     for (const std::string& how : distinct(rows, &BatchRow::how)) {
       Series series{.label = way_label(how), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
       for (const BatchRow& row : rows) {

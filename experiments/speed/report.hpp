@@ -28,6 +28,8 @@ Table speed_programs_table(const SpeedResult& result);
 std::vector<Figure> speed_figures(const SpeedResult& result);
 /// What a row of a batch takes, by pair, scalar and width of vector; without panels where no batch was timed.
 Figure batch_figure(const std::vector<Contender>& all);
+/// A sentence on batches, after a space; empty where none was timed.
+std::string batch_text(const std::vector<Contender>& all);
 
 std::string speed_answer(const SpeedResult& result);
 std::string speed_summary(const SpeedResult& result);

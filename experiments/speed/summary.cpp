@@ -103,8 +103,9 @@ std::string speed_answer(const SpeedResult& result) {
   }
   if (!ours.any()) {
     return fmt::format(
-        "{} rows were timed; none asks our front door for a time of impact, so that there is no race to tell of.",
-        result.contenders.size());
+               "{} rows were timed; none asks our front door for a time of impact, so that there is no race to tell of.",
+               result.contenders.size()) +
+           batch_text(result.contenders);
   }
   std::string text = fmt::format(
       "A time of impact through the front door takes {:.0f} to {:.0f} ns, by pair, at a 99th percentile error of at most {:.0e} m",
@@ -118,13 +119,16 @@ std::string speed_answer(const SpeedResult& result) {
   } else {
     text += " No other library took part.";
   }
-  return text;
+  return text + batch_text(result.contenders);
 }
 
 std::string speed_summary(const SpeedResult& result) {
   constexpr const char* format = "{:<17}{:<32}{:>9}{:>9}{:>9}{:>8}{:>9}\n";
-  std::string text = fmt::format(format, "time of impact", "who", "ns", "x floor", "missed", "false", "p99 [m]");
-  for (const Contender* c : drawn_contenders(result.contenders)) {
+  const std::vector<const Contender*> drawn = drawn_contenders(result.contenders);
+  std::string text;
+  if (!drawn.empty())
+    text = fmt::format(format, "time of impact", "who", "ns", "x floor", "missed", "false", "p99 [m]");
+  for (const Contender* c : drawn) {
     text += fmt::format(format, c->subject, name_of(*c), fmt::format("{:.1f}", median(c->nanoseconds)),
                         c->to_floor.empty() ? "-" : fmt::format("{:.1f}", median(c->to_floor)),
                         fmt::format("{:.0f}", error_of(*c, "missed").value_or(0)),
@@ -132,7 +136,8 @@ std::string speed_summary(const SpeedResult& result) {
                         fmt::format("{:.0e}", error_of(*c, "p99_length").value_or(0)));
   }
   const std::string left_out = left_out_text(result);
-  return text + "\n" + (left_out.empty() ? "" : wrapped(left_out) + "\n") + wrapped(self_test_words(result)) + "\n";
+  return text + (drawn.empty() ? "" : "\n") + (left_out.empty() ? "" : wrapped(left_out) + "\n") +
+         wrapped(self_test_words(result)) + "\n";
 }
 
 std::vector<Section> speed_sections(const SpeedResult& result) {

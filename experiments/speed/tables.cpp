@@ -158,6 +158,8 @@ Table speed_programs_table(const SpeedResult& result) {
       std::string left_out = output.missing;
       for (const std::string& peer : output.peers_left_out)
         left_out += (left_out.empty() ? "built without " : ", ") + peer;
+      if (!output.peers_left_out.empty())
+        left_out += ": install their development packages, configure with -DTHINWALL_PEERS=ON and build again";
       table.rows.push_back({output.program, static_cast<std::int64_t>(output.rows.size()),
                             left_out.empty() ? Value() : Value(left_out)});
       break;  // every round has the same
