@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -145,10 +145,10 @@ void add(const std::string& pair, const Operations& least, std::size_t columns_b
                            int threads) {
     const std::size_t columns = way == Way::row_by_row ? columns_both : columns_b;
     const std::string where = count == few_rows ? "cache" : "memory";
-    benchmark::RegisterBenchmark(
+    auto* const row = benchmark::RegisterBenchmark(
         (pair + "/" + scalar + "/" + where + "/" + name).c_str(),
-        [=](benchmark::State& state) { time_batch<A, B>(state, way, count, target, least, columns, threads); })
-        ->UseRealTime();
+        [=](benchmark::State& state) { time_batch<A, B>(state, way, count, target, least, columns, threads); });
+    if (threads > 1) row->UseRealTime();
   };
   for (const std::size_t count : {few_rows, many_rows}) {
     add_one("scalar", Way::scalar, count, "", 1);
@@ -158,14 +158,46 @@ void add(const std::string& pair, const Operations& least, std::size_t columns_b
   add_one("two_threads", Way::one_to_many, many_rows, "", 2);
 }
 
-void add_certified() {
+/// Rays along the ways of the spheres, at the box.
+template <class S> void time_rays(benchmark::State& state, bool by_vectors, std::size_t count) {
+  const auto& set = batch_set<Aabb<S>, Sphere<S>>(count);
+  RowTable<Ray<S>> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto ball = set.rows[i];
+    rays.push_back({ball.shape.center, ball.displacement, S(1)});
+  }
+  std::vector<ToiStatus> status(count);
+  std::vector<S> time(count);
+  BatchReport report;
+  for (auto _ : state) {
+    if (by_vectors) {
+      report = raycast(rays.rows(), set.obstacle.shape, ToiRows<S>{status, time});
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto hit = raycast(rays[i], set.obstacle.shape);
+        time[i] = hit ? hit->t : S(1);
+      }
+    }
+    benchmark::ClobberMemory();
+  }
+  const double rows = static_cast<double>(count);
+  count_rows(state, count, report,
+             static_cast<double>(std::count(status.begin(), status.end(), ToiStatus::hit)) / rows);
+  const Operations least{3, 0};
+  add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<S>(7)), rows);
+}
+
+void add_rays_and_certified() {
   for (const std::size_t count : {few_rows, many_rows}) {
     for (const bool by_vectors : {false, true}) {
-      const std::string name = std::string("certified_sphere_sphere/f64/") + (count == few_rows ? "cache" : "memory") +
-                               (by_vectors ? "/" + vectors_in_use() : "/scalar");
-      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-        time_certified(state, by_vectors, count);
-      })->UseRealTime();
+      const std::string way = (count == few_rows ? "cache/" : "memory/") + (by_vectors ? vectors_in_use() : "scalar");
+      const std::string name = "certified_sphere_sphere/f64/" + way;
+      benchmark::RegisterBenchmark(name.c_str(),
+                                   [=](benchmark::State& state) { time_certified(state, by_vectors, count); });
+      benchmark::RegisterBenchmark(("ray_aabb/f64/" + way).c_str(),
+                                   [=](benchmark::State& state) { time_rays<double>(state, by_vectors, count); });
+      benchmark::RegisterBenchmark(("ray_aabb/f32/" + way).c_str(),
+                                   [=](benchmark::State& state) { time_rays<float>(state, by_vectors, count); });
     }
   }
 }
@@ -182,7 +214,7 @@ template <class S> void add_pairs() {
 
 int main(int argc, char** argv) {
   add_pairs<double>();
-  add_certified();
+  add_rays_and_certified();
   add_pairs<float>();
   FloorReporter reporter;
   return run_benchmarks(argc, argv, reporter);
