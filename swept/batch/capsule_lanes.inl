@@ -59,7 +59,9 @@ struct CapsuleSphere {
     const Vector from_b = minus(c, b);
     const Vector q{hn::IfThenElse(beyond_b, from_b.x, m.x), hn::IfThenElse(beyond_b, from_b.y, m.y),
                    hn::IfThenElse(beyond_b, from_b.z, m.z)};
-    const auto ball = chord_lanes(d, q, v, R, zero);
+    // The scalar code sees the ball from the middle of the segment: a place is known to a rounding of the whole.
+    const auto blur = hn::Mul(hn::Set(d, Limits::length), hn::Add(largest(m), largest(axis)));
+    const auto ball = chord_lanes<true>(d, q, v, R, blur);
     const auto at_end = verdict_of(d, ball);
 
     const auto most = hn::Set(d, Limits::most_capsule), least = hn::Set(d, Limits::least_capsule);

@@ -95,18 +95,28 @@ HWY_INLINE Verdict<D> rounded_box(D d, const Vec3Lanes<hn::Vec<D>>& p, const Vec
   out.overlapping = hn::And(box.ordinary, starts_in);
   const auto candidate = hn::AndNot(starts_in, hn::And(box.ordinary, starts_out));
 
+  // Where each axis stands when the widened slabs are entered, whenever in its noise that truly is.
+  const auto from = hn::Max(box.earliest, zero), to = hn::Max(box.latest, zero);
+  const auto inside_of = [&](const SlabLanes<D>& slab) HWY_ATTR {
+    return hn::And(hn::Ge(hn::Sub(from, slab.noise), slab.own_enter), hn::Lt(hn::Add(to, slab.noise), slab.own_leave));
+  };
+  const auto outside_of = [&](const SlabLanes<D>& slab) HWY_ATTR {
+    return hn::Or(hn::Lt(hn::Add(to, slab.noise), slab.own_enter), hn::Ge(hn::Sub(from, slab.noise), slab.own_leave));
+  };
+  const auto two_of = [](hn::Mask<D> x, hn::Mask<D> y, hn::Mask<D> z)
+                          HWY_ATTR { return hn::Or(hn::And(x, y), hn::And(z, hn::Or(x, y))); };
+  const auto in_x = inside_of(box.x), in_y = inside_of(box.y), in_z = inside_of(box.z);
+  const auto out_x = outside_of(box.x), out_y = outside_of(box.y), out_z = outside_of(box.z);
+
   // Most hits are on a face, at the time it is met at.
-  auto start = hn::Max(box.first, zero);
-  const auto outside_of = [&](const SlabLanes<D>& slab)
-                              HWY_ATTR { return hn::Or(hn::Lt(start, slab.own_enter), hn::Ge(start, slab.own_leave)); };
-  const auto x = outside_of(box.x), y = outside_of(box.y), z = outside_of(box.z);
-  const auto beyond_edge = hn::Or(hn::And(x, y), hn::And(z, hn::Or(x, y)));
-  out.hit = hn::AndNot(beyond_edge, hn::And(candidate, box.reached));
+  out.hit = hn::And(two_of(in_x, in_y, in_z), hn::And(candidate, box.reached));
   out.time = hn::IfThenElse(out.hit, box.first, one);
 
-  // The others, region by region. No rounding of `start` could choose another first one.
-  const auto known = hn::Or(box.reached, box.starts_in);
-  auto going = hn::AndNot(out.apart, hn::And(known, hn::And(candidate, beyond_edge)));
+  // The others, region by region.
+  const auto known = hn::And(hn::Or(in_x, out_x), hn::And(hn::Or(in_y, out_y), hn::Or(in_z, out_z)));
+  const auto entered = hn::And(known, hn::Or(box.reached, box.starts_in));
+  auto going = hn::AndNot(out.apart, hn::And(entered, hn::And(candidate, two_of(out_x, out_y, out_z))));
+  auto start = hn::Max(box.first, zero);
   for (int round = 0; round < 3 && !hn::AllFalse(d, going); ++round) {
     const auto region = region_lanes(d, box, v, R, length_noise, start);
     const auto there = hn::And(going, region.beyond_edge);

@@ -52,6 +52,7 @@ template <class D> struct BoxLanes {
   using M = hn::Mask<D>;
   SlabLanes<D> x, y, z;
   V first;               ///< [1] when p enters the last of the widened slabs
+  V earliest, latest;    ///< [1] between which that truly lies
   M starts_out;          ///< clearly outside one of them at the start
   M starts_in;           ///< clearly inside all of them
   M reached, unreached;  ///< in all of them during the step from `first` on, or never, clearly
@@ -77,6 +78,8 @@ HWY_INLINE BoxLanes<D> box_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const Vec3
       hn::Min(hn::Sub(x.leave, x.noise), hn::Min(hn::Sub(y.leave, y.noise), hn::Sub(z.leave, z.noise)));
   const auto latest_out =
       hn::Min(hn::Add(x.leave, x.noise), hn::Min(hn::Add(y.leave, y.noise), hn::Add(z.leave, z.noise)));
+  out.earliest = earliest_in;
+  out.latest = latest_in;
   out.starts_out = hn::Or(hn::Gt(earliest_in, zero), hn::Lt(latest_out, zero));
   out.starts_in = hn::And(hn::Lt(latest_in, zero), hn::Gt(earliest_out, zero));
   // Slabs that may be the last one entered may differ in conditioning, and then the one with less noise tells the time.

@@ -33,6 +33,7 @@ template <class A, class B> void judge_rows(const char* name, std::size_t count)
     const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows());
     std::size_t wrong = 0, late = 0;
     double worst = 0;
+    const double least = double(std::numeric_limits<S>::denorm_min());  // of a float time
     for (std::size_t i = 0; i < count; ++i) {
       if (answers.status[i] != rows.truth[i].status) ++wrong;
       if (answers.status[i] != ToiStatus::hit || rows.truth[i].status != ToiStatus::hit) continue;
@@ -40,8 +41,8 @@ template <class A, class B> void judge_rows(const char* name, std::size_t count)
       const auto b = cast<double>(rows.b[i]);
       const double off = std::abs(double(answers.time[i]) - rows.truth[i].time);
       const double bound = bound_on_time(a, b, rows.truth[i], double(std::numeric_limits<S>::epsilon()) / 2);
-      if (off > 3 * bound) ++late;  // the scalar code's own 4 u kappa t, and the bound of kappa by half widths
-      worst = std::max(worst, off / bound);
+      if (off > 3 * bound + least) ++late;  // the scalar code's own 4 u kappa t, and the bound of kappa by half widths
+      if (off > least) worst = std::max(worst, off / bound);
     }
     std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu; time off by up to %.2f u kappa t\n", name,
                 target.c_str(), count, 100.0 * double(report.asked_again) / double(count), wrong, 4 * worst);
