@@ -35,7 +35,7 @@ class SpeedRun final : public Run {
   Outcome finish(const std::vector<std::string>& results, const std::vector<double>&) const override {
     SpeedResult result;
     for (const std::string& line : results) result.outputs.push_back(bench_output_from_line(line));
-    result.contenders = contenders(result.outputs);
+    result.ways = ways(result.outputs);
     Outcome outcome{.answer = speed_answer(result),
                     .summary = speed_summary(result),
                     .tables = {speed_race_table(result), speed_programs_table(result), speed_floors_table(result),

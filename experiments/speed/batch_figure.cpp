@@ -14,12 +14,12 @@ namespace {
 /// A row of a batch: sphere_sphere, f64/cache/AVX2.
 struct BatchRow {
   std::string what, where, how;  ///< "sphere_sphere f64", "cache", "AVX2"
-  const Contender* contender;
+  const TimedWay* timed;
 };
 
-std::vector<BatchRow> batch_rows(const std::vector<Contender>& all) {
+std::vector<BatchRow> batch_rows(const std::vector<TimedWay>& all) {
   std::vector<BatchRow> rows;
-  for (const Contender& c : all) {
+  for (const TimedWay& c : all) {
     const std::size_t first = c.way.find('/'), second = c.way.find('/', first + 1);
     if (c.kind != "batch" || first == std::string::npos || second == std::string::npos) continue;
     rows.push_back({c.subject + " " + c.way.substr(0, first), c.way.substr(first + 1, second - first - 1),
@@ -46,7 +46,7 @@ std::string way_label(const std::string& how) {
 }
 
 void add_row(Series& series, const BatchRow& row, double at) {
-  const ContenderTime time = time_of(*row.contender);
+  const WayTime time = time_of(*row.timed);
   series.x.push_back(time.median);
   series.x_lower.push_back(time.interval.lower);
   series.x_upper.push_back(time.interval.upper);
@@ -57,7 +57,7 @@ void add_row(Series& series, const BatchRow& row, double at) {
 
 }  // namespace
 
-std::string batch_text(const std::vector<Contender>& all) {
+std::string batch_text(const std::vector<TimedWay>& all) {
   const std::vector<BatchRow> rows = batch_rows(all);
   double least = std::numeric_limits<double>::infinity(), most = 0, least_gain = least, most_gain = 0;
   for (const BatchRow& scalar : rows) {
@@ -66,9 +66,9 @@ std::string batch_text(const std::vector<Contender>& all) {
     for (const BatchRow& row : rows) {
       if (row.what != scalar.what || row.where != scalar.where || row.how == "scalar" || row.how == "two_threads")
         continue;
-      best = std::min(best, median(row.contender->nanoseconds));
+      best = std::min(best, median(row.timed->nanoseconds));
     }
-    const double gain = median(scalar.contender->nanoseconds) / best;
+    const double gain = median(scalar.timed->nanoseconds) / best;
     if (gain == 0) continue;  // nothing but the scalar code
     least = std::min(least, best);
     most = std::max(most, best);
@@ -81,7 +81,7 @@ std::string batch_text(const std::vector<Contender>& all) {
       rounded_text(least, 2), rounded_text(most, 2), rounded_text(least_gain, 2), rounded_text(most_gain, 2));
 }
 
-Figure batch_figure(const std::vector<Contender>& all) {
+Figure batch_figure(const std::vector<TimedWay>& all) {
   const std::vector<BatchRow> rows = batch_rows(all);
   const std::vector<std::string> subjects = distinct(rows, &BatchRow::what);
   Figure figure;
@@ -104,9 +104,9 @@ Figure batch_figure(const std::vector<Contender>& all) {
         if (row.where != where || row.how != how) continue;
         const auto at = static_cast<double>(subjects.end() - std::find(subjects.begin(), subjects.end(), row.what));
         add_row(series, row, at);
-        if (row.contender->floor_ns.empty() || how == "row_by_row") continue;
+        if (row.timed->floor_ns.empty() || how == "row_by_row") continue;
         if (std::find(floor.y.begin(), floor.y.end(), at) != floor.y.end()) continue;
-        floor.x.push_back(median(row.contender->floor_ns));
+        floor.x.push_back(median(row.timed->floor_ns));
         floor.y.push_back(at);
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));

@@ -12,25 +12,25 @@ namespace {
 
 constexpr double least_length = 1e-17;  // [m] drawn in place of an error that is less, down to 0
 
-std::vector<std::string> names_of(const std::vector<const Contender*>& drawn) {
+std::vector<std::string> names_of(const std::vector<const TimedWay*>& drawn) {
   std::vector<std::string> names;
-  for (const Contender* c : drawn) {
+  for (const TimedWay* c : drawn) {
     if (std::find(names.begin(), names.end(), name_of(*c)) == names.end()) names.push_back(name_of(*c));
   }
   return names;
 }
 
-std::vector<std::string> subjects_of(const std::vector<const Contender*>& drawn) {
+std::vector<std::string> subjects_of(const std::vector<const TimedWay*>& drawn) {
   std::vector<std::string> subjects;
-  for (const Contender* c : drawn) {
+  for (const TimedWay* c : drawn) {
     if (std::find(subjects.begin(), subjects.end(), c->subject) == subjects.end()) subjects.push_back(c->subject);
   }
   return subjects;
 }
 
-void add_point(Series& series, const Contender& c) {
+void add_point(Series& series, const TimedWay& c) {
   const double p99 = std::max(least_length, error_of(c, "p99_length").value_or(0));
-  const ContenderTime time = time_of(c);
+  const WayTime time = time_of(c);
   series.x.push_back(p99);
   series.x_lower.push_back(p99);
   series.x_upper.push_back(std::max(p99, error_of(c, "max_length").value_or(0)));
@@ -39,7 +39,7 @@ void add_point(Series& series, const Contender& c) {
   series.upper.push_back(time.interval.upper);
 }
 
-Panel race_panel(const std::vector<const Contender*>& drawn, const std::string& subject) {
+Panel race_panel(const std::vector<const TimedWay*>& drawn, const std::string& subject) {
   Panel panel;
   panel.x_label = "error of the time of impact, as a length [m]: 99th percentile, with a bar to the largest";
   panel.y_label = subject.empty() ? "ns a query" : subject + ", ns";
@@ -47,7 +47,7 @@ Panel race_panel(const std::vector<const Contender*>& drawn, const std::string& 
   panel.height = subject.empty() ? 1.6 : 0.8;
   for (const std::string& name : names_of(drawn)) {
     Series series{.label = name, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
-    for (const Contender* c : drawn) {
+    for (const TimedWay* c : drawn) {
       if (name_of(*c) == name && (subject.empty() || c->subject == subject)) add_point(series, *c);
     }
     if (!series.x.empty()) panel.series.push_back(std::move(series));
@@ -56,11 +56,11 @@ Panel race_panel(const std::vector<const Contender*>& drawn, const std::string& 
 }
 
 /// Who gives a wrong verdict, most of them first, in words.
-std::string wrong_text(const std::vector<const Contender*>& drawn) {
+std::string wrong_text(const std::vector<const TimedWay*>& drawn) {
   std::string text;
   for (const std::string& name : names_of(drawn)) {
     double missed = 0, false_hits = 0;
-    for (const Contender* c : drawn) {
+    for (const TimedWay* c : drawn) {
       if (name_of(*c) != name) continue;
       missed += error_of(*c, "missed").value_or(0);
       false_hits += error_of(*c, "false").value_or(0);
@@ -73,7 +73,7 @@ std::string wrong_text(const std::vector<const Contender*>& drawn) {
   return text.empty() ? "No verdict is wrong." : "Wrong verdicts, over all pairs: " + text + ".";
 }
 
-Figure race_figure(const std::vector<const Contender*>& drawn, bool a_panel_a_pair) {
+Figure race_figure(const std::vector<const TimedWay*>& drawn, bool a_panel_a_pair) {
   Figure figure;
   figure.name = a_panel_a_pair ? "error_against_time_by_pair" : "error_against_time";
   figure.title = a_panel_a_pair ? "Error against run time, pair by pair" : "Error against run time: a point a pair";
@@ -86,9 +86,9 @@ Figure race_figure(const std::vector<const Contender*>& drawn, bool a_panel_a_pa
     figure.panels.push_back(race_panel(drawn, ""));
     return figure;
   }
-  const bool any_peer = std::any_of(drawn.begin(), drawn.end(), [](const Contender* c) { return is_peer(*c); });
+  const bool any_peer = std::any_of(drawn.begin(), drawn.end(), [](const TimedWay* c) { return is_peer(*c); });
   for (const std::string& subject : subjects_of(drawn)) {
-    const auto rival = [&](const Contender* c) { return c->subject == subject && is_peer(*c); };
+    const auto rival = [&](const TimedWay* c) { return c->subject == subject && is_peer(*c); };
     if (!any_peer || std::any_of(drawn.begin(), drawn.end(), rival))
       figure.panels.push_back(race_panel(drawn, subject));
   }
@@ -96,7 +96,7 @@ Figure race_figure(const std::vector<const Contender*>& drawn, bool a_panel_a_pa
 }
 
 /// Wrong verdicts of each, by pair; who has none is not there.
-Figure verdict_figure(const std::vector<const Contender*>& drawn) {
+Figure verdict_figure(const std::vector<const TimedWay*>& drawn) {
   const std::vector<std::string> subjects = subjects_of(drawn);
   Figure figure;
   figure.name = "wrong_verdicts";
@@ -109,7 +109,7 @@ Figure verdict_figure(const std::vector<const Contender*>& drawn) {
     panel.log_x = true;
     for (const std::string& name : names_of(drawn)) {
       Series series{.label = name, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
-      for (const Contender* c : drawn) {
+      for (const TimedWay* c : drawn) {
         const double wrong = error_of(*c, counter).value_or(0);
         if (name_of(*c) != name || wrong == 0) continue;
         const auto at = std::find(subjects.begin(), subjects.end(), c->subject);
@@ -128,10 +128,10 @@ Figure verdict_figure(const std::vector<const Contender*>& drawn) {
 }  // namespace
 
 std::vector<Figure> speed_figures(const SpeedResult& result) {
-  const std::vector<const Contender*> drawn = drawn_contenders(result.contenders);
+  const std::vector<const TimedWay*> drawn = drawn_ways(result.ways);
   std::vector<Figure> figures;
   if (!drawn.empty()) figures = {race_figure(drawn, false), verdict_figure(drawn), race_figure(drawn, true)};
-  figures.push_back(batch_figure(result.contenders));
+  figures.push_back(batch_figure(result.ways));
   std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
   return figures;
 }

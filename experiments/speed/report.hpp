@@ -5,13 +5,13 @@
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
-#include <thinwall/experiments/speed/contender.hpp>
+#include <thinwall/experiments/speed/timed_way.hpp>
 
 namespace thinwall {
 
 struct SpeedResult {
   std::vector<BenchOutput> outputs;  ///< of every program and round
-  std::vector<Contender> contenders;
+  std::vector<TimedWay> ways;
 };
 
 /// What each gets wrong: the same in every run of the same build.
@@ -27,9 +27,9 @@ Table speed_programs_table(const SpeedResult& result);
 
 std::vector<Figure> speed_figures(const SpeedResult& result);
 /// What a row of a batch takes, by pair, scalar and width of vector; without panels where no batch was timed.
-Figure batch_figure(const std::vector<Contender>& all);
+Figure batch_figure(const std::vector<TimedWay>& all);
 /// A sentence on batches, after a space; empty where none was timed.
-std::string batch_text(const std::vector<Contender>& all);
+std::string batch_text(const std::vector<TimedWay>& all);
 
 std::string speed_answer(const SpeedResult& result);
 std::string speed_summary(const SpeedResult& result);

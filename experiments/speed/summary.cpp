@@ -44,19 +44,19 @@ std::string left_out_text(const SpeedResult& result) {
   return text;
 }
 
-double wrong_verdicts(const Contender& c) {
+double wrong_verdicts(const TimedWay& c) {
   return error_of(c, "missed").value_or(0) + error_of(c, "false").value_or(0);
 }
 
 /// Our own, on queries where a wrong verdict has no excuse: not the ones made to be hard.
-bool must_be_right(const Contender& c) {
+bool must_be_right(const TimedWay& c) {
   return c.kind == "time_of_impact" && name_of(c) == "thinwall, front door" && error_of(c, "missed").has_value();
 }
 
 std::string self_test_words(const SpeedResult& result) {
   std::size_t judged = 0;
   std::string broken;
-  for (const Contender& c : result.contenders) {
+  for (const TimedWay& c : result.ways) {
     if (!error_of(c, "missed")) continue;
     ++judged;
     const std::string name = fmt::format("{} {} {}", c.kind, c.subject, c.way);
@@ -81,21 +81,20 @@ struct Extremes {
 }  // namespace
 
 bool speed_self_test(const SpeedResult& result) {
-  return std::all_of(result.contenders.begin(), result.contenders.end(), [](const Contender& c) {
-    return c.errors_agree && (!must_be_right(c) || wrong_verdicts(c) == 0);
-  });
+  return std::all_of(result.ways.begin(), result.ways.end(),
+                     [](const TimedWay& c) { return c.errors_agree && (!must_be_right(c) || wrong_verdicts(c) == 0); });
 }
 
 std::string speed_answer(const SpeedResult& result) {
   Extremes ours, floor, slower;
   double worst_of_ours = 0, best_of_peers = std::numeric_limits<double>::infinity(), wrong = 0;
-  for (const Contender* c : drawn_contenders(result.contenders)) {
+  for (const TimedWay* c : drawn_ways(result.ways)) {
     const double length = error_of(*c, "p99_length").value_or(0);
     if (must_be_right(*c)) {
       ours.add(time_of(*c).median);
       worst_of_ours = std::max(worst_of_ours, length);
       if (!c->to_floor.empty()) floor.add(median(c->to_floor));
-    } else if (const Contender* front = front_door_for(result.contenders, *c); is_peer(*c) && front != nullptr) {
+    } else if (const TimedWay* front = front_door_for(result.ways, *c); is_peer(*c) && front != nullptr) {
       slower.add(median(c->nanoseconds) / median(front->nanoseconds));
       best_of_peers = std::min(best_of_peers, length);
       wrong += wrong_verdicts(*c);
@@ -104,8 +103,8 @@ std::string speed_answer(const SpeedResult& result) {
   if (!ours.any()) {
     return fmt::format(
                "{} rows were timed; none asks our front door for a time of impact, so that there is no race to tell of.",
-               result.contenders.size()) +
-           batch_text(result.contenders);
+               result.ways.size()) +
+           batch_text(result.ways);
   }
   std::string text = fmt::format(
       "A time of impact through the front door takes {:.0f} to {:.0f} ns, by pair, at a 99th percentile error of at most {:.0e} m",
@@ -119,16 +118,16 @@ std::string speed_answer(const SpeedResult& result) {
   } else {
     text += " No other library took part.";
   }
-  return text + batch_text(result.contenders);
+  return text + batch_text(result.ways);
 }
 
 std::string speed_summary(const SpeedResult& result) {
   constexpr const char* format = "{:<17}{:<32}{:>9}{:>9}{:>9}{:>8}{:>9}\n";
-  const std::vector<const Contender*> drawn = drawn_contenders(result.contenders);
+  const std::vector<const TimedWay*> drawn = drawn_ways(result.ways);
   std::string text;
   if (!drawn.empty())
     text = fmt::format(format, "time of impact", "who", "ns", "x floor", "missed", "false", "p99 [m]");
-  for (const Contender* c : drawn) {
+  for (const TimedWay* c : drawn) {
     text += fmt::format(format, c->subject, name_of(*c), fmt::format("{:.1f}", median(c->nanoseconds)),
                         c->to_floor.empty() ? "-" : fmt::format("{:.1f}", median(c->to_floor)),
                         fmt::format("{:.0f}", error_of(*c, "missed").value_or(0)),

@@ -17,18 +17,18 @@ std::vector<Column> speed_keys() {
           {"program", ColumnType::text, "", "Benchmark program that asked."}};
 }
 
-std::vector<Value> speed_key_of(const Contender& c) { return {c.kind, c.subject, c.way, c.program}; }
+std::vector<Value> speed_key_of(const TimedWay& c) { return {c.kind, c.subject, c.way, c.program}; }
 
 template <class T> void add_all(std::vector<T>& list, std::vector<T> more) {
   std::move(more.begin(), more.end(), std::back_inserter(list));
 }
 
-Value number_of(const Contender& c, const char* counter) {
+Value number_of(const TimedWay& c, const char* counter) {
   const std::optional<double> found = error_of(c, counter);
   return found ? Value(*found) : Value();
 }
 
-Value count_of(const Contender& c, const char* counter) {
+Value count_of(const TimedWay& c, const char* counter) {
   const std::optional<double> found = error_of(c, counter);
   return found ? Value(static_cast<std::int64_t>(*found)) : Value();
 }
@@ -42,8 +42,8 @@ std::vector<Column> time_columns() {
       {"upper", ColumnType::number, "ns", "Upper end of the same."}};
 }
 
-std::vector<Value> times_of(const Contender& c) {
-  const ContenderTime time = time_of(c);
+std::vector<Value> times_of(const TimedWay& c) {
+  const WayTime time = time_of(c);
   return {time.median, time.interval.lower, time.interval.upper};
 }
 
@@ -63,7 +63,7 @@ Table speed_errors_table(const SpeedResult& result) {
                    {"error_max", ColumnType::number, "1", "Largest of the same."},
                    {"length_p99", ColumnType::number, "m", "99th percentile error, as a length."},
                    {"length_max", ColumnType::number, "m", "Largest of the same."}});
-  for (const Contender& c : result.contenders) {
+  for (const TimedWay& c : result.ways) {
     if (!error_of(c, "missed")) continue;
     std::vector<Value> row = speed_key_of(c);
     add_all<Value>(row, {count_of(c, "missed"), count_of(c, "false"), number_of(c, "p99_error"),
@@ -90,7 +90,7 @@ Table speed_race_table(const SpeedResult& result) {
                    {"false_hits", ColumnType::integer, "1", "Misses that are called hits."},
                    {"length_p99", ColumnType::number, "m", "99th percentile error of the hits that are found."},
                    {"length_max", ColumnType::number, "m", "Largest of the same."}});
-  for (const Contender* c : drawn_contenders(result.contenders)) {
+  for (const TimedWay* c : drawn_ways(result.ways)) {
     std::vector<Value> row = {c->subject, name_of(*c)};
     add_all<Value>(row, times_of(*c));
     add_all<Value>(row, {median_of(c->to_floor), count_of(*c, "missed"), count_of(*c, "false"),
@@ -112,7 +112,7 @@ Table speed_timings_table(const SpeedResult& result) {
                                   {"floor_ns", ColumnType::number, "ns",
                                    "The least that the same work could take; median over rounds."},
                                   {"to_floor", ColumnType::number, "1", "Time over floor, round by round; median."}});
-  for (const Contender& c : result.contenders) {
+  for (const TimedWay& c : result.ways) {
     std::vector<Value> row = speed_key_of(c);
     add_all<Value>(row, times_of(c));
     add_all<Value>(row,

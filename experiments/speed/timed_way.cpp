@@ -1,4 +1,4 @@
-#include <thinwall/experiments/speed/contender.hpp>
+#include <thinwall/experiments/speed/timed_way.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,11 +25,11 @@ std::string spaced(std::string text) {
   return text;
 }
 
-bool is_front_door(const Contender& c) {
+bool is_front_door(const TimedWay& c) {
   return c.way == "front_door" || (c.program == peers_program && c.way == "thinwall");
 }
 
-void add_round(Contender& contender, const BenchRow& row) {
+void add_round(TimedWay& timed, const BenchRow& row) {
   std::map<std::string, double> errors = row.counters;
   const auto take = [&](const char* counter, std::vector<double>& into) {
     const auto found = errors.find(counter);
@@ -37,22 +37,22 @@ void add_round(Contender& contender, const BenchRow& row) {
     into.push_back(found->second);
     errors.erase(found);
   };
-  take("floor_ns", contender.floor_ns);
-  take("to_floor", contender.to_floor);
-  if (contender.nanoseconds.empty()) contender.errors = errors;
-  contender.errors_agree = contender.errors_agree && contender.errors == errors;
-  contender.nanoseconds.push_back(row.nanoseconds);
+  take("floor_ns", timed.floor_ns);
+  take("to_floor", timed.to_floor);
+  if (timed.nanoseconds.empty()) timed.errors = errors;
+  timed.errors_agree = timed.errors_agree && timed.errors == errors;
+  timed.nanoseconds.push_back(row.nanoseconds);
 }
 
 }  // namespace
 
-std::vector<Contender> contenders(const std::vector<BenchOutput>& rounds) {
-  std::vector<Contender> all;
+std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds) {
+  std::vector<TimedWay> all;
   for (const std::string_view program : bench_program_names()) {
     for (const BenchOutput& output : rounds) {
       if (output.program != program) continue;
       for (const BenchRow& row : output.rows) {
-        const auto same = [&](const Contender& c) {
+        const auto same = [&](const TimedWay& c) {
           return c.program == program && c.kind == row.kind && c.subject == row.subject && c.way == row.way;
         };
         auto found = std::find_if(all.begin(), all.end(), same);
@@ -65,19 +65,19 @@ std::vector<Contender> contenders(const std::vector<BenchOutput>& rounds) {
   return all;
 }
 
-ContenderTime time_of(const Contender& contender) {
-  const std::array<double, 1> key = {static_cast<double>(contender.nanoseconds.size())};
-  return {median(contender.nanoseconds), bootstrap_median(contender.nanoseconds, {1, stream_of(key)})};
+WayTime time_of(const TimedWay& timed) {
+  const std::array<double, 1> key = {static_cast<double>(timed.nanoseconds.size())};
+  return {median(timed.nanoseconds), bootstrap_median(timed.nanoseconds, {1, stream_of(key)})};
 }
 
-std::optional<double> error_of(const Contender& contender, const std::string& counter) {
-  const auto found = contender.errors.find(counter);
-  return found == contender.errors.end() ? std::nullopt : std::optional(found->second);
+std::optional<double> error_of(const TimedWay& timed, const std::string& counter) {
+  const auto found = timed.errors.find(counter);
+  return found == timed.errors.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool is_peer(const Contender& c) { return c.program == peers_program && !is_front_door(c); }
+bool is_peer(const TimedWay& c) { return c.program == peers_program && !is_front_door(c); }
 
-std::string name_of(const Contender& c) {
+std::string name_of(const TimedWay& c) {
   if (is_front_door(c)) return "thinwall, front door";
   if (c.way == "plain") return "plain form";
   if (c.program != peers_program) return "thinwall, " + spaced(c.way);
@@ -89,26 +89,26 @@ std::string name_of(const Contender& c) {
   return c.way;
 }
 
-std::vector<const Contender*> drawn_contenders(const std::vector<Contender>& all) {
-  std::vector<const Contender*> drawn;
-  for (const Contender& c : all) {
+std::vector<const TimedWay*> drawn_ways(const std::vector<TimedWay>& all) {
+  std::vector<const TimedWay*> drawn;
+  for (const TimedWay& c : all) {
     if (c.kind != "time_of_impact" || !error_of(c, "p99_length") || c.program == "methods") continue;
-    const auto same = [&](const Contender* other) {
+    const auto same = [&](const TimedWay* other) {
       return other->subject == c.subject && name_of(*other) == name_of(c);
     };
     if (std::any_of(drawn.begin(), drawn.end(), same)) continue;
-    const auto beyond = [&](const Contender* other) { return other->subject == c.subject; };
+    const auto beyond = [&](const TimedWay* other) { return other->subject == c.subject; };
     const auto last = std::find_if(drawn.rbegin(), drawn.rend(), beyond);  // pairs stay together
     drawn.insert(last == drawn.rend() ? drawn.end() : last.base(), &c);
   }
   return drawn;
 }
 
-const Contender* front_door_for(const std::vector<Contender>& all, const Contender& contender) {
-  const Contender* found = nullptr;
-  for (const Contender& c : all) {
-    if (c.kind != contender.kind || c.subject != contender.subject || !is_front_door(c)) continue;
-    if (c.program == contender.program) return &c;  // the same run
+const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed) {
+  const TimedWay* found = nullptr;
+  for (const TimedWay& c : all) {
+    if (c.kind != timed.kind || c.subject != timed.subject || !is_front_door(c)) continue;
+    if (c.program == timed.program) return &c;  // the same run
     if (found == nullptr) found = &c;
   }
   return found;

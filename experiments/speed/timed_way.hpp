@@ -11,7 +11,7 @@
 
 namespace thinwall {
 
-struct Contender {
+struct TimedWay {
   std::string program, kind, subject, way;
   std::vector<double> nanoseconds;         ///< [ns] an answer, one of each round
   std::vector<double> floor_ns, to_floor;  ///< of each round, where the program says them
@@ -19,30 +19,30 @@ struct Contender {
   bool errors_agree = true;                ///< the same in every round
 };
 
-struct ContenderTime {
+struct WayTime {
   double median;
   Interval interval;  ///< 95 %, bootstrap
 };
 
 /// By program in the order of the suite, then as the program lists its rows.
-std::vector<Contender> contenders(const std::vector<BenchOutput>& rounds);
+std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds);
 
-ContenderTime time_of(const Contender& contender);
+WayTime time_of(const TimedWay& timed);
 
 /// The counter, where the row has it.
-std::optional<double> error_of(const Contender& contender, const std::string& counter);
+std::optional<double> error_of(const TimedWay& timed, const std::string& counter);
 
 /// What a picture calls it: "thinwall, kernel", "Bullet, subsimplex cast".
-std::string name_of(const Contender& contender);
+std::string name_of(const TimedWay& timed);
 
 /// True for what another library answers.
-bool is_peer(const Contender& contender);
+bool is_peer(const TimedWay& timed);
 
 /// Asked for a time of impact, and its errors counted: what the picture shows, pair by pair. Of those of one name and pair, the
 /// first.
-std::vector<const Contender*> drawn_contenders(const std::vector<Contender>& all);
+std::vector<const TimedWay*> drawn_ways(const std::vector<TimedWay>& all);
 
-/// The program's own answer through the front door, for the subject of `contender`; null if it is not there.
-const Contender* front_door_for(const std::vector<Contender>& all, const Contender& contender);
+/// The program's own answer through the front door, for the subject of `timed`; null if it is not there.
+const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed);
 
 }  // namespace thinwall
