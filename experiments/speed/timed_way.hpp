@@ -33,10 +33,10 @@ WayTime time_of(const TimedWay& timed);
 std::optional<double> error_of(const TimedWay& timed, const std::string& counter);
 
 /// What a picture calls it: "thinwall, kernel", "Bullet, subsimplex cast".
-std::string name_of(const TimedWay& timed);
+std::string name_of(const TimedWay& c);
 
 /// True for what another library answers.
-bool is_peer(const TimedWay& timed);
+bool is_peer(const TimedWay& c);
 
 /// Asked for a time of impact, and its errors counted: what the picture shows, pair by pair. Of those of one name and pair, the
 /// first.
