@@ -76,7 +76,10 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
     const std::size_t start = at_end ? (k + 1) % 3 : k;
     const Vec3<S> gap = corner ? Vec3<S>(x - from[start]) : Vec3<S>(to_x - along[k] * (projected / length_square));
     const S square = gap.squaredNorm();
-    if (square >= least) continue;
+    // Equal to rounding: an edge's gap is square to the edge and parts the triangle by all of it, a corner's may not.
+    const bool tie = largest(S(square - least)) <= 4 * std::numeric_limits<S>::epsilon() * square;
+    const bool nearer = tie ? !corner && part.kind == CorePart<S>::corner : !(square >= least);
+    if (!nearer) continue;
     least = square;
     part = {static_cast<int>(start) + (corner ? 4 : 1), corner ? CorePart<S>::corner : CorePart<S>::edge, from[start],
             along[start], gap};

@@ -97,6 +97,14 @@ TEST(TouchToRounding,
               gap.distance, 1e-14);
 }
 
+TEST(TouchToRounding,
+     sphere_beside_an_edge_and_all_but_its_corner_is_parted_by_the_edge) {  // 2e-9 of it from the corner
+  const Triangle<double> t{V(-7, 3, -8), V(-8, 3, 0), V(-6, 0x1.00000004p+2, -0x1.00000004p+2)};
+  const Sphere<double> ball{V(0, 0, -2), 7};
+  const auto gap = separation(t, ball);
+  EXPECT_NEAR(parted(gap.normal, {t.a, t.b, t.c}, {ball.center}, ball.radius), gap.distance, 1e-14);
+}
+
 TEST(TouchToRounding, boxes_beside_each_other_are_parted_by_an_axis) {
   const Obb<double> upper{V(-1, 1, 1), V(1, 1, 1), Mat3<double>::Identity()};
   const Aabb<double> lower{V(-1, -1, -1), V(0x1.ffffffffcp-1, 0x1.cc0aap-4, 2)};
