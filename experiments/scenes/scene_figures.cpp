@@ -31,8 +31,8 @@ struct Window {
 
 /// Where anything moved, with room for the bodies themselves and a fifth more on each side.
 Window window_of(const Scene& scene, const Playback& playback) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Window w{infinity, -infinity, infinity, -infinity};
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Window w{far, -far, far, -far};
   for (const Track& track : playback.tracks) {
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
                                    [&track](const Body& candidate) { return candidate.id == track.id; });

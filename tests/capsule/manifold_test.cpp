@@ -102,13 +102,13 @@ template <class First, class Second> struct Both {
   using A = First;
   using B = Second;
 };
-using Pairs =
+using ManifoldPairs =
     ::testing::Types<Both<Capsule<double>, Sphere<double>>, Both<Capsule<float>, Aabb<float>>,
                      Both<Capsule<double>, Aabb<double>>, Both<Capsule<double>, Obb<double>>,
                      Both<Capsule<Wide>, Obb<Wide>>, Both<Capsule<float>, Triangle<float>>,
                      Both<Capsule<double>, Triangle<double>>, Both<Capsule<float>, Capsule<float>>,
                      Both<Capsule<double>, Capsule<double>>, Both<Capsule<long double>, Capsule<long double>>>;
-TYPED_TEST_SUITE(CapsuleManifoldsOf, Pairs);
+TYPED_TEST_SUITE(CapsuleManifoldsOf, ManifoldPairs);
 
 TYPED_TEST(CapsuleManifoldsOf, are_real_points_as_deep_as_the_contact) {
   expect_manifolds<typename TypeParam::A, typename TypeParam::B>(2000);

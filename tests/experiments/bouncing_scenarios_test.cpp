@@ -46,7 +46,7 @@ TEST(BounceScenarios, a_closing_wall_gives_speed) {
 }
 
 TEST(BounceScenarios, case_58_blocks_count_the_digits_of_pi) {
-#if defined(__OPTIMIZE__) && !defined(THINWALL_TWO_SCALARS)  // all 31 million impacts: not where nothing is inlined
+#if defined(__OPTIMIZE__) && !defined(THINWALL_SLOW_BUILD)  // all 31 million impacts: not where nothing is inlined
   constexpr int most = 7;
 #else
   constexpr int most = 4;

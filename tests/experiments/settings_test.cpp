@@ -46,7 +46,7 @@ struct BadInput {
   std::string text, complaint;
 };
 
-class BadSettings : public testing::TestWithParam<BadInput> {};
+class BadSettings : public ::testing::TestWithParam<BadInput> {};
 
 TEST_P(BadSettings, are_named_in_one_line) {
   EXPECT_EQ(complaint(GetParam().text), GetParam().complaint);

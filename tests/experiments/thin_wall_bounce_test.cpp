@@ -76,7 +76,7 @@ TEST(ThinWallBounce, changes_no_other_count) {
 }
 
 /// Lines of end_of_step at infinite walls, with a theory of going through that may be wrong.
-bool self_test_passes(double (*theory)(const Cell&)) {
+bool bounce_test_passes(double (*theory)(const Cell&)) {
   const Experiment experiment = thin_wall_experiment();
   const Settings settings(R"(
     speed = [3, 10, 40]
@@ -100,14 +100,14 @@ bool self_test_passes(double (*theory)(const Cell&)) {
 }
 
 TEST(ThinWallBounce, fails_a_wrong_theory) {
-  EXPECT_TRUE(self_test_passes([](const Cell& c) { return miss_probability(slab_chord(c) / 2, step_length(c)); }));
-  EXPECT_FALSE(self_test_passes([](const Cell& c) {  // what is seen is saved
+  EXPECT_TRUE(bounce_test_passes([](const Cell& c) { return miss_probability(slab_chord(c) / 2, step_length(c)); }));
+  EXPECT_FALSE(bounce_test_passes([](const Cell& c) {  // what is seen is saved
     return miss_probability(slab_chord(c), step_length(c));
   }));
-  EXPECT_FALSE(self_test_passes([](const Cell& c) {  // only the wall's own half counts
+  EXPECT_FALSE(bounce_test_passes([](const Cell& c) {  // only the wall's own half counts
     return miss_probability((c.radius + c.thickness) / cosine(c), step_length(c));
   }));
-  EXPECT_FALSE(self_test_passes([](const Cell& c) {  // two percent off
+  EXPECT_FALSE(bounce_test_passes([](const Cell& c) {  // two percent off
     return miss_probability(slab_chord(c) / 2, step_length(c)) * 0.98;
   }));
 }

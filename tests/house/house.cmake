@@ -33,33 +33,13 @@ foreach(folder IN ITEMS discrete capsule swept experiments)
   endif()
 endforeach()
 
-# The sources of each folder of the program in one file, for clang-tidy to read every header they share once; never built.
-# Those of experiments/ itself stay alone: each experiment has functions of the same names.
-file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/experiments/*.cpp")
-foreach(source IN LISTS sources)
-  cmake_path(GET source PARENT_PATH folder)
-  if(folder STREQUAL "${PROJECT_SOURCE_DIR}/experiments")
-    continue()
-  endif()
-  cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
-  string(REPLACE "/" "_" unit "${folder}")
-  list(APPEND source_units "${unit}")
-  string(APPEND includes_of_${unit} "#include \"${source}\"\n")
-endforeach()
-list(REMOVE_DUPLICATES source_units)
-add_library(sources_together OBJECT EXCLUDE_FROM_ALL)
-target_link_libraries(sources_together PRIVATE thinwall::experiments thinwall_options)
-foreach(unit IN LISTS source_units)
-  file(CONFIGURE OUTPUT "headers/all_sources_of_${unit}.cpp" CONTENT
-    "// NOLINTBEGIN(bugprone-suspicious-include)\n${includes_of_${unit}}// NOLINTEND(bugprone-suspicious-include)\n" @ONLY)
-  target_sources(sources_together PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/headers/all_sources_of_${unit}.cpp")
-endforeach()
-
 # Dependencies point one way, and the check itself is checked on trees that break each rule.
 add_test(NAME house/include_direction
   COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" -P "${house}/include_direction.cmake")
 add_test(NAME house/include_direction_sees_each_fault
   COMMAND "${CMAKE_COMMAND}" "-DWORK=${work}/include_direction" -P "${house}/include_direction_test.cmake")
+
+add_test(NAME house/presets COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" -P "${house}/presets.cmake")
 
 # A pair that is not served is a compile error that names it.
 add_test(NAME house/unserved_pair_is_named

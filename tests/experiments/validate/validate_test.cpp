@@ -42,7 +42,7 @@ std::string falling(const std::string& x, int answer) {
   return query({x + ",1,2,1,1", face[0], face[1], face[2], x + ",1,2,-1,1", face[0], face[1], face[2]}, answer);
 }
 
-struct ValidateTest : testing::Test {
+struct ValidateTest : ::testing::Test {
   TemporaryFolder folder;
 
   std::string write(const std::string& below, const std::string& text) const {

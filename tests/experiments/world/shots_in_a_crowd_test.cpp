@@ -56,7 +56,7 @@ std::vector<Body> drawn_crowd() {
   return crowd;
 }
 
-WorldOptions by(TimePolicy policy) {
+WorldOptions stepped_by(TimePolicy policy) {
   WorldOptions options;
   options.policy = policy;
   options.substeps = 3;
@@ -65,7 +65,7 @@ WorldOptions by(TimePolicy policy) {
 }
 
 World stepped(std::vector<Body> bodies, TimePolicy policy, std::vector<bool>& seen) {
-  World world(std::move(bodies), by(policy));
+  World world(std::move(bodies), stepped_by(policy));
   for (int step = 0; step < steps; ++step) {
     world.step(dt);
     for (const Hit& hit : world.hits()) {

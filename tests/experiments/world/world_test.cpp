@@ -9,7 +9,7 @@
 namespace thinwall::testing {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double immovable = std::numeric_limits<double>::infinity();
 constexpr TimePolicy policies[] = {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp,
                                    TimePolicy::event_driven};
 
@@ -213,7 +213,7 @@ TEST(World, overlapping_and_nested_bodies_are_in_contact_at_once_and_are_parted)
 
 TEST(World, what_has_no_finite_mass_moves_on_whatever_it_meets) {
   Body piston = ball(1, {0, 0, 0}, {10, 0, 0});
-  piston.mass = infinite;
+  piston.mass = immovable;
   WorldOptions options = by(TimePolicy::event_driven);
   options.gravity = {0, -9.81, 0};
   Body pushed = ball(2, {5, 0, 0}, {0, 0, 0});
@@ -293,7 +293,7 @@ TEST(World, hands_move_bodies_between_steps) {
   world.step(1);
   EXPECT_LT(x_of(world, 1), -2.9);
   EXPECT_THROW(world.set_velocity(2, {1, 0, 0}), WorldError);
-  EXPECT_THROW(world.move(1, {infinite, 0, 0}), WorldError);
+  EXPECT_THROW(world.move(1, {immovable, 0, 0}), WorldError);
   EXPECT_THROW(world.remove(3), WorldError);
 }
 

@@ -1,0 +1,37 @@
+# Every preset sets, itself or by what it inherits, every option that the project has: one that it left out would keep the value that
+# another preset, or somebody by hand, wrote into the same folder before.
+cmake_minimum_required(VERSION 3.25)
+
+file(STRINGS "${ROOT}/CMakeLists.txt" options REGEX "^option\\(THINWALL_")
+file(STRINGS "${ROOT}/cmake/mpi.cmake" cached REGEX "^set\\(THINWALL_.* CACHE ")
+list(TRANSFORM options REPLACE "^option\\(([A-Z_]+).*" "\\1")
+list(TRANSFORM cached REPLACE "^set\\(([A-Z_]+).*" "\\1")
+list(APPEND options ${cached})
+
+file(READ "${ROOT}/CMakePresets.json" presets)
+string(JSON count LENGTH "${presets}" configurePresets)
+math(EXPR last "${count} - 1")
+foreach(i RANGE ${last})
+  string(JSON name GET "${presets}" configurePresets ${i} name)
+  string(JSON base ERROR_VARIABLE none GET "${presets}" configurePresets ${i} inherits)
+  set(set_by_${name} ${set_by_${base}})
+  string(JSON variables LENGTH "${presets}" configurePresets ${i} cacheVariables)
+  math(EXPR last_variable "${variables} - 1")
+  foreach(j RANGE ${last_variable})
+    string(JSON variable MEMBER "${presets}" configurePresets ${i} cacheVariables ${j})
+    list(APPEND set_by_${name} "${variable}")
+  endforeach()
+  foreach(option IN LISTS options)
+    if(NOT option IN_LIST set_by_${name})
+      message(SEND_ERROR "CMakePresets.json: the preset '${name}' does not set ${option}")
+    endif()
+  endforeach()
+endforeach()
+
+# The two commands of the README configure by presets alone.
+foreach(script IN ITEMS demo check)
+  file(STRINGS "${ROOT}/${script}" by_hand REGEX "cmake .*-D")
+  if(by_hand)
+    message(SEND_ERROR "${script} sets an option beside its preset: ${by_hand}")
+  endif()
+endforeach()
