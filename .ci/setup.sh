@@ -78,8 +78,8 @@ Install them, then run this again with THINWALL_FETCH=ON ./$(basename "$0"): CMa
   echo "All of these are there: $*"
 }
 
-# Set THINWALL_FETCH=ON to let CMake download pinned releases of missing libraries.
-configure_options=(-DTHINWALL_FETCH="${THINWALL_FETCH:-OFF}")
+# The presets take this one option from outside: ON lets CMake download pinned releases of missing libraries.
+export THINWALL_FETCH="${THINWALL_FETCH:-OFF}"
 
 log=$(mktemp "${TMPDIR:-/tmp}/thinwall.XXXXXX")
 trap 'rm -f "$log"' EXIT

@@ -16,7 +16,7 @@ namespace thinwall::testing {
 
 /// As many rows as asked for; a fiftieth where sanitized or not optimized.
 inline std::size_t batch_rows_to_judge(std::size_t rows) {
-#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(THINWALL_TWO_SCALARS)
+#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(THINWALL_SLOW_BUILD)
   rows = rows / 50 + 1;
 #endif
   return thorough(rows);

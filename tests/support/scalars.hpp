@@ -14,12 +14,10 @@ namespace thinwall::testing {
 /// 50 decimal digits: the one multiprecision type among the scalars under test.
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
-#ifdef THINWALL_TWO_SCALARS
-// The same code. The release tests it at every scalar; the presets that build it again, sanitized or by another compiler,
-// would spend most of their time on the other two.
-using Scalars = ::testing::Types<float, double>;
+#ifdef THINWALL_TEST_WIDE_SCALARS  // the program tests_wide: the same tests once more
+using Scalars = ::testing::Types<long double, Wide>;
 #else
-using Scalars = ::testing::Types<float, double, long double, Wide>;
+using Scalars = ::testing::Types<float, double>;
 #endif
 
 struct ScalarNames {
