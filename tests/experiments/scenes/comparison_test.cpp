@@ -36,6 +36,13 @@ TEST(Comparison, refuses_steps_that_do_not_fit) {
   EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\npolicy = ['sweep']\n"), UsageError);
   EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeats = 0\n"), UsageError);
   EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeat = 1\n"), UsageError);
+  try {
+    comparison_from("scene = 'short'\nsteps = 1\n");
+    ADD_FAILURE() << "the default steps are longer than the scene";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("my.toml:1: key 'compare.dt': [0.0041")) << error.what();
+    EXPECT_NE(std::string(error.what()).find(", its default, is not allowed; at most the scene's"), std::string::npos);
+  }
 }
 
 /// Made-up meetings: one in both, one missed, one missed in the last step, one here alone.
