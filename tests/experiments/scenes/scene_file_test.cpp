@@ -226,6 +226,15 @@ TEST(SceneFile, names_the_users_file_where_a_default_does_not_fit) {
   expect_complaint(ball + "mask = -1\n", {"my.toml:5: key 'body.mask': -1 is not allowed"});
 }
 
+TEST(SceneFile, refuses_a_name_that_cannot_be_shown) {
+  for (const char* bad : {R"(\n)", R"(\u001B[2J)", R"(\u007F)", R"(\u009B2J)", R"(\uFFFE)", R"(\uFFFF)"}) {
+    expect_complaint(ball + "name = \"" + bad + "\"\n", {"my.toml:5: key 'body.name'", "a text of one line"});
+  }
+  for (const char* good : {"'", "\\\"", "]]>", "`", "\u00b5", "\U0001f3b1"}) {
+    expect_complaint(ball + "name = \"" + good + "\"\n", {"no complaint"});
+  }
+}
+
 TEST(SceneFile, names_what_is_not_there) {
   expect_complaint(ball + "[[body]]\nshape = 'none'\n\n", {"no complaint"});
   expect_complaint("broad_phase = 'octree'\n" + ball,
