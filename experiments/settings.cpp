@@ -110,8 +110,9 @@ struct Settings::Impl {
     }
   }
 
+  /// A default can only be wrong beside what the user wrote, so that it is their file that is named.
   std::string where(const toml::node& node, bool by_user) const {
-    return fmt::format("{}:{}", by_user ? file : "built-in defaults", node.source().begin.line);
+    return fmt::format("{}:{}", file, by_user ? node.source().begin.line : line);
   }
 
   struct Entry {
@@ -133,7 +134,7 @@ struct Settings::Impl {
   }
 
   [[noreturn]] void refuse(std::string_view key, const toml::node& node, std::string_view allowed) const {
-    complain(key, node, shown(node) + " is not allowed", allowed);
+    complain(key, node, shown(node) + (entry(key).by_user ? "" : ", its default,") + " is not allowed", allowed);
   }
 
   /// `read` returns what a node holds, or nothing if that is not allowed; `allowed(node)` then says what is.

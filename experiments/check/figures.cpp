@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/check/html_tags.hpp>
 #include <thinwall/experiments/check/parts.hpp>
+#include <thinwall/experiments/check/xml.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/file_text.hpp>
 
@@ -12,14 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The text in single quotes that follows `at`; a quote in it is doubled.
+/// The string that follows `at`.
 std::string quoted_after(const std::string& script, std::size_t at) {
-  std::string out;
-  for (at = script.find('\'', at) + 1; at != 0 && at < script.size(); ++at) {
-    if (script[at] == '\'' && (++at == script.size() || script[at] != '\'')) break;
-    out += script[at];
-  }
-  return out;
+  return gnuplot_unquoted(std::string_view(script).substr(at));
 }
 
 /// The title and the labels of the axes, which the script sets as labels 1, 2 and 3.
@@ -40,16 +37,15 @@ void check_svg(const std::string& svg, const std::string& script, const std::str
     faults.push_back(file + ": not a whole SVG");
     return;
   }
+  if (const std::string fault = xml_fault(svg); !fault.empty()) {
+    faults.push_back(file + ": not well-formed: " + fault);
+    return;
+  }
+  const std::string shown = html_unescaped(svg);  // gnuplot escapes some of what could be
   const std::set<std::string> words = words_of(script);
   if (words.size() < 3) faults.push_back(file + ": its script does not label both axes");
   for (const std::string& word : words) {
-    std::string escaped = html_escaped(word), half_escaped;  // gnuplot may leave quotes as they are
-    for (std::size_t i = 0; i < escaped.size(); ++i) {
-      const bool quote = escaped.compare(i, 5, "&#39;") == 0;
-      half_escaped += quote ? '\'' : escaped[i];
-      if (quote) i += 4;
-    }
-    if (svg.find(escaped) == std::string::npos && svg.find(half_escaped) == std::string::npos)
+    if (shown.find(word) == std::string::npos)
       faults.push_back(fmt::format("{}: does not show '{}'", file, one_line(word)));
   }
 }

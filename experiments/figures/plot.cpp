@@ -19,17 +19,13 @@ namespace {
 
 constexpr double print_width = 6.3;  // [inch] A4 with margins of an inch
 
-/// In single quotes gnuplot takes every letter as it is.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char letter : one_line(text)) out += letter == '\'' ? std::string("''") : std::string(1, letter);
-  return out + "'";
-}
-
-/// The same for words that LaTeX may have to spell another way.
+/// Words as a string of the script; LaTeX may have to spell them another way, and to gnuplot's SVG `]]>` would be an end.
 std::string spelled(const std::string& text) {
-  const std::string plain = one_line(text), latex = latex_escaped(plain);
-  return latex == plain ? quoted(text) : fmt::format("text_of({}, {})", quoted(plain), quoted(latex));
+  std::string plain = one_line(text);
+  const std::string latex = latex_escaped(plain);
+  const bool alike = latex == plain;
+  for (auto at = plain.find("]]>"); at != std::string::npos; at = plain.find("]]>", at)) plain.insert(at + 2, " ");
+  return alike ? gnuplot_quoted(plain) : fmt::format("text_of({}, {})", gnuplot_quoted(plain), gnuplot_quoted(latex));
 }
 
 void require_drawable(const Figure& figure) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -19,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 5> shape_names = {"sphere", "box", "turned_box", "capsule", "none"};
 constexpr std::array<std::string_view, 3> motion_names = {"free", "driven", "static"};
 constexpr std::int64_t most_bodies = 2'000'000;
-constexpr Range length = {.lower = 0, .unit = "m"};
+constexpr Range length = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
 
 Vec3<double> vector3(const Settings& settings, std::string_view key, const Range& range) {
   const std::vector<double> values = settings.vector(key, 3, range);
@@ -64,8 +65,8 @@ AnyShape read_shape(const Settings& body, const Vec3<double>& at) {
     const double radius = body.number("radius", length), height = body.number("height", length);
     if (height < 2 * radius) body.complain("height", fmt::format("at least twice the radius, {} m", 2 * radius));
     const Vec3<double> axis = vector3(body, "axis", {.lower = -1e6, .upper = 1e6});
-    if (axis.norm() == 0) body.complain("axis", "not zero");
-    const Vec3<double> half = axis.normalized() * (height / 2 - radius);
+    if (axis == Vec3<double>::Zero()) body.complain("axis", "not zero");
+    const Vec3<double> half = axis.stableNormalized() * (height / 2 - radius);
     return Capsule<double>{at - half, at + half, radius};
   }
   return std::monostate{};
@@ -93,24 +94,42 @@ Vec3<double> shaken(const Vec3<double>& widths, const RandomStream& stream, std:
   return by;
 }
 
+constexpr std::int64_t most_id = std::numeric_limits<std::uint32_t>::max();
+
+/// The ids that are taken: the first of each range by its last.
+using TakenIds = std::map<std::int64_t, std::int64_t>;
+
+/// Takes `count` ids in a row, and returns the first: the one that is given, or the next from which on all are free.
+std::uint32_t take_ids(const Settings& body, std::int64_t count, std::int64_t next, TakenIds& taken) {
+  const std::int64_t given = body.integer("id", 0, most_id);
+  std::int64_t first = given > 0 ? given : next;
+  for (auto at = taken.lower_bound(first); at != taken.end() && at->second < first + count; ++at) {
+    if (given > 0) body.complain("id", fmt::format("a body before it has id {}", std::max(first, at->second)));
+    first = at->first + 1;
+  }
+  if (first + count - 1 > most_id)
+    body.complain("id", fmt::format("it takes {} from {} on, and the last there is is {}", count, first, most_id));
+  taken[first + count - 1] = first;
+  return static_cast<std::uint32_t>(first);
+}
+
 /// One [[body]] and its copies, appended.
-void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bodies) {
+void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bodies, TakenIds& taken) {
   settings.reject_unknown_keys();
-  constexpr std::int64_t most_id = std::numeric_limits<std::uint32_t>::max();
-  const Vec3<double> at = vector3(settings, "at", {.unit = "m"});
+  const Vec3<double> at = vector3(settings, "at", scene_coordinate);
   Body body;
   body.shape = read_shape(settings, at);
   const std::string name = settings.text("name"), motion = settings.choice("motion", motion_names);
   body.is_static = motion == "static";
-  body.velocity = vector3(settings, "velocity", {.unit = "m/s"});
+  body.velocity = vector3(settings, "velocity", scene_speed);
   if (body.is_static && settings.given("velocity") && body.velocity != Vec3<double>::Zero())
     settings.complain("velocity", "zero: the body is static");
   if (motion != "free" && settings.given("mass"))
     settings.complain("mass", fmt::format("none: the body is {}", motion));
-  const double mass = settings.number("mass", {.lower = 0, .lower_open = true, .unit = "kg"});
+  const double mass = settings.number("mass", {.lower = 1e-30, .upper = most_of_a_scene, .unit = "kg"});
   body.mass = motion == "free" ? mass : std::numeric_limits<double>::infinity();
   body.restitution = settings.number("restitution", {.lower = 0, .upper = 1});
-  body.gravity_scale = settings.number("gravity_scale", {});
+  body.gravity_scale = settings.number("gravity_scale", {.lower = -most_of_a_scene, .upper = most_of_a_scene});
   body.group = static_cast<std::uint32_t>(settings.integer("group", 0, most_id));
   body.mask = static_cast<std::uint32_t>(settings.integer("mask", 0, most_id));
 
@@ -123,15 +142,16 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   const double total = counts[0] * counts[1] * counts[2] + static_cast<double>(bodies.size());
   if (total > static_cast<double>(most_bodies))
     settings.complain("copies", fmt::format("at most {} bodies in all", most_bodies));
-  const Vec3<double> every = vector3(settings, "every", {.unit = "m"}), jitter = vector3(settings, "jitter", length);
-  const Vec3<double> speeds = vector3(settings, "velocity_jitter", {.lower = 0, .unit = "m/s"});
+  const Vec3<double> every = vector3(settings, "every", scene_coordinate), jitter = vector3(settings, "jitter", length);
+  const Vec3<double> speeds =
+      vector3(settings, "velocity_jitter", {.lower = 0, .upper = most_of_a_scene, .unit = "m/s"});
   const Vec3<double> size = size_of(body);
   const RandomStream stream{seed, stream_of(std::array{at[0], at[1], at[2], size[0], size[1], size[2], counts[0],
                                                        counts[1], counts[2], every[0], every[1], every[2]})};
 
-  const std::int64_t given = settings.integer("id", 0, most_id);
-  std::uint32_t id = given > 0 ? static_cast<std::uint32_t>(given) : bodies.empty() ? 1 : bodies.back().id + 1;
-  const bool alone = total - static_cast<double>(bodies.size()) == 1;
+  const std::int64_t count = copies[0] * copies[1] * copies[2];
+  std::uint32_t id = take_ids(settings, count, bodies.empty() ? 1 : std::int64_t{bodies.back().id} + 1, taken);
+  const bool alone = count == 1;
   std::uint64_t copy = 0;
   for (std::int64_t k = 0; k < copies[2]; ++k) {
     for (std::int64_t j = 0; j < copies[1]; ++j) {
@@ -151,7 +171,8 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
 
 std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
   std::vector<Body> bodies;
-  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies);
+  TakenIds taken;
+  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies, taken);
   return bodies;
 }
 

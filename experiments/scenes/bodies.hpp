@@ -9,6 +9,12 @@
 
 namespace thinwall {
 
+/// What a scene may say of a length [m], a speed [m/s], an acceleration [m/s^2] or a mass [kg]: within the longest run no place
+/// leaves the world, and no energy the range of doubles.
+inline constexpr double most_of_a_scene = 1e30;
+inline constexpr Range scene_coordinate = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
+inline constexpr Range scene_speed = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
+
 /// Every [[body]] of the file, copies made: a grid, and random numbers that depend on the seed, on the body's own place,
 /// size and grid, and on the copy's place in it alone. Ids count up from 1, in the order of the file.
 /// Throws UsageError: a key out of range, missing, or not of the shape; more than two million bodies.

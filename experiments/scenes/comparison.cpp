@@ -23,20 +23,27 @@ std::string Contender::label() const {
   return text;
 }
 
+CompareKeys read_compare_keys(const Settings& settings) {
+  CompareKeys keys;
+  keys.policies = settings.choices("compare.policy", policy_names());
+  keys.steps = settings.numbers("compare.dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
+  std::sort(keys.steps.begin(), keys.steps.end());
+  keys.finer = static_cast<int>(settings.integer("compare.finer", 1, 1000));
+  keys.repeats = static_cast<int>(settings.integer("compare.repeats", 1, 100));
+  return keys;
+}
+
 Comparison read_comparison(const Settings& settings, const RunOptions& options) {
   Comparison out;
   out.scene = read_scene(settings, options);
   out.scene.options.threads = 1;  // contenders run side by side, and each is timed
-  std::vector<double> steps =
-      settings.numbers("compare.dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
-  std::sort(steps.begin(), steps.end());
-  for (const std::string& policy : settings.choices("compare.policy", policy_names())) {
-    for (const double dt : steps) out.contenders.push_back({policy_named(policy), out.scene.options.substeps, dt});
+  const CompareKeys keys = read_compare_keys(settings);
+  for (const std::string& policy : keys.policies) {
+    for (const double dt : keys.steps) out.contenders.push_back({policy_named(policy), out.scene.options.substeps, dt});
   }
-  const auto finer = static_cast<double>(settings.integer("compare.finer", 1, 1000));
-  out.repeats = static_cast<int>(settings.integer("compare.repeats", 1, 100));
-  out.exact = {TimePolicy::event_driven, 1, steps.front() / finer};
-  if (steps.back() > out.scene.duration())
+  out.repeats = keys.repeats;
+  out.exact = {TimePolicy::event_driven, 1, keys.steps.front() / keys.finer};
+  if (keys.steps.back() > out.scene.duration())
     settings.complain("compare.dt", fmt::format("at most the scene's {} s", out.scene.duration()));
   if (out.scene.duration() / out.exact.dt > most_exact_steps)
     settings.complain("compare.dt", fmt::format("at most {:.0f} steps of the exact run", most_exact_steps));

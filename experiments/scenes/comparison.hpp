@@ -31,6 +31,16 @@ struct Comparison {
   int repeats = 1;
 };
 
+/// What [compare] says.
+struct CompareKeys {
+  std::vector<std::string> policies;
+  std::vector<double> steps;  ///< [s] ascending
+  int finer = 1, repeats = 1;
+};
+
+/// Throws UsageError: a key that is in no scene's range.
+CompareKeys read_compare_keys(const Settings& settings);
+
 /// Throws UsageError.
 Comparison read_comparison(const Settings& settings, const RunOptions& options);
 

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
 #include <thinwall/experiments/scenes/bodies.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/spelling.hpp>
 #include <thinwall/experiments/world/plan.hpp>
+#include <thinwall/experiments/world/step/pair_finder.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
@@ -33,14 +36,17 @@ std::string scene_name(const Settings& settings) {
 
 WorldOptions world_options(const Settings& settings, int threads) {
   WorldOptions options;
-  const std::vector<double> gravity = settings.vector("gravity", 3, {.unit = "m/s^2"});
+  const std::vector<double> gravity =
+      settings.vector("gravity", 3, {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s^2"});
   options.gravity = {gravity[0], gravity[1], gravity[2]};
   options.policy = policy_named(settings.choice("policy", policy_names()));
   options.substeps = static_cast<int>(settings.integer("substeps", 1, 1000));
   options.max_events = static_cast<int>(settings.integer("max_events", 1, 1'000'000));
   options.contact_rounds = static_cast<int>(settings.integer("contact_rounds", 0, 1000));
   options.correction = settings.number("correction", {.lower = 0, .upper = 1});
-  options.broad_phase = settings.text("broad_phase");
+  std::vector<std::string_view> broad_phases = {"auto"};
+  broad_phases.insert(broad_phases.end(), PairFinder::names().begin(), PairFinder::names().end());
+  options.broad_phase = settings.choice("broad_phase", broad_phases);
   options.response = settings.flag("response");
   options.end_after = static_cast<int>(settings.integer("end_after", 1, 1'000'000));
   options.gate = settings.number("gate", {.lower = 0});
@@ -50,20 +56,31 @@ WorldOptions world_options(const Settings& settings, int threads) {
   return options;
 }
 
-Push read_push(const Settings& push, const Scene& scene) {
+/// The bodies that a push may name; nothing where two share a name.
+using Pushable = std::map<std::string_view, const Body*>;
+
+Pushable pushable(const std::vector<Body>& bodies) {
+  Pushable out;
+  for (const Body& body : bodies) {
+    if (body.is_static || body.name.empty()) continue;
+    if (const auto [at, is_new] = out.emplace(body.name, &body); !is_new) at->second = nullptr;
+  }
+  return out;
+}
+
+Push read_push(const Settings& push, const Pushable& bodies) {
   push.reject_unknown_keys();
   push.require("body", "the name of the body that is pushed");
   const std::string name = push.text("body");
-  std::vector<std::string_view> names;
-  const Body* found = nullptr;
-  for (const Body& body : scene.bodies) {
-    if (body.is_static || body.name.empty()) continue;
-    if (names.size() < 20) names.push_back(body.name);
-    if (body.name == name) found = &body;
+  const auto found = bodies.find(name);
+  if (found == bodies.end()) {
+    std::vector<std::string_view> names;
+    for (auto at = bodies.begin(); at != bodies.end() && names.size() < 20; ++at) names.push_back(at->first);
+    push.complain("body", "a body that moves, by its name; " + spelling_hint(name, names));
   }
-  if (!found) push.complain("body", "a body that moves, by its name; " + spelling_hint(name, names));
-  const std::vector<double> velocity = push.vector("velocity", 3, {.unit = "m/s"});
-  return {push.number("time", {.lower = 0, .unit = "s"}), found->id, {velocity[0], velocity[1], velocity[2]}};
+  if (!found->second) push.complain("body", "a name that one moving body alone has; several have this one");
+  const std::vector<double> velocity = push.vector("velocity", 3, scene_speed);
+  return {push.number("time", {.lower = 0, .unit = "s"}), found->second->id, {velocity[0], velocity[1], velocity[2]}};
 }
 
 void check_trace(const Settings& settings, const Scene& scene) {
@@ -106,7 +123,10 @@ Scene read_scene(const Settings& settings, const RunOptions& options) {
   }
   scene.options = world_options(settings, options.threads);
   scene.bodies = read_bodies(settings, options.seed);
-  for (const Settings& push : settings.tables("push", push_defaults)) scene.pushes.push_back(read_push(push, scene));
+  if (const std::vector<Settings> pushes = settings.tables("push", push_defaults); !pushes.empty()) {
+    const Pushable bodies = pushable(scene.bodies);
+    for (const Settings& push : pushes) scene.pushes.push_back(read_push(push, bodies));
+  }
   std::stable_sort(scene.pushes.begin(), scene.pushes.end(),
                    [](const Push& a, const Push& b) { return a.time < b.time; });
   scene.trace = settings.flag("trace");
@@ -115,9 +135,10 @@ Scene read_scene(const Settings& settings, const RunOptions& options) {
   const std::string view = settings.choice("view", view_names);
   scene.across = view[0] - 'x';
   scene.up = view[1] - 'x';
+  read_compare_keys(settings);  // they are kept with the result, be it of `run`
   try {
     plan(scene.bodies, scene.options);
-  } catch (const WorldError& error) {  // two bodies with one id, for one: the world knows best
+  } catch (const WorldError& error) {  // the world knows best
     throw UsageError(fmt::format("scene '{}': {}", scene.name, one_line(error.what())));
   }
   return scene;

@@ -1,6 +1,8 @@
 #include <thinwall/experiments/text/escape.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -24,12 +26,72 @@ template <class Replacement> std::string replaced(std::string_view text, Replace
   return out;
 }
 
+/// What begins a letter in UTF-8: how many bytes it has, the bits of it there, and the least that needs so many bytes.
+struct Lead {
+  unsigned char from, to;
+  std::size_t bytes;
+  std::uint32_t mask, least;
+};
+constexpr std::array<Lead, 4> leads = {{{0x00, 0x7f, 1, 0x7f, 0},
+                                        {0xc0, 0xdf, 2, 0x1f, 0x80},
+                                        {0xe0, 0xef, 3, 0x0f, 0x800},
+                                        {0xf0, 0xf7, 4, 0x07, 0x10000}}};
+
 }  // namespace
+
+std::size_t letter_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+  for (const Lead& lead : leads) {
+    if (text.size() < lead.bytes || byte(0) < lead.from || byte(0) > lead.to) continue;
+    std::uint32_t code = byte(0) & lead.mask;
+    for (std::size_t i = 1; i < lead.bytes; ++i) {
+      if ((byte(i) & 0xc0) != 0x80) return 0;
+      code = code << 6 | (byte(i) & 0x3fU);
+    }
+    const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0), surrogate = code >= 0xd800 && code < 0xe000;
+    const bool letter = !control && !surrogate && (code & 0xfffe) != 0xfffe && code >= lead.least && code <= 0x10ffff;
+    return letter ? lead.bytes : 0;
+  }
+  return 0;
+}
 
 std::string one_line(std::string_view text) {
   std::string out;
-  for (const char letter : text) {
-    out += is_control(letter) ? fmt::format("\\x{:02x}", static_cast<unsigned char>(letter)) : std::string(1, letter);
+  while (!text.empty()) {
+    const std::size_t bytes = letter_bytes(text);
+    out +=
+        bytes > 0 ? std::string(text.substr(0, bytes)) : fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  return out;
+}
+
+std::string gnuplot_quoted(std::string_view text) {
+  std::string plain = one_line(text), out = "\"";
+  if (plain.find('\'') == std::string::npos) return "'" + plain + "'";
+  for (const char letter : plain) {
+    const bool special = std::string_view("'\"\\`@").find(letter) != std::string_view::npos;
+    out += special ? fmt::format("\\{:03o}", static_cast<unsigned char>(letter)) : std::string(1, letter);
+  }
+  return out + '"';
+}
+
+std::string gnuplot_unquoted(std::string_view script) {
+  const auto begin = script.find_first_of("'\"");
+  if (begin == std::string_view::npos) return {};
+  const char quote = script[begin];
+  const auto digit = [&](std::size_t at) { return at < script.size() && script[at] >= '0' && script[at] <= '7'; };
+  std::string out;
+  for (std::size_t at = begin + 1; at < script.size(); ++at) {
+    if (script[at] == quote) {
+      if (quote == '"' || !script.substr(at).starts_with("''")) break;
+      ++at;  // a doubled one
+    } else if (quote == '"' && script[at] == '\\' && digit(at + 1) && digit(at + 2) && digit(at + 3)) {
+      out += static_cast<char>((script[at + 1] - '0') * 64 + (script[at + 2] - '0') * 8 + script[at + 3] - '0');
+      at += 3;
+      continue;
+    }
+    out += script[at];
   }
   return out;
 }

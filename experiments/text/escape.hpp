@@ -1,14 +1,26 @@
 #pragma once
 /// Text made safe for where it goes.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace thinwall {
 
-/// One line for a terminal: control characters, which could also drive it, become `\x1b` and the like.
+/// How many bytes the UTF-8 letter has that `text` begins with; 0 if there is none that can be shown: a control character, a
+/// surrogate, one that Unicode says is no character (U+FFFE, U+FFFF), or bytes that are not UTF-8.
+std::size_t letter_bytes(std::string_view text);
+
+/// One line for a terminal or a page: what is no letter, and could drive the one and break the other, becomes `\x1b` and the like.
 std::string one_line(std::string_view text);
+
+/// One line as a string of a gnuplot script. In single quotes gnuplot takes every letter as it is, but loses count of doubled
+/// ones: a text with a quote stands in double quotes, and what is special there as an octal number.
+std::string gnuplot_quoted(std::string_view text);
+
+/// The text of the first string in a script; also where a quote in single quotes is doubled.
+std::string gnuplot_unquoted(std::string_view script);
 
 /// At most `letters` bytes of `text`, then dots if there was more; never half a UTF-8 letter.
 std::string clipped(std::string_view text, std::size_t letters);

@@ -23,6 +23,7 @@ struct BodyMotion {
   double anchor = 0;                             ///< [1] part of the step
   double speed = 0;           ///< [m/s] the largest |v_x| + |v_y| + |v_z| so far: what rounding is of
   std::uint32_t version = 0;  ///< changes with the motion
+  std::uint32_t arrived = 0;  ///< the version that came to `anchor`: those after it turned there
   int events = 0;             ///< hits so far
   bool waiting = false;       ///< does not move any more in this step
 };

@@ -5,6 +5,10 @@
 #include <thinwall/discrete/broad_phase/r_tree.hpp>
 #include <thinwall/experiments/world/step/boxes.hpp>
 
+// What removing from an R-tree needs; after r_tree.hpp, which silences Boost's note about a header of its own.
+#include <boost/geometry/algorithms/covered_by.hpp>
+#include <boost/geometry/algorithms/equals.hpp>
+
 namespace thinwall {
 namespace {
 
@@ -72,19 +76,21 @@ void Neighbors::search(const Proxy& box) {
   };
   tree_->boxes.query(boost::geometry::index::intersects(r_tree::box_of(box)), r_tree::Each(take));
   std::sort(found_.begin(), found_.end());
-  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
 }
 
 void Neighbors::change(std::uint32_t which, const Proxy& box) {
   Proxy& old = (*proxies_)[which];
   if (everyone_ || old.skipped || holds_box(old, box)) return;
   search(box);
-  if (tree_) tree_->boxes.insert(r_tree::Entry(r_tree::box_of(box), which));  // the old entry stays, and is passed over
+  if (tree_) {
+    tree_->boxes.remove(r_tree::Entry(r_tree::box_of(old), which));
+    tree_->boxes.insert(r_tree::Entry(r_tree::box_of(box), which));
+  }
   old = box;
   for (const std::uint32_t other : found_) {
     if (other == which) continue;
-    later_[which].push_back(other);
-    if ((*has_links_)[other]) later_[other].push_back(which);
+    later_[which].insert(other);
+    if ((*has_links_)[other]) later_[other].insert(which);
   }
 }
 
@@ -110,7 +116,7 @@ const std::vector<std::uint32_t>& Neighbors::of(std::uint32_t which) {
 
 std::size_t Neighbors::bytes() const {
   std::size_t sum = (start_.capacity() + links_.capacity()) * sizeof(std::uint32_t);
-  for (const auto& entry : later_) sum += sizeof(entry) + entry.second.capacity() * sizeof(std::uint32_t);
+  for (const auto& entry : later_) sum += sizeof(entry) + entry.second.size() * 5 * sizeof(void*);  // nodes
   return tree_ ? sum + tree_->boxes.size() * sizeof(r_tree::Entry) : sum;
 }
 

@@ -3,9 +3,11 @@
 ///
 /// Every body has a box that holds the rest of its path, and two bodies are linked if their boxes meet. The broad phase gives
 /// the first links. A body whose new path stays in its box keeps box and links; another gets a new box, and is linked to all
-/// whose boxes it meets. So two bodies that are not linked have disjoint boxes and cannot meet.
+/// whose boxes it meets. So two bodies that are not linked have disjoint boxes and cannot meet. However often bodies turn, each
+/// has one box, and at most one link to each other.
 
 #include <memory>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -41,8 +43,8 @@ class Neighbors {
   std::span<const ProxyPair> pairs_;
   const std::vector<bool>* has_links_ = nullptr;
   bool everyone_ = false, linked_ = false;
-  std::vector<std::uint32_t> start_, links_;                             // of the pairs, body by body
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> later_;  // links made since
+  std::vector<std::uint32_t> start_, links_;                          // of the pairs, body by body
+  std::unordered_map<std::uint32_t, std::set<std::uint32_t>> later_;  // links made since
   std::size_t searches_ = 0;
   std::unique_ptr<Tree> tree_;  // of all boxes, once enough of them have been searched
   std::vector<std::uint32_t> found_, answer_;

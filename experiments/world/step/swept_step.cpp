@@ -7,6 +7,14 @@
 #include <thinwall/experiments/world/step/stepping.hpp>
 
 namespace thinwall {
+namespace {
+
+/// What touches at the start of the step has been told then.
+void tell(const Touch& touch, std::vector<Touch>& processed) {
+  if (!touch.at_start || touch.time > 0) processed.push_back(touch);
+}
+
+}  // namespace
 
 void EventLoop::run(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts) {
   changed_.assign(scene_.bodies.size(), false);
@@ -18,21 +26,49 @@ void EventLoop::run(std::span<const Touch> found, std::vector<Touch>& processed,
   while (!queue_.empty()) {
     const Event event = queue_.top();
     queue_.pop();
-    if (event.version_first != motions_[event.touch.first].version) continue;
-    if (event.version_second != motions_[event.touch.second].version) continue;
-    happen(event, processed, counts);
+    if (is_on_course(event)) {
+      happen(event, processed, counts);
+    } else if (was_on_course(event) && !press(event.touch)) {  // those that do have been swept again
+      tell(event.touch, processed);
+    }
   }
   for (std::uint32_t i = 0; i < motions_.size(); ++i) {
     if (can_move(scene_.bodies[i])) advance(i, 1);
   }
 }
 
+/// True if it may move in the rest of the step, be it driven.
+bool EventLoop::goes_on(std::uint32_t which) const {
+  return can_move(scene_.bodies[which]) && !motions_[which].waiting;
+}
 bool EventLoop::is_free(std::uint32_t which) const {
-  return is_moved_by_impulses(scene_.bodies[which]) && !motions_[which].waiting;
+  return is_moved_by_impulses(scene_.bodies[which]) && goes_on(which);
+}
+
+bool EventLoop::is_on_course(const Event& event) const {
+  return event.version_first == motions_[event.touch.first].version &&
+         event.version_second == motions_[event.touch.second].version;
+}
+
+/// True if both came to the place of the event, and one was turned there in the same instant, by a third: they touch.
+bool EventLoop::was_on_course(const Event& event) const {
+  const auto came = [&](std::uint32_t which, std::uint32_t version) {
+    const BodyMotion& motion = motions_[which];
+    return version == motion.version || (motion.anchor == event.touch.time && version >= motion.arrived);
+  };
+  return came(event.touch.first, event.version_first) && came(event.touch.second, event.version_second);
+}
+
+/// True if the two that touch go on toward each other by more than rounding, and one of them can be turned.
+bool EventLoop::press(const Touch& touch) const {
+  const BodyMotion &a = motions_[touch.first], &b = motions_[touch.second];
+  return (is_free(touch.first) || is_free(touch.second)) &&
+         closing_speed(touch.normal, moving_at(a), moving_at(b)) > closing_noise(a, b);
 }
 
 void EventLoop::advance(std::uint32_t which, double time) {
   BodyMotion& motion = motions_[which];
+  if (time != motion.anchor) motion.arrived = motion.version;
   motion.offset = offset_at(motion, time, scene_.dt);
   motion.anchor = time;
 }
@@ -90,21 +126,18 @@ void EventLoop::ask(double time, StepReport& counts) {
 /// Bodies that touch and do not approach never meet again on straight paths: they are convex, and the plane of contact goes
 /// on parting them.
 void EventLoop::schedule(const Touch& touch) {
-  if (!is_free(touch.first) && !is_free(touch.second)) return;
-  const BodyMotion &a = motions_[touch.first], &b = motions_[touch.second];
-  if (touch.at_start && !(closing_speed(touch.normal, moving_at(a), moving_at(b)) > closing_noise(a, b))) return;
-  queue_.push({touch, a.version, b.version});
+  if (touch.at_start && !press(touch)) return;
+  queue_.push({touch, motions_[touch.first].version, motions_[touch.second].version});
 }
 
 void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepReport& counts) {
   const Touch& touch = event.touch;
   const std::uint32_t ends[2] = {touch.first, touch.second};
   BodyMotion &a = motions_[ends[0]], &b = motions_[ends[1]];
-  if (!touch.at_start || touch.time > 0) processed.push_back(touch);  // of the others it is known
-  const double noise = closing_noise(a, b);
-  const bool bounces = closing_speed(touch.normal, a.velocity, b.velocity) > noise;
-  const bool approaches = closing_speed(touch.normal, moving_at(a), moving_at(b)) > noise;
-  if (!bounces && !approaches) return;  // a graze
+  tell(touch, processed);
+  if (!is_free(ends[0]) && !is_free(ends[1])) return;  // no impulse turns either
+  const bool bounces = closing_speed(touch.normal, a.velocity, b.velocity) > closing_noise(a, b);
+  if (!bounces && !press(touch)) return;  // a graze
   bool changes[2] = {false, false};
   for (const std::uint32_t end : ends) {
     if (can_move(scene_.bodies[end])) advance(end, touch.time);
@@ -139,7 +172,7 @@ void EventLoop::change_course(std::uint32_t which) {
   scene_.neighbors.change(which, proxy_of(body, motion, scene_.dt));
 }
 
-/// All that the body may meet from `time` on, but the pair with `done`, which is known.
+/// All that the body may meet from `time` on, but the pair with `done`, which is known. One that waits may still be met.
 void EventLoop::sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts) {
   const auto place = [&](std::uint32_t i) {
     scene_.narrow.place_one(i, scene_.bodies[i], motions_[i], time, scene_.dt);
@@ -147,7 +180,7 @@ void EventLoop::sweep_again(std::uint32_t which, std::uint32_t done, double time
   place(which);
   pairs_.clear();
   for (const std::uint32_t other : scene_.neighbors.of(which)) {
-    if (other == done || (!is_free(which) && !is_free(other))) continue;
+    if (other == done || (!goes_on(which) && !goes_on(other))) continue;
     place(other);
     pairs_.push_back({std::min(which, other), std::max(which, other)});
   }

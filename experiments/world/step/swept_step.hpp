@@ -12,8 +12,8 @@
 
 namespace thinwall {
 
-/// Every event takes one of the `max_events` of a body that moves, or ends its motion, so that a step of n bodies has at most
-/// n (max_events + 1) of them.
+/// Every contact is told. One with a body that an impulse can turn is answered, which takes one of the `max_events` of that body, or
+/// ends its motion: a step of n bodies has at most n (max_events + 1) answers.
 class EventLoop {
  public:
   struct Scene {
@@ -36,11 +36,13 @@ class EventLoop {
   struct Event {
     Touch touch;
     std::uint32_t version_first = 0, version_second = 0;
-    /// The later one: std::priority_queue hands out the greatest.
+    /// The later one: std::priority_queue hands out the greatest. Of one pair at one time the older goes first.
     bool operator<(const Event& other) const {
       if (touch.time != other.touch.time) return touch.time > other.touch.time;
       if (touch.first != other.touch.first) return touch.first > other.touch.first;
-      return touch.second > other.touch.second;
+      if (touch.second != other.touch.second) return touch.second > other.touch.second;
+      if (version_first != other.version_first) return version_first > other.version_first;
+      return version_second > other.version_second;
     }
   };
 
@@ -48,10 +50,14 @@ class EventLoop {
   void sweep_changed_at_start(StepReport& counts);
   void schedule(const Touch& touch);
   void happen(const Event& event, std::vector<Touch>& processed, StepReport& counts);
+  bool is_on_course(const Event& event) const;
+  bool was_on_course(const Event& event) const;
+  bool press(const Touch& touch) const;
   void sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts);
   void advance(std::uint32_t which, double time);
   void change_course(std::uint32_t which);
   void ask(double time, StepReport& counts);
+  bool goes_on(std::uint32_t which) const;
   bool is_free(std::uint32_t which) const;
 
   const Scene& scene_;

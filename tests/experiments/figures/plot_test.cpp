@@ -5,9 +5,13 @@
 #include <limits>
 #include <set>
 
+#include <thinwall/experiments/check/html_tags.hpp>
+#include <thinwall/experiments/check/parts.hpp>
+#include <thinwall/experiments/check/xml.hpp>
 #include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/figures/plot_axis.hpp>
 #include <thinwall/experiments/figures/plot_style.hpp>
+#include <thinwall/experiments/text/escape.hpp>
 
 #include "support/temporary_folder.hpp"
 
@@ -44,6 +48,29 @@ TEST(Plot, is_drawn_the_same_every_time_and_again_by_a_reader) {
   for (const char* text : {"Seen", "x [1]", "p [1]", "r [1]", "it&#39;s_@{a}", "it's_@{a}"}) {
     if (first.find(text) != std::string::npos) continue;
     EXPECT_STREQ(text, "it&#39;s_@{a}") << "not in the figure";  // either spelling of the quote is right
+  }
+}
+
+/// A name is the user's, and stands in the script, the legend, at the tics and as the title.
+TEST(Plot, no_name_breaks_a_figure) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  for (const std::string name :
+       {"'",    "''",     "'a",       "a''b",         "it's",         "\"",   "a\"b",  "'\"'\"", "a\\",
+        "\\'",  "\\047'", "'`date`'", "'@small'",     "a{b}_c^d",     "#",    "%g",    "$1",     "a, b; c",
+        "a\nb", "]]>",    "']]>]]>'", "<b>&amp;</b>", "\xef\xbf\xbe", "\xff", "\u00b5"}) {
+    Figure figure = two_panels();
+    figure.title = figure.panels[0].series[0].label = name;
+    figure.panels[0].y_tics = {{0, name}, {1, "one"}};
+    const TemporaryFolder folder;
+    write_text(folder / "probability.gp", plot_script(figure));
+    write_text(folder / "probability.dat", plot_data(figure));
+    ASSERT_EQ(draw(folder.path(), "probability"), "") << name;
+    const std::string svg = read_text(folder / "probability.svg");
+    EXPECT_EQ(xml_fault(svg), "") << name;
+    std::string shown = one_line(name);
+    for (auto at = shown.find("]]>"); at != std::string::npos; at = shown.find("]]>")) shown.insert(at + 2, " ");
+    EXPECT_NE(html_unescaped(svg).find(">" + shown + "<"), std::string::npos) << name;
+    EXPECT_EQ(title_of_script(plot_script(figure)), shown) << "what a check looks for";
   }
 }
 

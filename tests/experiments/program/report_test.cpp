@@ -251,7 +251,9 @@ TEST_F(ReportTest, wants_a_page_that_stands_alone_and_is_complete) {
 }
 
 TEST_F(ReportTest, wants_figures_with_words_and_texts_that_can_be_read) {
-  change("plots/squares.svg", "x [m]", "x");
+  change("plots/squares.svg", "x [m]", "x [m]]]>");
+  expect_fault("plots/squares.svg: not well-formed: line ");
+  change("plots/squares.svg", "x [m]]]>", "x");
   expect_fault("plots/squares.svg: does not show 'x [m]'");
   change("plots/squares.svg", "</svg>", "");
   expect_fault("plots/squares.svg: not a whole SVG");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +38,20 @@ TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
   EXPECT_EQ(manifest()["experiment"], "scene");
   EXPECT_EQ(manifest()["config"]["trace"], true);
   EXPECT_TRUE(manifest()["files"].contains("trace.jsonl"));
+}
+
+TEST_F(SceneProgram, draws_and_checks_bodies_of_any_name) {
+  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "gnuplot is not installed";
+  std::string text = "experiment = 'scene'\nscene = 'names'\nsteps = 2\n";
+  for (const char* name : {"\\\"", "''", "'first", "]]>", "]]></text><script>x</script>", "a`b`"}) {
+    text += "[[body]]\nshape = 'sphere'\nradius = 1\nvelocity = [1, 0, 0]\nname = \"" + std::string(name) + "\"\n";
+  }
+  write_text(file, text);
+  const Reply reply = call({"run", file, "--out", out});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(reply.err.find("not drawn"), std::string::npos) << reply.err;
+  EXPECT_TRUE(std::filesystem::exists(out + "/plots/tracks.svg"));
+  EXPECT_EQ(call({"report", out, "--check"}).status, 0);
 }
 
 TEST_F(SceneProgram, what_a_folder_resolves_to_gives_it_again) {

@@ -90,6 +90,13 @@ TEST(RangeContains, refuses_what_is_no_number) {
 
 TEST(Escape, leaves_nothing_that_the_place_would_read) {
   EXPECT_EQ(one_line("a\nb\x1b[31m"), "a\\x0ab\\x1b[31m");
+  EXPECT_EQ(one_line("\u00b5 \U0001f3b1 \uac00"), "\u00b5 \U0001f3b1 \uac00");
+  EXPECT_EQ(one_line("\xc2\x9b|\xef\xbf\xbe|\xef\xbf\xbf|\xef\xbf\xbd"),
+            "\\xc2\\x9b|\\xef\\xbf\\xbe|\\xef\\xbf\\xbf|\xef\xbf\xbd");
+  EXPECT_EQ(one_line("\xff|\xc0\xaf|\xed\xa0\x80|\xf4\x90\x80\x80"),
+            "\\xff|\\xc0\\xaf|\\xed\\xa0\\x80|\\xf4\\x90\\x80\\x80")
+      << "no UTF-8, too long, a surrogate, beyond the last";
+  EXPECT_EQ(one_line("\xe2\x82"), "\\xe2\\x82") << "half a letter";
   EXPECT_EQ(json_string("a\"b\\\n"), "\"a\\\"b\\\\\\u000a\"");
   EXPECT_EQ(html_escaped("<a href=\"x\">&'"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
   EXPECT_EQ(latex_escaped("50 % of a_b & {c}^2"), "50 \\% of a\\_b \\& \\{c\\}\\textasciicircum{}2");
@@ -100,6 +107,16 @@ TEST(Escape, leaves_nothing_that_the_place_would_read) {
 
 TEST(ShellLine, splits_into_the_same_words) {
   EXPECT_EQ(shell_line({"run", "a b", "it's", "", "x=1"}), "run 'a b' 'it'\\''s' '' x=1");
+}
+
+RC_GTEST_PROP(GnuplotQuoted, gives_the_text_back, (const std::string& text)) {
+  RC_ASSERT(gnuplot_unquoted("title " + gnuplot_quoted(text) + " with 'b'") == one_line(text));
+}
+
+TEST(GnuplotQuoted, leaves_no_quote_within) {
+  EXPECT_EQ(gnuplot_quoted("a \"b\" \\ `c`"), "'a \"b\" \\ `c`'");
+  EXPECT_EQ(gnuplot_quoted("it's \"b\" \\ `c`"), "\"it\\047s \\042b\\042 \\134 \\140c\\140\"");
+  EXPECT_EQ(gnuplot_unquoted("'it''s' 'b'"), "it's") << "as older scripts have it";
 }
 
 RC_GTEST_PROP(TsvEscape, gives_the_text_back_and_hides_what_separates, (const std::string& text)) {
