@@ -8,7 +8,7 @@ namespace thinwall {
 
 namespace {
 
-constexpr double confidence = 0.95, central = 0.999;
+constexpr double level = 0.95, central = 0.999;
 
 void add(SelfTest& test, const CellCount& cell) {
   if (cell.theory == 0 || cell.theory == 1) {
@@ -17,7 +17,7 @@ void add(SelfTest& test, const CellCount& cell) {
     if (cell.tunneled != certain) ++test.certain_wrong;
   } else if (can_be_judged(cell.shots, cell.theory)) {
     ++test.judged_cells;
-    if (wilson(cell.tunneled, cell.shots, confidence).contains(cell.theory)) ++test.covered;
+    if (wilson(cell.tunneled, cell.shots, level).contains(cell.theory)) ++test.covered;
     const double residual = standard_residual(cell.tunneled, cell.shots, cell.theory);
     test.chi_square += residual * residual;
   } else {
@@ -53,7 +53,7 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
   }
   for (SelfTest& test : tests) {
     if (test.judged_cells == 0) continue;
-    test.covered_allowed = binomial_range(test.judged_cells, confidence, central);
+    test.covered_allowed = binomial_range(test.judged_cells, level, central);
     test.chi_square_allowed = chi_square_range(test.judged_cells, central);
   }
   return tests;

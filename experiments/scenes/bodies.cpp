@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 5> shape_names = {"sphere", "box", "turned_box", "capsule", "none"};
 constexpr std::array<std::string_view, 3> motion_names = {"free", "driven", "static"};
 constexpr std::int64_t most_bodies = 2'000'000;
-constexpr Range length = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
+constexpr Range length_range = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
 
 Vec3<double> vector3(const Settings& settings, std::string_view key, const Range& range) {
   const std::vector<double> values = settings.vector(key, 3, range);
@@ -56,13 +56,13 @@ AnyShape read_shape(const Settings& body, const Vec3<double>& at) {
   body.require("shape", "\"sphere\", \"box\", \"turned_box\", \"capsule\" or \"none\"");
   const std::string shape = body.choice("shape", shape_names);
   check_keys(body, shape);
-  if (shape == "sphere") return Sphere<double>{at, body.number("radius", length)};
-  if (shape == "box") return Aabb<double>{at, vector3(body, "size", length) / 2};
+  if (shape == "sphere") return Sphere<double>{at, body.number("radius", length_range)};
+  if (shape == "box") return Aabb<double>{at, vector3(body, "size", length_range) / 2};
   if (shape == "turned_box") {
-    return Obb<double>{at, vector3(body, "size", length) / 2, turned(vector3(body, "turn_deg", {.unit = "deg"}))};
+    return Obb<double>{at, vector3(body, "size", length_range) / 2, turned(vector3(body, "turn_deg", {.unit = "deg"}))};
   }
   if (shape == "capsule") {
-    const double radius = body.number("radius", length), height = body.number("height", length);
+    const double radius = body.number("radius", length_range), height = body.number("height", length_range);
     if (height < 2 * radius) body.complain("height", fmt::format("at least twice the radius, {} m", 2 * radius));
     const Vec3<double> axis = vector3(body, "axis", {.lower = -1e6, .upper = 1e6});
     if (axis == Vec3<double>::Zero()) body.complain("axis", "not zero");
@@ -142,7 +142,8 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   const double total = counts[0] * counts[1] * counts[2] + static_cast<double>(bodies.size());
   if (total > static_cast<double>(most_bodies))
     settings.complain("copies", fmt::format("at most {} bodies in all", most_bodies));
-  const Vec3<double> every = vector3(settings, "every", scene_coordinate), jitter = vector3(settings, "jitter", length);
+  const Vec3<double> every = vector3(settings, "every", scene_coordinate),
+                     jitter = vector3(settings, "jitter", length_range);
   const Vec3<double> speeds =
       vector3(settings, "velocity_jitter", {.lower = 0, .upper = most_of_a_scene, .unit = "m/s"});
   const Vec3<double> size = size_of(body);
