@@ -18,7 +18,8 @@ namespace thinwall {
 
 namespace {
 
-constexpr std::int64_t block_size = 1000;
+/// Queries a unit: so many that a row has at most a thousand.
+std::int64_t block_size(std::int64_t queries) { return std::max<std::int64_t>(1000, (queries + 999) / 1000); }
 
 /// One row of the result: a pair, and how its queries were put.
 struct Row {
@@ -43,8 +44,8 @@ class AccuracyRun final : public Run {
   std::vector<Unit> units() const override {
     std::vector<Unit> units;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (std::int64_t first = 0; first < counts_[i]; first += block_size) {
-        const std::int64_t count = std::min(block_size, counts_[i] - first);
+      for (std::int64_t first = 0; first < counts_[i]; first += block_size(counts_[i])) {
+        const std::int64_t count = std::min(block_size(counts_[i]), counts_[i] - first);
         units.push_back(
             {fmt::format("{} {} {}", rows_[i].pair->name, name(rows_[i].inquiry), first), count,
              [this, i, first, count] { return rows_[i].pair->ask(rows_[i].inquiry, seed_, first, count).to_line(); }});
@@ -57,7 +58,7 @@ class AccuracyRun final : public Run {
     std::vector<Row> rows = rows_;
     std::size_t next = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::int64_t first = 0; first < counts_[i]; first += block_size) {
+      for (std::int64_t first = 0; first < counts_[i]; first += block_size(counts_[i])) {
         rows[i].tally.add(AccuracyTally::from_line(results[next++]));
       }
     }
@@ -197,10 +198,9 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   for (const AccuracyPair& pair : accuracy_pairs()) {
     if (all || std::find(chosen.begin(), chosen.end(), pair.name) != chosen.end()) pairs.push_back(&pair);
   }
-  const std::int64_t queries = settings.integer("queries", 1, 1'000'000'000);
-  const std::int64_t verdicts = settings.integer("verdict_queries", 0, 1'000'000'000);
-  return std::make_unique<AccuracyRun>(pairs, options.trials.value_or(queries), options.trials.value_or(verdicts),
-                                       options.seed);
+  const std::int64_t queries = settings.trials("queries", 1, 1'000'000'000, options.trials);
+  const std::int64_t verdicts = settings.trials("verdict_queries", 0, 1'000'000'000, options.trials);
+  return std::make_unique<AccuracyRun>(pairs, queries, verdicts, options.seed);
 }
 
 }  // namespace

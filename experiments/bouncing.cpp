@@ -121,10 +121,11 @@ std::vector<std::string> chosen(const Settings& settings, std::string_view key,
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   BouncingOptions o;
-  o.cells = make_bounce_cells(settings);
   o.policies = bounce_policies(chosen(settings, "policy", bounce_policy_names()));
+  settings.limit_cells({"step", "restitution"}, o.policies.size());
+  o.cells = make_bounce_cells(settings);
   o.scenarios = chosen(settings, "scenario", scenario_names);
-  o.bounces = options.trials.value_or(settings.integer("bounces", 1, std::int64_t(1) << 30));
+  o.bounces = settings.trials("bounces", 1, std::int64_t(1) << 30, options.trials);
   o.runs = settings.integer("runs", 2, 100000);
   o.run_bounces = settings.integer("run_bounces", 1, 4096);
   o.rounds = settings.integer("rounds", 1, 1000);

@@ -60,9 +60,10 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   survey.finders = chosen_finders(settings);
   survey.loops_up_to = settings.integer("loops_up_to", 0, 10000000);
   survey.sweep_up_to = settings.integer("sweep_up_to", 0, 10000000);
-  survey.rounds = options.trials.value_or(settings.integer("rounds", 1, 1 << 20));
+  survey.rounds = settings.trials("rounds", 1, 1 << 20, options.trials);
   survey.seconds = settings.number("seconds", {.lower = 0, .upper = 1000, .unit = "s"});
   survey.seed = options.seed;
+  settings.limit_cells({"placement", "speed", "count"});
   const std::vector<std::int64_t> counts = settings.integers("count", 1, 10000000);
   const std::vector<double> speeds = settings.numbers("speed", {.lower = 0, .upper = 1000, .unit = "m"});
   const double density = settings.number("density", {.lower = 1e-6, .upper = 10, .unit = "1/m^3"});

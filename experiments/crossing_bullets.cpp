@@ -60,9 +60,10 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   allowed.emplace_back("all");
   std::vector<std::string> chosen = settings.choices("rule", allowed);
   if (std::find(chosen.begin(), chosen.end(), "all") != chosen.end()) chosen = all;
-  const std::int64_t shots = settings.integer("shots", 1, std::int64_t(1) << 30);
-  return std::make_unique<CrossingBulletsRun>(make_crossings(settings), crossing_rules(chosen),
-                                              options.trials.value_or(shots), options.seed);
+  const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
+  std::vector<CrossingRule> rules = crossing_rules(chosen);
+  settings.limit_cells({"speed", "ratio", "angle_deg", "offset"}, rules.size());
+  return std::make_unique<CrossingBulletsRun>(make_crossings(settings), std::move(rules), shots, options.seed);
 }
 
 }  // namespace

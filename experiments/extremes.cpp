@@ -77,12 +77,17 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const std::vector<std::string> pairs = chosen(settings, "pair", pair_names);
   const std::vector<std::string> precisions = chosen(settings, "precision", precision_names);
   const std::vector<std::string> methods = chosen(settings, "method", extreme_method_names());
-  const std::int64_t queries = options.trials.value_or(settings.integer("queries", 1, 1 << 20));
+  const std::int64_t queries = settings.trials("queries", 1, 1 << 20, options.trials);
   const std::int64_t one_in = settings.integer("one_in_at_50_digits", 1, 1 << 20);
   const double tolerance = settings.number("tolerance", {.lower = 1, .upper = 1e6, .unit = "epsilon"});
 
   std::vector<ExtremeCell> cells;
   const std::vector<Place> places = make_places(settings);
+  if (places.size() * pairs.size() * precisions.size() > most_cells) {
+    settings.complain(
+        "axis", fmt::format("fewer: {} values on these axes, for {} pairs and {} precisions, make more than {} cells",
+                            places.size(), pairs.size(), precisions.size(), most_cells));
+  }
   for (const ExtremePair& pair : extreme_pairs()) {
     for (std::size_t p = 0; p < precision_count; ++p) {
       const Precision& precision = all_precisions()[p];

@@ -75,9 +75,8 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   allowed.emplace_back("all");
   std::vector<std::string> chosen = settings.choices("rule", allowed);
   if (std::find(chosen.begin(), chosen.end(), "all") != chosen.end()) chosen = all;
-  const std::int64_t shots = settings.integer("shots", 1, std::int64_t(1) << 30);
-  return std::make_unique<HitscanRun>(make_hitscan_cells(settings), hitscan_rules(chosen),
-                                      options.trials.value_or(shots), options.seed);
+  const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
+  return std::make_unique<HitscanRun>(make_hitscan_cells(settings), hitscan_rules(chosen), shots, options.seed);
 }
 
 }  // namespace

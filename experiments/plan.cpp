@@ -56,16 +56,17 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   constexpr Range positive = {.lower = 0, .upper = 1000, .lower_open = true};
   PlanRaceOptions race;
   race.steps = settings.integer("steps", 1, 100000);
-  race.rounds = options.trials.value_or(settings.integer("rounds", 1, 1000));
+  race.rounds = settings.trials("rounds", 1, 1000, options.trials);
   race.gate = settings.number("gate", positive);
   const std::int64_t count = settings.integer("count", 2, 100000);
   std::vector<PlanScene> scenes;
   for (const std::string& name : settings.choices("scene", plan_scene_names()))
     scenes.push_back(make_plan_scene(name, count, options.seed));
   const std::int64_t shots = settings.integer("shots", 1, 1000000);
+  settings.limit_cells({"shot_path", "shot_gate"}, 2);  // at a wall, and at a ball
   const std::vector<double> gates = settings.numbers("shot_gate", positive);
   std::vector<GateCell> cells;
-  for (const double path : settings.numbers("shot_path", positive)) {
+  for (const double path : settings.numbers("shot_path", {.lower = 0.01, .upper = 1000})) {
     for (const double gate : gates) {
       if (path == gate) settings.complain("shot_path", fmt::format("any but {}, which is a gate", path));
       for (const GateTarget target : {GateTarget::wall, GateTarget::ball}) cells.push_back({target, path, gate, shots});

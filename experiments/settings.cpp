@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <set>
 #include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <thinwall/experiments/text/deep_key.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall/experiments/text/ranges.hpp>
@@ -101,6 +102,11 @@ struct Settings::Impl {
   toml::table defaults = {};
 
   static toml::table parse(std::string_view text, const std::string& name) {
+    constexpr int most_parts = 16;  // a table in a table is recursion, for the parser as for us
+    if (const int line = line_of_deep_key(text, most_parts)) {
+      throw UsageError(
+          fmt::format("{}:{}: a key of more than {} parts, which no configuration has", name, line, most_parts));
+    }
     try {
       return toml::parse(text, name);
     } catch (const toml::parse_error& error) {
@@ -108,11 +114,6 @@ struct Settings::Impl {
       throw UsageError(fmt::format("{}:{}: not TOML, at column {}: {}", name, where.line, where.column,
                                    one_line(error.description())));
     }
-  }
-
-  /// A default can only be wrong beside what the user wrote, so that it is their file that is named.
-  std::string where(const toml::node& node, bool by_user) const {
-    return fmt::format("{}:{}", file, by_user ? node.source().begin.line : line);
   }
 
   struct Entry {
@@ -129,12 +130,13 @@ struct Settings::Impl {
   [[noreturn]] void complain(std::string_view key, const toml::node& node, std::string_view what,
                              std::string_view allowed) const {
     const bool by_user = entry(key).by_user;
-    throw UsageError(
-        fmt::format("{}: key '{}': {}; {}", where(node, by_user), one_line(path + std::string(key)), what, allowed));
+    throw UsageError(fmt::format("{}:{}: key '{}'{}: {}; {}", file, by_user ? node.source().begin.line : line,
+                                 one_line(path + std::string(key)), by_user ? "" : ", left at its default", what,
+                                 allowed));
   }
 
   [[noreturn]] void refuse(std::string_view key, const toml::node& node, std::string_view allowed) const {
-    complain(key, node, shown(node) + (entry(key).by_user ? "" : ", its default,") + " is not allowed", allowed);
+    complain(key, node, shown(node) + " is not allowed", allowed);
   }
 
   /// `read` returns what a node holds, or nothing if that is not allowed; `allowed(node)` then says what is.
@@ -151,13 +153,16 @@ struct Settings::Impl {
     if (!array && read(node)) complain(key, node, shown(node) + " is not a list", "put it in brackets");
     if (!array) complain(key, node, shown(node) + " is not a list", allowed(node));
     if (array->empty()) complain(key, node, "an empty list is not allowed", allowed(node));
+    if (array->size() > most_cells) {
+      complain(key, node, fmt::format("{} values", grouped_text(std::ssize(*array))),
+               fmt::format("at most {}", grouped_text(most_cells)));
+    }
     std::vector<std::remove_cvref_t<decltype(*read(node))>> values;
+    std::set<std::remove_cvref_t<decltype(*read(node))>> seen;
     for (const toml::node& item : *array) {
       const auto value = read(item);
       if (!value) refuse(key, item, allowed(item));
-      if (std::ranges::find(values, *value) != values.end()) {
-        complain(key, item, shown(item) + " stands twice", "every value once");
-      }
+      if (!seen.insert(*value).second) complain(key, item, shown(item) + " stands twice", "every value once");
       values.push_back(*value);
     }
     return values;
@@ -242,6 +247,38 @@ std::vector<std::int64_t> Settings::integers(std::string_view key, std::int64_t 
   return impl_->several(
       key, [&](const toml::node& node) { return in_range(node, lower, upper); },
       [&](const toml::node&) { return fmt::format("a list of whole numbers from {} to {}", lower, upper); });
+}
+
+std::int64_t Settings::trials(std::string_view key, std::int64_t lower, std::int64_t upper,
+                              std::optional<std::int64_t> option) const {
+  const std::int64_t own = integer(key, lower, upper);
+  if (!option) return own;
+  if (*option < lower || *option > upper) {
+    throw UsageError(
+        fmt::format("--trials: {} is not allowed; in the place of the key '{}' a whole number from {} to {}", *option,
+                    key, lower, upper));
+  }
+  return *option;
+}
+
+void Settings::limit_cells(std::initializer_list<std::string_view> lists, std::size_t each) const {
+  const auto count = [&](std::string_view key) {
+    const auto* const array = impl_->entry(key).node->as_array();
+    return array ? array->size() : 1;
+  };
+  auto cells = static_cast<double>(each);  // the product of so many counts may overflow an integer, but no double
+  std::vector<std::string> factors;
+  for (const std::string_view key : lists) {
+    cells *= static_cast<double>(count(key));
+    factors.push_back(fmt::format("{} ({})", key, grouped_text(static_cast<std::int64_t>(count(key)))));
+  }
+  if (cells <= static_cast<double>(most_cells)) return;
+  if (each > 1) factors.push_back(fmt::format("{} for each", grouped_text(static_cast<std::int64_t>(each))));
+  const std::string_view longest = std::ranges::max(lists, {}, count);
+  impl_->complain(longest, *impl_->entry(longest).node,
+                  fmt::format("{} make {} cells", fmt::join(factors, " x "),
+                              cells < 1e15 ? grouped_text(std::llround(cells)) : rounded_text(cells, 3)),
+                  fmt::format("at most {}", grouped_text(most_cells)));
 }
 
 bool Settings::flag(std::string_view key) const {

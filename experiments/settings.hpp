@@ -3,8 +3,10 @@
 /// Every complaint is a `UsageError` of one line: file, line, key, what is allowed, and the nearest valid spelling.
 
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -27,6 +29,9 @@ struct Range {
   std::string_view unit = "1";
 };
 
+/// The most cells of a design, in the widest sense: every one is kept in memory, and most are a unit.
+inline constexpr std::size_t most_cells = 1'000'000;
+
 class Settings {
  public:
   /// `text` is what the user wrote, `file` the name to quote in complaints; keys it leaves out come from `defaults`.
@@ -45,7 +50,8 @@ class Settings {
   void require(std::string_view key, std::string_view what_is_needed) const;
 
   double number(std::string_view key, const Range& range) const;
-  std::vector<double> numbers(std::string_view key, const Range& range) const;  ///< non-empty, no value twice
+  std::vector<double> numbers(std::string_view key,
+                              const Range& range) const;  ///< 1 to `most_cells` of them, no value twice
   std::vector<double> vector(std::string_view key, std::size_t size, const Range& range) const;  ///< exactly so many
   std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper) const;
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t lower, std::int64_t upper) const;
@@ -57,11 +63,20 @@ class Settings {
   /// The tables of the list `[[key]]`, each laid over `defaults`; complaints name this file, the line and `key.inner`.
   std::vector<Settings> tables(std::string_view key, std::string_view defaults) const;
 
+  /// As `integer`, or what `--trials` says in its place, in the same range.
+  std::int64_t trials(std::string_view key, std::int64_t lower, std::int64_t upper,
+                      std::optional<std::int64_t> option) const;
+
+  /// Refuses a design that would have more than `most_cells`, before any is made: one, or `each`, for every combination of
+  /// the values of these lists.
+  void limit_cells(std::initializer_list<std::string_view> lists, std::size_t each = 1) const;
+
   /// As if the user's file said so: for an option of the command line. The key must not have a dot.
   void assign(std::string_view key, const std::string& text);
   void assign_flag(std::string_view key, bool flag);
 
-  /// The key a complaint should name, for a check that only the experiment can make.
+  /// The key a complaint should name, for a check that only the experiment can make. Where the user left the key out, the
+  /// complaint says so and names the user's file: what is wrong is how its other keys go with the default.
   [[noreturn]] void complain(std::string_view key, std::string_view what_is_allowed) const;
 
   /// Refuses a key that the defaults do not have, by name, line and nearest valid spelling.

@@ -67,7 +67,7 @@ std::unique_ptr<Run> configure_speed(const Settings& settings, const RunOptions&
   const std::string named = settings.text("benchmarks");
   const std::filesystem::path folder = named.empty() ? built_benchmarks() : std::filesystem::path(named);
   BenchOptions bench{settings.number("seconds", {.lower = 0.001, .upper = 100, .unit = "s"}), settings.text("filter")};
-  const std::int64_t rounds = options.trials.value_or(settings.integer("rounds", 1, 1000));
+  const std::int64_t rounds = settings.trials("rounds", 1, 1000, options.trials);
   try {
     const std::regex checked(bench.filter);
   } catch (const std::regex_error&) {

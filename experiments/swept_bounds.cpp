@@ -76,13 +76,13 @@ std::vector<SweptBound> chosen_bounds(const Settings& settings) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  const std::int64_t shots = settings.integer("shots", 1, std::int64_t(1) << 30);
+  const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::int64_t repeats = settings.integer("timing_repeats", 0, 1000);
-  SweepPlan plan = make_sweeps(settings);
   std::vector<SweptBound> bounds = chosen_bounds(settings);
+  settings.limit_cells({"shape", "speed", "angle_deg", "turn_deg", "obstacle"}, bounds.size());
+  SweepPlan plan = make_sweeps(settings);
   if (serving_pairs(plan.timed, bounds).empty()) settings.complain("bound", "one that serves one of the shapes");
-  return std::make_unique<SweptBoundsRun>(std::move(plan), std::move(bounds), options.trials.value_or(shots), repeats,
-                                          options.seed);
+  return std::make_unique<SweptBoundsRun>(std::move(plan), std::move(bounds), shots, repeats, options.seed);
 }
 
 }  // namespace

@@ -25,9 +25,10 @@ class ThinWallRun final : public Run {
     std::vector<Unit> units;
     const std::vector<Volley> volleys = volleys_of(plan_.shots);
     for (const Cell& cell : plan_.cells) {
+      const std::string where = key(cell);
       for (const Detector& detector : plan_.detectors) {
         for (const Volley& volley : volleys) {
-          std::string unit = fmt::format("{} {} {}", key(cell), detector.method, detector.scalar);
+          std::string unit = fmt::format("{} {} {}", where, detector.method, detector.scalar);
           if (volleys.size() > 1) unit += fmt::format(" from {}", volley.first);
           units.push_back({std::move(unit), volley.shots, [this, &cell, &detector, volley] {
                              return to_line(fire(cell, detector, volley, plan_.seed));

@@ -88,7 +88,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   std::sort(race.ladder.tolerances.begin(), race.ladder.tolerances.end(), std::greater<>());
   race.ladder.poses = settings.integers("substeps", 1, 1 << 20);
   std::sort(race.ladder.poses.begin(), race.ladder.poses.end());
-  race.queries = options.trials.value_or(settings.integer("queries", 1, 1 << 24));
+  race.queries = settings.trials("queries", 1, 1 << 24, options.trials);
   race.rounds = settings.integer("rounds", 1, 1 << 20);
   race.seed = options.seed;
   if (std::find(scalars.begin(), scalars.end(), "float") != scalars.end() &&

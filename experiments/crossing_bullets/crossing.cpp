@@ -58,7 +58,7 @@ RandomStream random_stream(const Crossing& c, std::uint64_t seed) {
 std::vector<Crossing> make_crossings(const Settings& settings) {
   const auto speeds = settings.numbers("speed", {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"});
   const double step = settings.number("step", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"});
-  const double radius = settings.number("radius", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "m"});
+  const double radius = settings.number("radius", {.lower = 1e-9, .upper = 1e3, .unit = "m"});
   const auto ratios = settings.numbers("ratio", {.lower = 0, .upper = 1});
   const auto angles = settings.numbers("angle_deg", {.lower = 0, .upper = 180, .unit = "deg"});
   const auto offsets = settings.numbers("offset", {.lower = 1, .upper = 1000, .unit = "contact distances"});
@@ -69,11 +69,11 @@ std::vector<Crossing> make_crossings(const Settings& settings) {
     for (const double ratio : ratios) {
       for (const double angle : angles) {
         for (const double offset : offsets) {
-          Crossing c = {speed, step, radius, ratio, angle, offset};
-          if (ratio == 0) c.angle_deg = 0;         // what rests has no direction
-          if (ratio == 1 && angle == 0) continue;  // nor has this any relative motion
+          if (ratio == 0 && angle != angles.front()) continue;  // what rests has no direction
+          if (ratio == 1 && angle == 0) continue;               // nor has this any relative motion
           any = true;
-          if (std::find(all.begin(), all.end(), c) != all.end()) continue;
+          const Crossing c = {speed, step, radius, ratio, ratio == 0 ? 0 : angle, offset};
+          if (c == head_on) continue;
           check(settings, c);
           all.push_back(c);
         }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/engines/engine_list.hpp>
+#include <thinwall/experiments/engines/fly.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 
 namespace thinwall {
@@ -71,9 +72,9 @@ void check_wall(const Settings& settings, const EngineCell& cell) {
 }
 
 void choose_cells(const Settings& settings, EnginePlan& plan) {
-  constexpr Range length = {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"};
+  constexpr Range length = {.lower = 1e-9, .upper = 1e6, .unit = "m"};
   EngineCell cell = {.path = 0,
-                     .step = settings.number("step", {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}),
+                     .step = settings.number("step", {.lower = 1e-9, .upper = 1e3, .unit = "s"}),
                      .radius = settings.number("radius", length),
                      .thickness = settings.number("thickness", length),
                      .wall_size = 0,
@@ -105,14 +106,9 @@ void choose_cells(const Settings& settings, EnginePlan& plan) {
 EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options) {
   EnginePlan plan;
   choose_engines(settings, plan);
+  plan.shots = settings.trials("shots", 1, most_engine_shots, options.trials);
+  settings.limit_cells({"path", "wall_size"}, plan.setups.size() * engine_volleys(plan.shots).size());
   choose_cells(settings, plan);
-  plan.shots = options.trials.value_or(settings.integer("shots", 1, most_engine_shots));
-  if (plan.shots > most_engine_shots) {
-    throw UsageError(
-        fmt::format("--trials: {} is not allowed; of engines a whole number from 1 to {}: they are fired at "
-                    "each cell in each mode",
-                    plan.shots, most_engine_shots));
-  }
   plan.seed = options.seed;
   return plan;
 }

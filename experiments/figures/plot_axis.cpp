@@ -34,10 +34,12 @@ std::string one_two_five(const Axis& axis) {
 }  // namespace
 
 Axis axis_around(std::span<const double> values, bool log) {
-  constexpr double air = 0.04;  // [1] of the length of the axis
+  constexpr double air = 0.04;            // [1] of the length of the axis
+  constexpr double least_drawn = 1e-300;  // gnuplot divides an axis, and must not come upon subnormal numbers
   std::vector<double> shown;
   for (const double value : values) {
-    if (std::isfinite(value) && (!log || value > 0)) shown.push_back(log ? std::log10(value) : value);
+    const bool drawable = value == 0 || std::abs(value) >= least_drawn;
+    if (std::isfinite(value) && drawable && (!log || value > 0)) shown.push_back(log ? std::log10(value) : value);
   }
   double lower = 0, upper = 1;
   if (!shown.empty()) {

@@ -12,6 +12,7 @@ namespace {
 constexpr double least_speed_left = 0.1;     // [1] of the muzzle's: with less the bullet does not arrive
 constexpr double most_bend = 0.125;          // [1] the oracle asks for one closest approach: docs/hitscan.md
 constexpr double least_path = 0.01;          // [reach] a step
+constexpr double least_reach = 1e-6;         // [range] the oracle subtracts distances along the range
 constexpr double most_drag_in_a_step = 0.5;  // [1] drag * step: a ray of a step is at most two steps long
 
 bool arrives(const HitscanCell& c) { return c.drag * (c.range + reach(c)) <= (1 - least_speed_left) * c.speed; }
@@ -20,6 +21,11 @@ void check(const Settings& settings, const HitscanCell& c) {
   if (!(c.range > 2 * reach(c))) {
     settings.complain("range", fmt::format("more than 2 * (target + radius); {} is not, at target {}, radius {}",
                                            c.range, c.target, c.radius));
+  }
+  if (reach(c) < least_reach * c.range) {
+    settings.complain(
+        "target", fmt::format("such that target + radius is at least {} of the range; at range {}, radius {} {} is not",
+                              least_reach, c.range, c.radius, c.target));
   }
   if (c.drag * c.step > most_drag_in_a_step) {
     settings.complain("step",
@@ -106,13 +112,14 @@ std::vector<HitscanCell> make_hitscan_cells(const Settings& settings) {
   const auto positive = [](double upper, std::string_view unit) {
     return Range{.lower = 0, .upper = upper, .lower_open = true, .unit = unit};
   };
+  settings.limit_cells({"range", "speed", "radius", "wind", "drag", "step", "target"});
   const auto ranges = settings.numbers("range", positive(1e6, "m"));
   const auto speeds = settings.numbers("speed", positive(1e6, "m/s"));
   const auto radii = settings.numbers("radius", {.lower = 0, .upper = 1e3, .unit = "m"});
   const auto winds = settings.numbers("wind", {.lower = 0, .upper = 1e3, .unit = "m/s"});
   const auto drags = settings.numbers("drag", {.lower = 0, .upper = 1e3, .unit = "1/s"});
   const auto steps = settings.numbers("step", positive(1e3, "s"));
-  const auto targets = settings.numbers("target", positive(1e3, "m"));
+  const auto targets = settings.numbers("target", {.lower = 1e-9, .upper = 1e3, .unit = "m"});
   const double gravity = settings.number("gravity", {.lower = 0, .upper = 1e3, .unit = "m/s^2"});
   const double aim = settings.number("aim", {.lower = 1.1, .upper = 100});
 
@@ -122,12 +129,13 @@ std::vector<HitscanCell> make_hitscan_cells(const Settings& settings) {
   const auto add = [&](const HitscanCell& c) {
     if (!arrives(c)) return;
     any = true;
-    if (std::find(all.begin(), all.end(), c) != all.end()) return;
+    if (is_known(c)) return;
     check(settings, c);
     all.push_back(c);
   };
   for_each_combination(std::array{targets, steps, drags, winds, radii, speeds, ranges}, [&](const auto& at) {
     const auto& [target, step, drag, wind, radius, speed, range] = at;
+    if (drag == 0 && wind != winds.front()) return;  // without drag a wind does nothing
     add({range, speed, radius, drag > 0 ? wind : 0, drag, step, target, gravity, aim});
   });
   if (!any)

@@ -26,10 +26,12 @@ std::string list_reply(std::span<const Experiment> experiments) {
   return line(out);
 }
 
-std::string dry_run_reply(const RunRecord& run, const std::string& out, double estimated_seconds) {
+std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const Estimate& told) {
   ordered_json reply = size_of(run, out);
   reply["dry_run"] = true;
-  reply["estimated_seconds"] = estimated_seconds;
+  reply["estimated_seconds"] = told.tried() > 0 ? ordered_json(seconds) : ordered_json();
+  reply["units_left_out_of_estimate"] = told.unknown;
+  reply["estimated_from"] = basis_text(told);
   return line(reply);
 }
 

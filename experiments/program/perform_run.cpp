@@ -1,5 +1,6 @@
 #include <thinwall/experiments/program/perform_run.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/results.hpp>
 #include <thinwall/experiments/results/shard_seal.hpp>
+#include <thinwall/experiments/run/estimate.hpp>
 #include <thinwall/experiments/run/runner.hpp>
 #include <thinwall/experiments/run/stop_signal.hpp>
 #include <thinwall/experiments/settings.hpp>
@@ -30,24 +32,34 @@ using Clock = std::chrono::system_clock;
 
 constexpr std::chrono::milliseconds patience(500);  // for a unit to end when Ctrl-C is pressed; one may be long
 
-std::string plural(std::int64_t count, const std::string& noun) {
-  return grouped_text(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string size_text(const RunRecord& run) {
-  const std::string threads = plural(run.threads, "thread");
-  return fmt::format("{}: {}, {} on {}", run.experiment, plural(static_cast<std::int64_t>(run.units), "unit"),
-                     plural(run.total_trials, "trial"),
+  const std::string threads = plural_text(run.threads, "thread");
+  return fmt::format("{}: {}, {} on {}", run.experiment, plural_text(static_cast<std::int64_t>(run.units), "unit"),
+                     plural_text(run.total_trials, "trial"),
                      run.ranks > 1 ? fmt::format("{} ranks of {}", run.ranks, threads) : threads);
 }
 
-int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
-  const double seconds = estimate_seconds(units, run.threads * run.ranks);
+std::string time_text(const Estimate& told, double seconds) {
+  if (told.tried() == 0) return "for how long, cannot be told";
+  return (told.unknown == 0 ? "about " : "at least ") + duration_text(seconds);
+}
+
+int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all, const Call& call) {
+  const auto again = [&](std::int64_t trials) {
+    RunRequest request = wish.request;
+    request.options.trials = trials;
+    return configure_run(wish.target, request, call.experiments).run;
+  };
+  const Estimate told = estimate(all, again);
+  double trials = 0;  // of the whole run, of which a shard is a part
+  for (const Unit& unit : all) trials += static_cast<double>(unit.trials);
+  const auto crew = std::min(static_cast<double>(run.threads) * run.ranks, static_cast<double>(run.units));
+  const double seconds = told.seconds * static_cast<double>(run.total_trials) / trials / crew;
   if (wish.json) {
-    out << dry_run_reply(run, wish.out, seconds);
+    call.out << dry_run_reply(run, wish.out, seconds, told);
   } else {
-    out << fmt::format("{}\nabout {}; results would go to {}\n", size_text(run), duration_text(seconds),
-                       one_line(wish.out));
+    call.out << fmt::format("{}\n{} ({}); results would go to {}\n", size_text(run), time_text(told, seconds),
+                            basis_text(told), one_line(wish.out));
   }
   return exit_done;
 }
@@ -139,12 +151,13 @@ int perform_run(const RunWish& given, const Call& call) try {
       given.merged ? configure_again(given.merged->identity, given.request.options.threads, call.experiments)
                    : configure_run(given.target, given.request, call.experiments);
   const std::vector<Unit> all = chosen.run->units();
-  const std::vector<Unit> units = given.shard ? units_of(*given.shard, given.launch, all) : all;
+  const std::vector<Unit> part = given.shard ? units_of(*given.shard, given.launch, all) : std::vector<Unit>();
+  const std::vector<Unit>& units = given.shard ? part : all;
   RunWish wish = given;
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, given, call, units);
   if (wish.list_cells) return list_cells(wish, record, units, call.out);
-  if (wish.dry_run) return dry_run(wish, record, units, call.out);
+  if (wish.dry_run) return dry_run(wish, record, all, call);
 
   const RunIdentity identity{.experiment = record.experiment,
                              .config = record.config,

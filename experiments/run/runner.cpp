@@ -112,18 +112,4 @@ UnitResults compute_units(std::span<const Unit> units, Journal& journal, const R
   return out;
 }
 
-double estimate_seconds(std::span<const Unit> units, int threads, double budget) {
-  constexpr std::size_t samples = 16;  // spread over the run: its cells differ in cost
-  double seconds = 0;
-  std::int64_t trials = 0;
-  for (std::size_t k = 0; k < std::min(samples, units.size()) && seconds < budget; ++k) {
-    const std::size_t stride = std::max<std::size_t>(units.size() / samples, 1);
-    const Unit& unit = units[k * stride];
-    seconds += timed(unit).seconds;
-    trials += unit.trials;
-  }
-  if (trials == 0) return 0;
-  return seconds / static_cast<double>(trials) * static_cast<double>(total_trials(units)) / threads;
-}
-
 }  // namespace thinwall

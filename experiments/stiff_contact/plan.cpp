@@ -15,6 +15,7 @@ constexpr Range positive_steps = {.lower = 1e-6, .upper = 1e6, .unit = "1/omega"
 constexpr Range bounce_steps = {.lower = 1e-3, .upper = 1e6, .unit = "1/omega"};
 constexpr double least_path =
     0x1p-30;  // of the distance from first contact to the middle: 22 bits are left for the phase
+constexpr double least_reach = 1e-9;  // [m]
 constexpr Range race_steps = {.lower = 1e-3, .upper = 2, .unit = "1/omega"};
 
 std::vector<double> ascending(std::vector<double> list) {
@@ -29,7 +30,9 @@ void check(const Settings& settings, const StiffPlan& plan) {
                         fmt::format("0, or {:g} to {:g}; one is {:g}", least_ratio, greatest_ratio, ratio));
     }
   }
-  if (reach(plan.approach) == 0) settings.complain("thickness", "a number > 0 [m] where radius is 0");
+  if (reach(plan.approach) < least_reach) {
+    settings.complain("thickness", fmt::format("such that radius + thickness / 2 is at least {:g} m", least_reach));
+  }
   const double omega = frequency(spring_of(plan.approach.mass, plan.stiffest(), 0));
   const double path = plan.approach.speed * std::min(plan.bounce_steps.front(), plan.race_steps.back()) / omega;
   if (path < least_path * reach(plan.approach)) {
@@ -54,6 +57,8 @@ StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
   const auto positive = [](double upper, std::string_view unit) {
     return Range{.lower = 0, .upper = upper, .lower_open = true, .unit = unit};
   };
+  settings.limit_cells({"stiffness", "damping_ratio", "step"}, all_schemes.size());
+  settings.limit_cells({"stiffness", "bounce_damping", "bounce_step"}, all_schemes.size() * all_detections.size());
   StiffPlan plan;
   plan.seed = options.seed;
   plan.approach.mass = settings.number("mass", {.lower = 1e-12, .upper = 1e12, .unit = "kg"});
@@ -67,7 +72,7 @@ StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
       settings.number("blow_up", {.lower = 1, .upper = 1e9, .lower_open = true, .unit = "incoming speeds"});
   plan.bounce_ratios = ascending(settings.numbers("bounce_damping", {.lower = 0, .upper = 100}));
   plan.bounce_steps = ascending(settings.numbers("bounce_step", bounce_steps));
-  plan.bounces = options.trials.value_or(settings.integer("bounces", 1, 1 << 24));
+  plan.bounces = settings.trials("bounces", 1, 1 << 24, options.trials);
   plan.race_steps = ascending(settings.numbers("race_step", race_steps));
   std::reverse(plan.race_steps.begin(), plan.race_steps.end());
   plan.race_bounces = settings.integer("race_bounces", 1, 1 << 20);

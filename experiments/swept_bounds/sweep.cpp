@@ -104,7 +104,7 @@ SweepPlan make_sweeps(const Settings& settings) {
         for (const double turn : turns) {
           for (const double obstacle : obstacles) {
             const Sweep s = {form, speed, step, width, angle, angle == 0 ? 0 : turn, obstacle};
-            if (std::find(plan.cells.begin(), plan.cells.end(), s) != plan.cells.end()) continue;
+            if (is_diagonal(s) || (angle == 0 && turn != turns.front())) continue;  // is there already
             check(settings, s);
             plan.cells.push_back(s);
           }

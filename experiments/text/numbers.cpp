@@ -37,6 +37,10 @@ std::string grouped_text(std::int64_t value) {
   return text;
 }
 
+std::string plural_text(std::int64_t count, std::string_view noun) {
+  return grouped_text(count).append(" ").append(noun).append(count == 1 ? "" : "s");
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 9.95) return rounded_text(seconds, seconds < 1 ? 1 : 2) + " s";
   const auto whole = static_cast<std::int64_t>(std::llround(seconds));

@@ -18,6 +18,9 @@ std::string rounded_text(double value, int digits);
 /// Thousands apart: 12,000,000.
 std::string grouped_text(std::int64_t value);
 
+/// `1 trial`, `12,000 trials`.
+std::string plural_text(std::int64_t count, std::string_view noun);
+
 /// As a person says it: `0.4 s`, `12 s`, `3 min 20 s`, `2 h 5 min`.
 std::string duration_text(double seconds);
 

@@ -15,6 +15,8 @@ namespace {
 
 /// A shot must end: no ball takes more steps than this to cross.
 constexpr double most_steps_across = 1e4;
+/// [m] A wall and a ball that are thinner have no squares in float.
+constexpr double thinnest = 1e-9;
 /// Poses lie on a grid that float holds: a step must not be longer than this many times what it crosses.
 constexpr double most_walls_a_step = 1e6;
 
@@ -37,22 +39,30 @@ void check(const Settings& settings, const Cell& cell) {
     settings.complain("thickness", "not 0 where radius is 0 too: a point is never in a wall of no thickness");
   }
   const double step = step_length(cell), thick = cell.thickness + 2 * cell.radius;
-  const auto where = fmt::format("not so at speed {}, step {}, radius {}, thickness {}, angle_deg {}", cell.speed,
-                                 cell.step, cell.radius, cell.thickness, cell.angle_deg);
+  if (thick < thinnest) {
+    settings.complain("thickness", fmt::format("such that thickness + 2 * radius is at least {} m; radius is {}",
+                                               thinnest, cell.radius));
+  }
+  const auto where = [&] {
+    return fmt::format("not so at speed {}, step {}, radius {}, thickness {}, angle_deg {}", cell.speed, cell.step,
+                       cell.radius, cell.thickness, cell.angle_deg);
+  };
   if (slab_chord(cell) > most_steps_across * step) {
     settings.complain(step_or_speed(settings),
-                      fmt::format("at most {} steps to cross the wall: {}", most_steps_across, where));
+                      fmt::format("at most {} steps to cross the wall: {}", most_steps_across, where()));
   }
   if (step > most_walls_a_step * thick) {
     settings.complain(step_or_speed(settings),
-                      fmt::format("a step of at most {} times thickness + 2 * radius: {}", most_walls_a_step, where));
+                      fmt::format("a step of at most {} times thickness + 2 * radius: {}", most_walls_a_step, where()));
   }
   if (cell.wall == Wall::finite && cell.wall_size < thick) {
-    settings.complain("wall_size", fmt::format("at least thickness + 2 * radius: {}", where));
+    settings.complain("wall_size", fmt::format("at least thickness + 2 * radius: {}", where()));
   }
 }
 
-std::vector<Cell> make_cells(const Settings& settings) {
+/// `each`: units of a cell.
+std::vector<Cell> make_cells(const Settings& settings, std::size_t each) {
+  settings.limit_cells({"speed", "step", "radius", "thickness", "angle_deg", "wall"}, each);
   constexpr std::array<std::string_view, 2> wall_names = {name(Wall::infinite), name(Wall::finite)};
   const auto speeds = settings.numbers("speed", allowed_speed);
   const auto steps = settings.numbers("step", allowed_step);
@@ -93,17 +103,11 @@ std::vector<Cell> make_cells(const Settings& settings) {
 
 ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
   ShotPlan plan;
-  plan.cells = make_cells(settings);
   plan.response = settings.choice("response", response_names) == "bounce" ? Response::bounce : Response::none;
   plan.detectors = detectors(selected_methods(settings), settings.integers("substeps", least_substeps, most_substeps),
                              settings.choices("scalar", scalar_names), plan.response);
-  plan.shots = options.trials.value_or(settings.integer("shots", 1, most_shots_a_cell));
-  if (plan.shots > most_shots_a_cell) {
-    throw UsageError(
-        fmt::format("--trials: {} is not allowed; of thin_wall a whole number from 1 to {}: they are fired at "
-                    "each cell, method and scalar",
-                    plan.shots, most_shots_a_cell));
-  }
+  plan.shots = settings.trials("shots", 1, most_shots_a_cell, options.trials);
+  plan.cells = make_cells(settings, plan.detectors.size() * volleys_of(plan.shots).size());
   plan.seed = options.seed;
   return plan;
 }

@@ -5,6 +5,7 @@
 namespace thinwall {
 
 std::vector<Volley> volleys_of(std::int64_t shots, std::int64_t most) {
+  most = std::max(most, (shots + most_volleys - 1) / most_volleys);
   std::vector<Volley> volleys;
   for (std::int64_t first = 0; first < shots; first += most) volleys.push_back({first, std::min(most, shots - first)});
   return volleys;

@@ -15,8 +15,9 @@ struct Volley {
   std::int64_t shots = 0;
 };
 
-/// A minute's work at most, at the speed of a slow method; a cell of fewer shots is one volley.
-inline constexpr std::int64_t most_shots_a_volley = std::int64_t(1) << 22;
+/// A minute's work at most, at the speed of a slow method; a cell of fewer shots is one volley. Volleys are longer where
+/// a cell would have more than so many: each is a unit, kept in memory.
+inline constexpr std::int64_t most_shots_a_volley = std::int64_t(1) << 22, most_volleys = 32;
 
 /// Lateness is summed in 64 bits, of which a shot takes up to 32.
 inline constexpr std::int64_t most_shots_a_cell = std::int64_t(1) << 30;

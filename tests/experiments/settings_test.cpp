@@ -126,5 +126,75 @@ TEST(Settings, let_an_experiment_complain_of_its_own) {
   }
 }
 
+TEST(Settings, blame_the_users_file_for_what_does_not_go_with_a_default) {
+  const Settings settings("\nshots = 3", "my.toml", defaults);
+  try {
+    settings.complain("radius", "at most a third of the shots");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "my.toml:1: key 'radius', left at its default: 0.5 is not allowed; at most a third of the shots");
+  }
+}
+
+TEST(Settings, take_trials_in_the_range_of_the_key) {
+  const Settings settings("shots = 3", "my.toml", defaults);
+  EXPECT_EQ(settings.trials("shots", 1, 5000, {}), 3);
+  EXPECT_EQ(settings.trials("shots", 1, 5000, 4), 4);
+  try {
+    settings.trials("shots", 1, 5000, 5001);
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--trials: 5001 is not allowed; in the place of the key 'shots' a whole number from 1 to 5000");
+  }
+}
+
+/// A list of the numbers 1, 2, ...
+std::string list_of(std::size_t count) {
+  std::string text;
+  for (std::size_t i = 1; i <= count; ++i) text += std::to_string(i) + ",";
+  return "[" + text + "]";
+}
+
+TEST(Settings, limit_the_cells_that_lists_make) {
+  const Settings settings("\nspeed = " + list_of(2000), "my.toml", defaults);
+  EXPECT_NO_THROW(settings.limit_cells({"speed", "methods"}, 250));
+  EXPECT_NO_THROW(settings.limit_cells({"speed", "radius"}));  // which is no list: that is for another complaint
+  const auto complaint_of = [&](auto... arguments) -> std::string {
+    try {
+      settings.limit_cells(arguments...);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  using Lists = std::initializer_list<std::string_view>;
+  EXPECT_EQ(complaint_of(Lists{"methods", "speed"}, 251U),
+            "my.toml:2: key 'speed': methods (2) x speed (2,000) x 251 for each make 1,004,000 cells; at most 1,000,000");
+  const std::string many = complaint_of(Lists{"speed", "speed", "speed", "speed", "speed", "speed"});  // 2^64 is 1.8e19
+  EXPECT_NE(many.find("make 6.4e+19 cells"), std::string::npos) << many;
+}
+
+TEST(Settings, take_no_more_values_than_there_may_be_cells) {
+  EXPECT_EQ(complaint("speed = " + list_of(most_cells + 1)),
+            "my.toml:1: key 'speed': 1,000,001 values; at most 1,000,000");
+}
+
+/// The parser's own tables would be as deep, and nobody could walk or free them.
+TEST(Settings, refuse_a_key_of_many_parts) {
+  std::string key = "a";
+  for (int i = 0; i < 40000; ++i) key += ".a";
+  const std::string refusal = "a key of more than 16 parts, which no configuration has";
+  EXPECT_EQ(complaint("\n" + key + " = 1"), "my.toml:2: " + refusal);
+  EXPECT_EQ(complaint("[" + key + "]"), "my.toml:1: " + refusal);
+  EXPECT_EQ(complaint("wall = { \"it's\" . " + key + " = 1 }"), "my.toml:1: " + refusal);
+  EXPECT_EQ(complaint("mode = [\"\"\"\na\"\"\"\"\", {" + key + " = 1}]"), "my.toml:2: " + refusal);
+  EXPECT_EQ(complaint("mode = '" + key + "'").find(refusal), std::string::npos);
+  EXPECT_EQ(complaint("mode = \"\\\"" + key + "\"").find(refusal), std::string::npos);
+  EXPECT_EQ(complaint("mode = '''" + key + "''' # it's " + key).find(refusal), std::string::npos);
+  EXPECT_TRUE(complaint("mode = " + std::string(40000, '[')).starts_with("my.toml:1: not TOML, at column "));
+}
+
 }  // namespace
 }  // namespace thinwall

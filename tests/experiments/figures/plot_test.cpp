@@ -182,6 +182,9 @@ TEST(PlotAxis, shows_every_value_and_skips_what_it_cannot_show) {
   EXPECT_GT(log.lower, 0.5);
   EXPECT_GT(log.upper, 100);
   EXPECT_LT(axis_around(std::vector<double>{5}, false).lower, 5);
+  const std::vector<double> subnormal = {0, 5e-324};
+  EXPECT_EQ(axis_around(subnormal, false).upper, 0.5);
+  EXPECT_EQ(axis_around(subnormal, true).lower, axis_around(std::vector<double>{}, true).lower);
   EXPECT_LT(axis_around(std::vector<double>{}, true).lower, axis_around(std::vector<double>{}, true).upper);
 }
 

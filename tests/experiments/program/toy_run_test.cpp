@@ -108,10 +108,13 @@ TEST_F(ToyRunTest, writes_nothing_on_a_dry_run) {
   const Reply reply = run({"--dry-run", "--threads", "1"});
   EXPECT_EQ(reply.status, 0);
   EXPECT_TRUE(reply.out.starts_with("toy: 20 units, 200 trials on 1 thread\nabout ")) << reply.out;
+  EXPECT_NE(reply.out.find(" s (16 units tried with "), std::string::npos) << reply.out;
+  EXPECT_EQ(ToyControl::computed, 0);
   EXPECT_FALSE(std::filesystem::exists(out));
   const auto json = nlohmann::json::parse(run({"--dry-run", "--json"}).out);
   EXPECT_EQ(json.at("trials"), 200);
   EXPECT_GE(json.at("estimated_seconds"), 0);
+  EXPECT_EQ(json.at("units_left_out_of_estimate"), 0);
 }
 
 TEST_F(ToyRunTest, replies_in_json) {

@@ -88,12 +88,6 @@ TEST_F(RunnerTest, refuses_two_units_of_one_name) {
   EXPECT_THROW(compute_units(units, journal, {.threads = 1, .stop = {}, .on_progress = {}}), std::logic_error);
 }
 
-TEST_F(RunnerTest, estimates_from_a_few_units) {
-  EXPECT_GT(estimate_seconds(squares(1000), 1), 0);
-  EXPECT_LE(computed, 16);
-  EXPECT_EQ(estimate_seconds({}, 1), 0);
-}
-
 TEST(RunIdentity, tells_what_differs) {
   const RunIdentity ours{"toy", R"({"radius":1,"speed":[1,2]})", 7, std::nullopt, "program"};
   EXPECT_EQ(identity_difference(identity_text(ours), ours), "");

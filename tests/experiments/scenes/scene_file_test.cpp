@@ -211,7 +211,8 @@ TEST(SceneFile, ids_are_free_and_end_somewhere) {
                    {"my.toml:9: key 'body.id': 4 is not allowed; a body before it has id 4"});
   expect_complaint(ball + "id = 4\n" + none + "id = 2\ncopies = [5, 1, 1]\n", {"a body before it has id 4"});
   expect_complaint(ball + "id = 4294967295\n", {"no complaint"});
-  expect_complaint(ball + "id = 4294967295\n" + none, {"my.toml:6: key 'body.id': 0, its default, is not allowed"});
+  expect_complaint(ball + "id = 4294967295\n" + none,
+                   {"my.toml:6: key 'body.id', left at its default: 0 is not allowed"});
   expect_complaint(ball + "id = 4294967295\ncopies = [2, 1, 1]\n", {"my.toml:5: key 'body.id': 4294967295", "takes 2"});
   const Scene scene = scene_from(ball + "id = 5\n" + none + "id = 4\n" + none + "copies = [2, 1, 1]\n" + none);
   std::vector<std::uint32_t> ids;
@@ -222,7 +223,7 @@ TEST(SceneFile, ids_are_free_and_end_somewhere) {
 /// Two keys that do not go together: the one to blame may be the one that was not written.
 TEST(SceneFile, names_the_users_file_where_a_default_does_not_fit) {
   expect_complaint("trace = true\nsteps = 100000\n" + ball + "copies = [100, 1, 1]\n",
-                   {"my.toml:1: key 'trace_every': 1, its default, is not allowed"});
+                   {"my.toml:1: key 'trace_every', left at its default: 1 is not allowed"});
   expect_complaint(ball + "mask = -1\n", {"my.toml:5: key 'body.mask': -1 is not allowed"});
 }
 

@@ -1,0 +1,223 @@
+#include <thinwall/experiments/run/estimate.hpp>
+
+#include <fcntl.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <exception>
+#include <map>
+#include <optional>
+#include <random>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Tell = std::function<void(const Estimate&)>;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::unique_ptr<Run> run_of(const ConfigureTrials& again, std::int64_t trials) {
+  try {
+    return again(trials);
+  } catch (const UsageError&) {
+    return nullptr;
+  }
+}
+
+/// What was timed.
+struct Rate {
+  double seconds = 0, trials = 0;
+  std::int64_t units = 0;
+
+  void time(const Unit& unit) {
+    const auto start = Clock::now();
+    unit.compute();
+    seconds += seconds_since(start);
+    trials += static_cast<double>(unit.trials);
+    units += 1;
+  }
+};
+
+/// The units of a run, parted by what fewer trials do to them.
+struct Parts {
+  double cut_trials = 0;
+  std::int64_t cut = 0, whole = 0;
+  std::map<std::int64_t, std::vector<const Unit*>> groups{};  ///< of whole units, by their trials, shuffled
+  std::unordered_set<std::string_view> whole_keys{};
+};
+
+/// A whole unit has as many trials in a smaller run.
+Parts parts_of(std::span<const Unit> units, const std::vector<Unit>& smaller) {
+  std::unordered_map<std::string_view, std::int64_t> trials;
+  for (const Unit& unit : smaller) trials[unit.key] = unit.trials;
+  Parts parts;
+  for (const Unit& unit : units) {
+    const auto same = trials.find(unit.key);
+    const bool is_whole = same != trials.end() && same->second == unit.trials;
+    (is_whole ? parts.whole : parts.cut) += 1;
+    if (!is_whole) parts.cut_trials += static_cast<double>(unit.trials);
+    if (!is_whole) continue;
+    parts.groups[unit.trials].push_back(&unit);
+    parts.whole_keys.insert(unit.key);
+  }
+  for (auto& [of_trials, group] : parts.groups) std::shuffle(group.begin(), group.end(), std::minstd_rand());
+  return parts;
+}
+
+/// Some of the cut units, spread over the run: its cells differ in cost.
+std::vector<const Unit*> samples_of(const std::vector<Unit>& units, const Parts& parts) {
+  constexpr std::size_t most = 16;
+  std::vector<const Unit*> cut, some;
+  for (const Unit& unit : units) {
+    if (!parts.whole_keys.contains(unit.key)) cut.push_back(&unit);
+  }
+  const std::size_t count = std::min(most, cut.size());
+  for (std::size_t k = 0; k < count; ++k) some.push_back(cut[k * cut.size() / count]);
+  return some;
+}
+
+/// Tells of the cut units whenever more is known.
+void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double budget, const Tell& tell) {
+  constexpr std::int64_t growth = 4;
+  std::int64_t most = 1;
+  for (const Unit& unit : units) most = std::max(most, unit.trials);
+  std::optional<Parts> parts;
+  const auto know = [&](const Rate& rate, std::int64_t trials) {
+    tell({.seconds = rate.trials > 0 ? rate.seconds / rate.trials * parts->cut_trials : 0,
+          .cut_tried = rate.units,
+          .trials = trials,
+          .whole = parts->whole,
+          .unknown = rate.units > 0 ? 0 : parts->cut});
+  };
+  const auto begin = Clock::now();
+  for (std::int64_t trials = 1;; trials *= growth) {
+    const auto start = Clock::now();
+    if (const std::unique_ptr<Run> run = run_of(again, trials)) {
+      const std::vector<Unit> smaller = run->units();
+      const bool first = !parts;
+      if (first) know({}, (parts = parts_of(units, smaller), trials));
+      Rate rate;
+      for (const Unit* unit : samples_of(smaller, *parts)) {
+        rate.time(*unit);
+        if (first) know(rate, trials);
+      }
+      know(rate, trials);  // of a larger number of trials only when it is complete
+    }
+    if (parts && parts->cut == 0) return;
+    if (trials >= most || seconds_since(begin) + static_cast<double>(growth) * seconds_since(start) > budget) return;
+  }
+}
+
+/// Tells of the whole units whenever more is known.
+void try_whole(std::span<const Unit> units, const ConfigureTrials& again, const Tell& tell) {
+  const std::unique_ptr<Run> run = run_of(again, 1);
+  if (!run) return;
+  const Parts parts = parts_of(units, run->units());
+  std::map<std::int64_t, Rate> rates;
+  const auto know = [&] {
+    Estimate known = {.whole = parts.whole};
+    for (const auto& [trials, group] : parts.groups) {
+      const Rate& rate = rates[trials];
+      known.whole_tried += rate.units;
+      if (rate.units == 0) known.unknown += std::ssize(group);
+      if (rate.units > 0)
+        known.seconds += rate.seconds / static_cast<double>(rate.units) * static_cast<double>(group.size());
+    }
+    tell(known);
+  };
+  know();
+  for (std::size_t round = 0; std::cmp_less(round, parts.whole); ++round) {
+    for (const auto& [trials, group] : parts.groups) {
+      if (round >= group.size()) continue;
+      rates[trials].time(*group[round]);
+      know();
+    }
+  }
+}
+
+/// From now on this process has so long to live.
+void end_after(double seconds) {
+  std::signal(SIGALRM, SIG_DFL);
+  sigset_t alarm;
+  sigemptyset(&alarm);
+  sigaddset(&alarm, SIGALRM);
+  sigprocmask(SIG_UNBLOCK, &alarm, nullptr);
+  const auto whole = static_cast<time_t>(seconds);
+  const auto rest = static_cast<suseconds_t>((seconds - static_cast<double>(whole)) * 1e6);
+  const itimerval time = {.it_interval = {}, .it_value = {.tv_sec = whole, .tv_usec = rest}};
+  ::setitimer(ITIMER_REAL, &time, nullptr);
+}
+
+/// The last that `work` tells in a process of its own, within `seconds`; nothing if that is nothing.
+std::optional<Estimate> told_within(double seconds, const std::function<void(const Tell&)>& work) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
+  const auto [read, write] = ends;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    end_after(seconds);
+    try {
+      work([write](const Estimate& known) {
+        if (::write(write, &known, sizeof known) != sizeof known) ::_exit(1);
+      });
+    } catch (const std::exception&) {  // a unit that fails is for the run itself to tell
+    }
+    ::_exit(0);
+  }
+  ::close(write);
+  std::optional<Estimate> last;
+  Estimate next;
+  for (ssize_t got = 0; (got = ::read(read, &next, sizeof next)) != 0;) {
+    if (got == sizeof next) last = next;
+    if (got < 0 && errno != EINTR) break;
+  }
+  ::close(read);
+  while (child > 0 && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
+  return last;
+}
+
+}  // namespace
+
+std::string basis_text(const Estimate& e) {
+  std::vector<std::string> parts;
+  if (e.cut_tried > 0) {
+    parts.push_back(fmt::format("{} tried with {} in the place of its own", plural_text(e.cut_tried, "unit"),
+                                plural_text(e.trials, "trial")));
+  }
+  if (e.whole_tried > 0) {
+    parts.push_back(fmt::format("{} of {} tried whole", grouped_text(e.whole_tried), plural_text(e.whole, "unit")));
+  }
+  if (e.unknown > 0) parts.push_back(fmt::format("{} too long to try", plural_text(e.unknown, "unit")));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Estimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget) {
+  const double half = budget / 2;
+  const auto cut = told_within(half, [&](const Tell& tell) { try_cut(units, again, half, tell); });
+  Estimate known = cut.value_or(Estimate{.unknown = std::ssize(units)});
+  if (!cut || cut->whole == 0) return known;
+  const auto whole = told_within(half, [&](const Tell& tell) { try_whole(units, again, tell); });
+  known.seconds += whole ? whole->seconds : 0;
+  known.whole_tried = whole ? whole->whole_tried : 0;
+  known.unknown += whole ? whole->unknown : cut->whole;
+  return known;
+}
+
+}  // namespace thinwall
