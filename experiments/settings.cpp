@@ -274,7 +274,7 @@ void Settings::limit_cells(std::initializer_list<std::string_view> lists, std::s
   }
   if (cells <= static_cast<double>(most_cells)) return;
   if (each > 1) factors.push_back(fmt::format("{} for each", grouped_text(static_cast<std::int64_t>(each))));
-  const std::string_view longest = std::ranges::max(lists, {}, count);
+  const std::string_view longest = *std::ranges::max_element(lists, {}, count);
   impl_->complain(longest, *impl_->entry(longest).node,
                   fmt::format("{} make {} cells", fmt::join(factors, " x "),
                               cells < 1e15 ? grouped_text(std::llround(cells)) : rounded_text(cells, 3)),
