@@ -119,7 +119,7 @@ double estimate_seconds(std::span<const Unit> units, int threads, double budget)
   for (std::size_t k = 0; k < std::min(samples, units.size()) && seconds < budget; ++k) {
     const std::size_t stride = std::max<std::size_t>(units.size() / samples, 1);
     const Unit& unit = units[k * stride];
-    seconds += timed(unit).seconds;
+    seconds += unit.seconds > 0 ? unit.seconds : timed(unit).seconds;
     trials += unit.trials;
   }
   if (trials == 0) return 0;

@@ -39,7 +39,8 @@ int default_threads();
 /// Throws std::runtime_error, naming the unit, if one fails; what was finished stays in the journal.
 UnitResults compute_units(std::span<const Unit> units, Journal& journal, const RunnerOptions& options);
 
-/// How long `compute_units` would take [s], from trying a few of the units for about `budget` seconds.
+/// How long `compute_units` would take [s], from trying a few of the units for about `budget` seconds. No unit that says itself
+/// how long it takes is tried.
 double estimate_seconds(std::span<const Unit> units, int threads, double budget = 0.5);
 
 }  // namespace thinwall

@@ -92,6 +92,8 @@ TEST_F(RunnerTest, estimates_from_a_few_units) {
   EXPECT_GT(estimate_seconds(squares(1000), 1), 0);
   EXPECT_LE(computed, 16);
   EXPECT_EQ(estimate_seconds({}, 1), 0);
+  const std::vector<Unit> told(4, {"told", 1, []() -> std::string { throw std::logic_error("it was tried"); }, 3});
+  EXPECT_EQ(estimate_seconds(told, 2), 6);
 }
 
 TEST(RunIdentity, tells_what_differs) {
