@@ -23,6 +23,7 @@ struct Unit {
   std::string key;                       ///< unique in the run and free of tabs and newlines
   std::int64_t trials;                   ///< for the progress bar and the estimate
   std::function<std::string()> compute;  ///< thread-safe; deterministic, but for times; free of newlines
+  double seconds = 0;                    ///< [s] about how long it takes, if it starts a program; 0: a try tells
 };
 
 struct Section {

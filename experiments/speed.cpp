@@ -16,6 +16,8 @@ namespace thinwall {
 
 namespace {
 
+constexpr double rows_of_a_program = 700;  // about, on average: for the estimate of a dry run, which starts none
+
 class SpeedRun final : public Run {
  public:
   SpeedRun(std::filesystem::path folder, std::vector<std::string> programs, std::int64_t rounds, BenchOptions options)
@@ -26,7 +28,8 @@ class SpeedRun final : public Run {
     for (std::int64_t round = 1; round <= rounds_; ++round) {
       for (const std::string& program : programs_) {
         units.push_back({fmt::format("{} {}", program, round), 1,
-                         [this, &program] { return to_line(run_bench_program(folder_, program, options_)); }});
+                         [this, &program] { return to_line(run_bench_program(folder_, program, options_)); },
+                         rows_of_a_program * options_.seconds});
       }
     }
     return units;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
 #include <thinwall/experiments/check/parts.hpp>
 #include <thinwall/experiments/results/record.hpp>
+#include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
@@ -77,7 +79,12 @@ void check_unknown_files(const KeptResult& result, const std::set<std::string>& 
   for (const auto& [file, hash] : result.hashes) known.insert(file);
   known.insert(result.unhashed.begin(), result.unhashed.end());
   for (const std::string& file : found) {
-    if (known.contains(file) || is_drawn_again(file, found)) continue;
+    const bool is_known = known.contains(file) || is_drawn_again(file, found);
+    if (is_known && fs::is_symlink(result.folder / file)) {
+      faults.push_back(fmt::format("{}: is a link, not the file that the run wrote", one_line(file)));
+      continue;
+    }
+    if (is_known) continue;
     faults.push_back(
         fmt::format("{}: {}", one_line(file),
                     is_journal(file) ? "a run is at work here, or was interrupted" : kind_of(result.folder / file)));
@@ -124,12 +131,13 @@ std::vector<std::string> check_result(const fs::path& folder) {
     faults.insert(faults.begin(), "manifest.json: is not a file");
     return faults;
   }
-  auto result = parse_kept_result(file_text(folder / "manifest.json"));
-  if (!result) {
-    faults.insert(faults.begin(), "manifest.json: damaged, or not ours");
+  std::optional<KeptResult> result;
+  try {
+    result = kept_result(folder, "manifest.json");
+  } catch (const UsageError& error) {
+    faults.insert(faults.begin(), error.what());
     return faults;
   }
-  result->folder = folder;
   const std::set<std::string> found = files_below(folder);
   check_named_files(*result, faults);
   check_run_id(*result, faults);

@@ -7,6 +7,7 @@
 
 #include <thinwall/experiments/check/csv_reader.hpp>
 #include <thinwall/experiments/check/parts.hpp>
+#include <thinwall/experiments/json_reader.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
@@ -179,9 +180,9 @@ std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
     add(faults, package_file, "is not a file");
     return paths;
   }
-  const json package = json::parse(file_text(folder / package_file), nullptr, false);
+  const json package = bounded_json(file_text(folder / package_file));
   if (!package.is_object()) {
-    add(faults, package_file, "not JSON, or no object");
+    add(faults, package_file, "not JSON, or no object, or nested too deep");
     return paths;
   }
   require_value(package, "profile", "tabular-data-package", "the package", faults);

@@ -64,6 +64,17 @@ std::string rows_of_page(const std::string& page) {
   return short_exponents(out);
 }
 
+/// The captions of the page's tables as their Markdown has them, a line each.
+std::string captions_of_page(const std::string& page) {
+  std::string out = "\n";
+  constexpr std::string_view begin = "<p class=\"caption\">", end = " <a href=\"data/";
+  for (auto at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    const auto from = at + begin.size(), to = page.find(end, from);
+    if (to != std::string::npos) out += markdown_escaped(html_unescaped(page.substr(from, to - from))) + "\n";
+  }
+  return out;
+}
+
 /// A Markdown table: its caption, and its rows.
 struct MarkdownTable {
   std::string caption, rows;
@@ -85,11 +96,11 @@ MarkdownTable read_markdown(const std::string& text) {
 }  // namespace
 
 void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults) {
-  const std::string rows = rows_of_page(page);
+  const std::string rows = rows_of_page(page), captions = captions_of_page(page);
   for (const auto& [file, hash] : result.hashes) {
     if (!file.starts_with("tables/") || !file.ends_with(".md")) continue;
     const MarkdownTable table = read_markdown(file_text(result.folder / file));
-    if (rows.find(table.rows) == std::string::npos || page.find(html_escaped(table.caption)) == std::string::npos)
+    if (rows.find(table.rows) == std::string::npos || captions.find("\n" + table.caption + "\n") == std::string::npos)
       faults.push_back(fmt::format("{}: does not show the rows and the caption of {}", page_file, one_line(file)));
   }
 }

@@ -47,6 +47,18 @@ std::vector<Experiment> with_scenes(std::span<const Experiment> experiments) {
   return all;
 }
 
+/// A configuration may come from anywhere: it names no programs to start. The command line may.
+void choose_benchmarks(Settings& settings, const std::string& folder) {
+  constexpr std::string_view key = "benchmarks";
+  if (!settings.has(key)) {
+    if (!folder.empty()) throw UsageError("--benchmarks: only speed starts other programs");
+  } else if (!folder.empty()) {
+    settings.assign(key, folder);
+  } else if (!settings.text(key).empty()) {
+    settings.complain(key, "\"\"; to start the programs of that folder, say so: --benchmarks DIR");
+  }
+}
+
 ConfiguredRun configured(const Experiment& chosen, Settings& settings, const RunOptions& options) {
   ConfiguredRun out{.experiment = chosen,
                     .name = std::string(chosen.name),
@@ -129,6 +141,7 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
   if (is_scene(*chosen)) settings.assign("experiment", std::string(chosen->name));
   if (request.trace) settings.assign_flag("trace", true);
   if (!request.plan_kind.empty()) settings.assign("plan", request.plan_kind);
+  choose_benchmarks(settings, request.benchmarks);
   return configured(*chosen, settings, request.options);
 }
 

@@ -17,6 +17,7 @@ struct RunRequest {
   bool compare = false;                  ///< the target is a scene, to be compared
   bool trace = false;                    ///< of a scene
   std::string plan_kind;                 ///< of a scene; empty: as it says itself
+  std::string benchmarks = {};           ///< the folder of the programs that speed starts; empty: beside this one
   std::optional<std::string> text = {};  ///< in place of the target's content, for which the target is then only a name
 };
 

@@ -74,9 +74,7 @@ int Crew::assist(const std::filesystem::path& folder, const std::string& identit
   try {
     const std::vector<Unit> ours = share_of(open);
     if (!ours.empty()) {
-      const std::filesystem::path file = ResultFolder::rank_journal(folder, ranks_.rank());
-      if (Journal::identity_in(file) != identity) std::filesystem::remove(file);  // of another run
-      Journal journal(file, identity);
+      Journal journal(ResultFolder::rank_journal(folder, ranks_.rank()), identity);
       if (!compute_units(ours, journal, options).complete) ending = stopped;
     }
   } catch (const std::exception& error) {

@@ -43,6 +43,11 @@ void add_out(CLI::App& command, OptionText& out) {
   add_text(command, "--out", out, "The result folder (default: results/NAME)", "DIR");
 }
 
+void add_benchmarks(CLI::App& command, OptionText& folder) {
+  add_text(command, "--benchmarks", folder, "Of speed: the folder of the programs to start (default: beside this one)",
+           "DIR");
+}
+
 void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,
                 const std::string& form) {
   command.add_option(name, target, meaning)->option_text(form);

@@ -24,6 +24,7 @@ void add_json(CLI::App& command, bool& json);
 void add_seed(CLI::App& command, OptionText& seed);
 void add_threads(CLI::App& command, OptionText& threads);
 void add_out(CLI::App& command, OptionText& out);
+void add_benchmarks(CLI::App& command, OptionText& folder);
 
 /// The word after the command: the help calls it `name` and gives its `form`. Empty if it is missing.
 void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,

@@ -190,7 +190,7 @@ int perform_run(const RunWish& given, const Call& call) try {
 
   watch_for_stop();
   std::optional<StopGuard> guard(std::in_place, patience, [&] {
-    if (stderr_is_terminal()) call.err << "\r\x1b[K";  // the progress bar
+    if (stderr_is_terminal()) ProgressBar::erase();
     std::_Exit(interrupted(wish, "finished units are kept", call));
   });
   for (const std::string& note : chosen.run->notes()) call.err << note << "\n";

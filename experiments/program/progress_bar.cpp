@@ -57,8 +57,10 @@ void ProgressBar::show(const Progress& progress) {
   std::fflush(stderr);
 }
 
+void ProgressBar::erase() { std::fputs("\r\x1b[K", stderr); }
+
 ProgressBar::~ProgressBar() {
-  if (drawn_) std::fputs("\r\x1b[K", stderr);
+  if (drawn_) erase();
 }
 
 }  // namespace thinwall

@@ -22,6 +22,7 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
+  static void erase();
 
  private:
   using Clock = std::chrono::steady_clock;

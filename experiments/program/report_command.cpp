@@ -13,6 +13,7 @@
 #include <thinwall/experiments/program/exit_codes.hpp>
 #include <thinwall/experiments/results/drawn_figures.hpp>
 #include <thinwall/experiments/results/kept_result.hpp>
+#include <thinwall/experiments/results/result_folder.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 
@@ -82,6 +83,8 @@ int report(const ReportText& text, const Call& call) {
   DrawnFigures drawn;
   if (!formats.empty()) {
     read_result(text.target);
+    FolderLock lock;  // what is drawn must not be replaced meanwhile
+    if (!lock.take(text.target, true)) throw UsageError(one_line(text.target) + ": a run is at work here; wait for it");
     drawn = draw_figures(text.target, formats);
     for (const std::string& trouble : drawn.troubles) call.err << one_line(trouble) << "\n";
   }
@@ -114,7 +117,7 @@ Action declare_report(CLI::App& self) {
 }  // namespace
 
 void add_figures(CLI::App& self, OptionText& figures) {
-  add_text(self, "--figures", figures, "Draw the figures for print as well, from their scripts", "pdf,tex");
+  add_text(self, "--figures", figures, "Draw the figures for print as well, from their data", "pdf,tex");
 }
 
 std::vector<std::string> parse_figures(const OptionText& figures) {

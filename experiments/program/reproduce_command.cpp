@@ -4,7 +4,6 @@
 #include <memory>
 #include <ostream>
 #include <sstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -16,6 +15,7 @@
 #include <thinwall/experiments/results/manifest.hpp>
 #include <thinwall/experiments/results/rerun_comparison.hpp>
 #include <thinwall/experiments/results/resolved_toml.hpp>
+#include <thinwall/experiments/results/result_folder.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/file_text.hpp>
@@ -38,14 +38,14 @@ Exit code 0: identical; 1: a file differs.
 
 struct ReproduceText {
   std::string target;
-  OptionText out, threads;
+  OptionText out, threads, benchmarks;
   bool json = false;
 };
 
 /// A result and where its rerun goes.
 struct Rerun {
   fs::path result, out;
-  Provenance recorded;
+  Manifest recorded;
   std::vector<std::string> changed;  ///< files of the result that are not as they were written
   bool stays = false;                ///< the rerun is kept even if it is the same
 };
@@ -54,8 +54,8 @@ struct Rerun {
   throw UsageError(fmt::format("{}: {}", one_line(path.string()), why));
 }
 
-std::optional<Provenance> provenance_in(const fs::path& folder) {
-  return parse_provenance(file_text(folder / "manifest.json"));
+Manifest manifest_in(const fs::path& folder) {
+  return parse_manifest(file_text(folder / manifest_name), (folder / manifest_name).string());
 }
 
 Rerun prepare(const ReproduceText& text) {
@@ -69,9 +69,7 @@ Rerun prepare(const ReproduceText& text) {
   if (!fs::exists(out.result / "manifest.json")) {
     refuse(out.result, "holds no manifest.json; name the folder of a complete result");
   }
-  const auto recorded = provenance_in(out.result);
-  if (!recorded) refuse(out.result / "manifest.json", "is no manifest that this build reads");
-  out.recorded = *recorded;
+  out.recorded = manifest_in(out.result);
   out.changed = files_changed_since(out.result, out.recorded);
   out.out = parse_folder(text.out);
   if (out.out.empty()) {
@@ -92,14 +90,15 @@ Rerun prepare(const ReproduceText& text) {
 }
 
 /// Throws UsageError if this build cannot run it.
-RunWish wish_of(const Rerun& rerun, const OptionText& threads, std::span<const Experiment> experiments) {
+RunWish wish_of(const Rerun& rerun, const ReproduceText& text, std::span<const Experiment> experiments) {
   RunRecord record;
   record.experiment = rerun.recorded.run.experiment;
   record.config = rerun.recorded.run.config;
   RunWish wish;
   wish.target = (rerun.result / "resolved.toml").string();  // the same text, unless somebody changed it
   wish.request.text = resolved_toml(record);
-  wish.request.options = {rerun.recorded.run.seed, rerun.recorded.run.trials, parse_threads(threads)};
+  wish.request.options = {rerun.recorded.run.seed, rerun.recorded.run.trials, parse_threads(text.threads)};
+  wish.request.benchmarks = text.benchmarks.value_or("");
   wish.out = rerun.out.string();
   wish.launch = Launch{};
   configure_run(wish.target, wish.request, experiments);
@@ -165,7 +164,7 @@ std::string text_reply(const Rerun& rerun, const RerunComparison& found) {
 
 int reproduce(const ReproduceText& text, const Call& call) {
   const Rerun rerun = prepare(text);
-  const RunWish wish = wish_of(rerun, text.threads, call.experiments);
+  const RunWish wish = wish_of(rerun, text, call.experiments);
   for (const std::string& file : rerun.changed) {
     const bool lost = !fs::exists(rerun.result / file);
     call.err << fmt::format("{}: {} since it was written\n", one_line((rerun.result / file).string()),
@@ -174,12 +173,13 @@ int reproduce(const ReproduceText& text, const Call& call) {
   std::ostringstream unread;
   const int status = perform_run(wish, {call.experiments, call.argv, unread, call.err});
   if (status == exit_interrupted) return status;
-  const auto again = provenance_in(rerun.out);
-  if (!again) throw std::runtime_error(rerun.out.string() + ": the rerun left no manifest.json");
-  const RerunComparison found = compare_rerun(rerun.result, rerun.recorded, rerun.changed, rerun.out, *again);
+  const RerunComparison found =
+      compare_rerun(rerun.result, rerun.recorded, rerun.changed, rerun.out, manifest_in(rerun.out));
   call.out << (text.json ? json_reply(rerun, found) : text_reply(rerun, found));
   if (!found.differences.empty()) return exit_failed;
-  if (!rerun.stays) fs::remove_all(rerun.out);
+  if (!rerun.stays && !remove_result(rerun.out)) {
+    call.err << fmt::format("{}: stays, for it holds what the rerun did not write\n", one_line(rerun.out.string()));
+  }
   return exit_done;
 }
 
@@ -190,6 +190,7 @@ Action declare_reproduce(CLI::App& self) {
   add_text(self, "--out", text->out, "Where the rerun goes, and stays (default: RESULT.again, removed if identical)",
            "DIR");
   add_threads(self, text->threads);
+  add_benchmarks(self, text->benchmarks);
   add_json(self, text->json);
   return [text](const Call& call) { return reproduce(*text, call); };
 }

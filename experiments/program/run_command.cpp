@@ -28,6 +28,7 @@ Action declare_run(CLI::App& self) {
            "N");
   add_text(self, "--shard", text->shard, "Compute the i-th of N shards alone, for thinwall merge", "i/N");
   add_flag(self, "--trace", text->wish.request.trace, "Of a scene: write trace.jsonl, for a viewer");
+  add_benchmarks(self, text->benchmarks);
   add_run_options(self, *text);
   return [text](const Call& call) {
     if (text->wish.target.empty())
@@ -52,6 +53,7 @@ void add_run_options(CLI::App& self, RunText& text) {
 RunWish parse_run(const RunText& text) {
   RunWish wish = text.wish;
   wish.request.plan_kind = parse_plan_kind(text.plan);
+  wish.request.benchmarks = text.benchmarks.value_or("");
   RunOptions& options = wish.request.options;
   options.seed = parse_seed(text.seed);
   if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());

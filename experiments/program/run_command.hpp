@@ -12,7 +12,7 @@ namespace thinwall {
 /// Options of a run as they were typed.
 struct RunText {
   RunWish wish;
-  OptionText out, seed, trials, threads, plan, figures, shard;
+  OptionText out, seed, trials, threads, plan, figures, shard, benchmarks;
 };
 
 /// --out, --threads, --seed, --plan, --figures, --dry-run and --json.

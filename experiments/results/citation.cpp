@@ -1,5 +1,7 @@
 #include <thinwall/experiments/results/citation.hpp>
 
+#include <cctype>
+
 #include <fmt/format.h>
 
 #include <thinwall/experiments/text/escape.hpp>
@@ -29,18 +31,21 @@ std::string bibtex(const SoftwareCitation& software) {
   return fmt::format(
       "@software{{thinwall,\n  author  = {{{}}},\n  title   = {{{}}},\n  version = {{{}}},\n  date    = {{{}}},\n"
       "  year    = {{{}}},\n  license = {{{}}}\n}}\n",
-      software.authors, latex_escaped(software.title), software.version, software.date, software.date.substr(0, 4),
-      software.license);
+      software.authors, latex_escaped(software.title), latex_escaped(software.version), latex_escaped(software.date),
+      latex_escaped(software.date.substr(0, 4)), latex_escaped(software.license));
 }
 
 std::string bibtex(const ResultCitation& result) {
+  std::string key = fmt::format("thinwall_{}_{}", result.experiment, result.run_id);
+  std::erase_if(key, [](char letter) { return letter != '_' && !std::isalnum(static_cast<unsigned char>(letter)); });
   const std::string commit = result.commit.substr(0, 12) + (result.dirty ? " with uncommitted changes" : "");
   return fmt::format(
-      "@misc{{thinwall_{0}_{1},\n  author = {{{2}}},\n  title  = {{{3}}},\n"
+      "@misc{{{0},\n  author = {{{2}}},\n  title  = {{{3}}},\n"
       "  note   = {{Result of the thinwall experiment {4}, run {1}, seed {5}, commit {6}}},\n"
       "  date   = {{{7}}},\n  year   = {{{8}}}\n}}\n",
-      result.experiment, result.run_id, this_software().authors, latex_escaped(result.question),
-      latex_escaped(result.experiment), result.seed, commit, result.date, result.date.substr(0, 4));
+      key, latex_escaped(result.run_id), this_software().authors, latex_escaped(result.question),
+      latex_escaped(result.experiment), result.seed, latex_escaped(commit), latex_escaped(result.date),
+      latex_escaped(result.date.substr(0, 4)));
 }
 
 std::string bibtex(const SoftwareCitation& software, const ResultCitation& result) {

@@ -26,8 +26,8 @@ struct KeptResult {
   ResultCitation citation;
 };
 
-/// Nothing if `text` is no manifest of ours.
-std::optional<KeptResult> parse_kept_result(const std::string& text);
+/// What the manifest in `folder` says. Throws UsageError, naming it as `file`, if it is damaged or not ours.
+KeptResult kept_result(const std::filesystem::path& folder, const std::string& file);
 
 /// `1/3` if `folder` holds a finished shard of a run; empty if not.
 std::string shard_in(const std::filesystem::path& folder);

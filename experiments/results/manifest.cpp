@@ -1,19 +1,39 @@
 #include <thinwall/experiments/results/manifest.hpp>
 
 #include <algorithm>
-#include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/json_reader.hpp>
 #include <thinwall/experiments/run/identity.hpp>
 
 namespace thinwall {
 namespace {
 
 using nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 constexpr int format_version = 1;
+
+constexpr const char* hex_words = "hexadecimal digits";
+
+bool is_hex(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+bool is_commit(std::string_view text) { return text == "unknown" || is_hex(text); }
+
+/// Digits where `form` has a 0, its own letters elsewhere.
+bool has_form(std::string_view text, std::string_view form) {
+  return std::ranges::equal(text, form, [](char letter, char place) {
+    return place == '0' ? '0' <= letter && letter <= '9' : letter == place;
+  });
+}
+
+bool is_day(std::string_view text) { return has_form(text, "0000-00-00"); }
+bool is_time(std::string_view text) { return has_form(text, "0000-00-00T00:00:00Z"); }
 
 ordered_json program(const BuildRecord& build) {
   ordered_json libraries = ordered_json::object();
@@ -62,33 +82,55 @@ std::string manifest_text(const RunRecord& run, const Outcome& outcome,
 }
 
 bool stays_within(const std::string& path) {
-  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
-  return !normal.empty() && normal.is_relative() && *normal.begin() != ".." && *normal.begin() != ".";
+  const fs::path normal = fs::path(path).lexically_normal();
+  return path.find('\0') == std::string::npos && !normal.empty() && normal.is_relative() && *normal.begin() != ".." &&
+         *normal.begin() != ".";
 }
 
-std::optional<Manifest> parse_manifest(const std::string& text) {
-  using nlohmann::json;
-  const json manifest = json::parse(text, nullptr, false);
-  if (!manifest.is_object() || manifest.value("thinwall_manifest", json()) != format_version) return std::nullopt;
-  try {
-    RunIdentity identity{.experiment = manifest.at("experiment"),
-                         .config = manifest.at("config").dump(),
-                         .seed = manifest.at("seed"),
-                         .trials = std::nullopt,
-                         .program = manifest.at("program").at("sha256")};
-    if (!manifest.at("trials").is_null()) identity.trials = manifest.at("trials").get<std::int64_t>();
-    Manifest out{.identity = identity_text(identity),
-                 .answer = manifest.at("answer"),
-                 .summary = manifest.at("summary"),
-                 .self_test_passed = manifest.at("self_test_passed"),
-                 .hashes = manifest.at("files"),
-                 .unhashed = manifest.value("files_of_times", std::vector<std::string>())};
-    const bool ours = std::ranges::all_of(out.unhashed, stays_within) &&
-                      std::ranges::all_of(out.hashes, stays_within, &std::pair<const std::string, std::string>::first);
-    return ours ? std::optional(std::move(out)) : std::nullopt;
-  } catch (const json::exception&) {
-    return std::nullopt;
+bool holds_file(const fs::path& folder, const std::string& file) {
+  fs::path path = folder;
+  std::error_code none;
+  for (const fs::path& part : fs::path(file).lexically_normal()) {
+    if (fs::is_symlink(path /= part, none)) return false;
   }
+  return fs::is_regular_file(path, none);
+}
+
+Manifest parse_manifest(const std::string& text, const std::string& file) {
+  const JsonReader manifest(text, file);
+  manifest.whole("thinwall_manifest", format_version, format_version);
+  const JsonReader program = manifest.object("program"), machine = manifest.object("machine");
+  Manifest out{
+      .run = read_identity(manifest),
+      .question = manifest.text("question"),
+      .answer = manifest.text("answer"),
+      .summary = manifest.text("summary"),
+      .run_id = manifest.text("run_id", is_hex, hex_words),
+      .reproduce = manifest.text("reproduce"),
+      .finished = manifest.text("finished", is_time, "a time as 2031-02-03T04:05:06Z"),
+      .self_test_passed = manifest.flag("self_test_passed"),
+      .version = program.text("version"),
+      .release_date =
+          program.has("release_date") ? program.text("release_date", is_day, "a day as 2031-02-03") : std::string(),
+      .commit = program.text("commit", is_commit, "hexadecimal digits, or \"unknown\""),
+      .dirty = program.flag("dirty"),
+      .facts = {},
+      .hashes = manifest.named_texts("files"),
+      .unhashed = manifest.has("files_of_times") ? manifest.texts("files_of_times") : std::vector<std::string>()};
+  out.run.program = program.text("sha256");
+  if (!std::ranges::all_of(out.hashes, stays_within, &std::pair<const std::string, std::string>::first))
+    manifest.complain("files", "paths within the folder");
+  if (!std::ranges::all_of(out.unhashed, stays_within)) manifest.complain("files_of_times", "paths within the folder");
+  out.facts = {{"version", out.version},
+               {"commit", out.commit + (out.dirty ? " with uncommitted changes" : "")},
+               {"compiler", program.text("compiler")},
+               {"flags", program.text("flags")},
+               {"build type", program.text("build_type")}};
+  for (const auto& library : program.named_texts("libraries")) out.facts.emplace_back(library);
+  out.facts.emplace_back("program (SHA-256)", out.run.program);
+  out.facts.emplace_back("CPU", machine.text("cpu"));
+  out.facts.emplace_back("system", machine.text("system"));
+  return out;
 }
 
 }  // namespace thinwall

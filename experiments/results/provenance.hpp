@@ -1,24 +1,12 @@
 #pragma once
-/// What a manifest says of where a result came from: enough to run it again, and to explain why a rerun differs.
+/// Where two results came from, held against each other: it may explain why they differ.
 
-#include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <thinwall/experiments/run/identity.hpp>
+#include <thinwall/experiments/results/manifest.hpp>
 
 namespace thinwall {
-
-struct Provenance {
-  RunIdentity run;
-  std::vector<std::pair<std::string, std::string>> facts;  ///< commit, compiler, libraries, machine: name and value
-  std::map<std::string, std::string> hashes;               ///< SHA-256 of each file that must not differ, by path
-};
-
-/// Nothing if `text` is no manifest of ours.
-std::optional<Provenance> parse_provenance(const std::string& text);
 
 /// A fact of which two results differ.
 struct FactChange {
@@ -26,6 +14,6 @@ struct FactChange {
 };
 
 /// In the order of the facts. A change of the program alone, with the same commit and build, is one of uncommitted sources.
-std::vector<FactChange> changed_facts(const Provenance& recorded, const Provenance& rerun);
+std::vector<FactChange> changed_facts(const Manifest& recorded, const Manifest& rerun);
 
 }  // namespace thinwall

@@ -14,16 +14,16 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-std::vector<std::string> files_changed_since(const fs::path& result, const Provenance& recorded) {
+std::vector<std::string> files_changed_since(const fs::path& result, const Manifest& recorded) {
   std::vector<std::string> out;
   for (const auto& [file, hash] : recorded.hashes) {
-    if (!fs::exists(result / file) || sha256_of_file(result / file) != hash) out.push_back(file);
+    if (!holds_file(result, file) || sha256_of_file(result / file) != hash) out.push_back(file);
   }
   return out;
 }
 
-RerunComparison compare_rerun(const fs::path& result, const Provenance& recorded,
-                              const std::vector<std::string>& changed, const fs::path& rerun, const Provenance& again) {
+RerunComparison compare_rerun(const fs::path& result, const Manifest& recorded, const std::vector<std::string>& changed,
+                              const fs::path& rerun, const Manifest& again) {
   RerunComparison out{.differences = {}, .facts = changed_facts(recorded, again)};
   std::set<std::string> files;
   for (const auto* hashes : {&recorded.hashes, &again.hashes}) {
@@ -32,7 +32,7 @@ RerunComparison compare_rerun(const fs::path& result, const Provenance& recorded
   out.files = static_cast<int>(files.size());
   bool by_hand = true;
   for (const std::string& file : files) {
-    const bool there = recorded.hashes.contains(file) && fs::exists(result / file), here = again.hashes.contains(file);
+    const bool there = recorded.hashes.contains(file) && holds_file(result, file), here = again.hashes.contains(file);
     std::optional<FileDifference> difference;
     if (there && here) {
       difference = first_difference(file, file_text(result / file), file_text(rerun / file));

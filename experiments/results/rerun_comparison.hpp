@@ -11,7 +11,7 @@
 namespace thinwall {
 
 /// Files of a result that are not what its manifest says they were: changed by hand since, or lost.
-std::vector<std::string> files_changed_since(const std::filesystem::path& result, const Provenance& recorded);
+std::vector<std::string> files_changed_since(const std::filesystem::path& result, const Manifest& recorded);
 
 struct RerunComparison {
   int files = 0;                            ///< compared: all that either manifest hashes
@@ -21,8 +21,8 @@ struct RerunComparison {
 };
 
 /// `changed`: as `files_changed_since` found them. Throws std::system_error if a file cannot be read.
-RerunComparison compare_rerun(const std::filesystem::path& result, const Provenance& recorded,
+RerunComparison compare_rerun(const std::filesystem::path& result, const Manifest& recorded,
                               const std::vector<std::string>& changed, const std::filesystem::path& rerun,
-                              const Provenance& again);
+                              const Manifest& again);
 
 }  // namespace thinwall

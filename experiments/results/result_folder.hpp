@@ -3,7 +3,8 @@
 ///
 /// While a run lasts the folder holds its journal. Results are written under another name and moved into place when all
 /// of them are there, the manifest last; then the journal goes. So whatever has its own name is whole, and a folder with a
-/// manifest is complete, also after the end of the process or of the power at any moment.
+/// manifest is complete, also after the end of the process or of the power at any moment. What this program did not write is
+/// neither removed nor replaced, and no link is followed.
 
 #include <filesystem>
 #include <map>
@@ -15,10 +16,10 @@
 #include <thinwall/experiments/results/manifest.hpp>
 #include <thinwall/experiments/run/identity.hpp>
 #include <thinwall/experiments/run/journal.hpp>
+#include <thinwall/experiments/run/temporary.hpp>
 
 namespace thinwall {
 
-inline constexpr const char* manifest_name = "manifest.json";
 inline constexpr const char* journal_name = "journal.tsv";
 inline constexpr const char* seal_name = "shard.json";
 
@@ -30,8 +31,9 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// False if another process holds it. Throws std::system_error if there is no such folder.
-  bool take(const std::filesystem::path& folder);
+  /// `shared`: beside others who share it. False if another process holds it. Throws std::system_error if there is no such
+  /// folder.
+  bool take(const std::filesystem::path& folder, bool shared = false);
 
  private:
   int descriptor_ = -1;
@@ -57,8 +59,8 @@ class ResultFolder {
   /// There is one unless the folder is complete.
   Journal& journal() { return *journal_; }
 
-  /// Where files wait until `publish`.
-  std::filesystem::path staging() const { return path_ / ".staging"; }
+  /// Where files wait until `publish`: there is such a folder once something was staged.
+  const std::filesystem::path& staging() const { return staging_->path(); }
 
   /// Writes a file of the result into `staging`. Throws std::system_error if it cannot.
   void stage(const std::string& file, const std::string& text);
@@ -81,7 +83,9 @@ class ResultFolder {
  private:
   void look_at_manifest(const RunIdentity& identity);
   void look_at_journal(const RunIdentity& identity);
-  void clear_up() const;  // of what a complete folder does not need
+  std::optional<Manifest> manifest_in(const char* name) const;  // nothing if there is no file
+  void refuse_foreign(const char* name) const;                  // if it is there
+  void clear_up() const;                                        // of what a complete folder does not need
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::filesystem::path path_;
@@ -89,6 +93,10 @@ class ResultFolder {
   std::vector<std::string> notes_;
   std::optional<Manifest> complete_, replaced_;
   std::unique_ptr<Journal> journal_;
+  std::optional<Workshop> staging_;
 };
+
+/// Removes the complete result in `folder`, and the folder if it holds nothing else. Returns false if it stays.
+bool remove_result(const std::filesystem::path& folder);
 
 }  // namespace thinwall

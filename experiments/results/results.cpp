@@ -1,5 +1,6 @@
 #include <thinwall/experiments/results/results.hpp>
 
+#include <thinwall/experiments/figures/figure_json.hpp>
 #include <thinwall/experiments/figures/plot.hpp>
 #include <thinwall/experiments/results/citation.hpp>
 #include <thinwall/experiments/results/manifest.hpp>
@@ -33,6 +34,7 @@ void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& pa
   for (const Figure& figure : outcome.figures) {
     folder.stage("plots/" + figure.name + ".gp", plot_script(figure));
     folder.stage("plots/" + figure.name + ".dat", plot_data(figure));
+    folder.stage("plots/" + figure.name + ".json", figure_json(figure));
     const std::string trouble = draw(folder.staging() / "plots", figure.name);
     if (!trouble.empty()) {
       parts.why_no_svg = trouble;
@@ -56,7 +58,7 @@ std::vector<std::string> take_timings(std::map<std::string, std::string>& hashes
   }
   for (const Figure& figure : outcome.figures) {
     if (!figure.is_timing) continue;
-    for (const char* kind : {".dat", ".gp", ".svg"}) take("plots/" + figure.name + kind);
+    for (const char* kind : {".dat", ".gp", ".json", ".svg"}) take("plots/" + figure.name + kind);
   }
   return out;
 }

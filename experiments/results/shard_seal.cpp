@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/json_reader.hpp>
 #include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/sha256.hpp>
@@ -9,7 +10,6 @@
 namespace thinwall {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr int seal_version = 1;
@@ -17,21 +17,19 @@ constexpr int seal_version = 1;
 }  // namespace
 
 std::optional<ShardSeal> parse_seal(const std::string& text) {
-  const json seal = json::parse(text, nullptr, false);
-  if (!seal.is_object() || seal.value("thinwall_shard", json()) != seal_version) return std::nullopt;
   try {
-    const auto identity = parse_identity(seal.at("run").dump());
+    const JsonReader seal(text, seal_name), machine = seal.object("machine");
+    seal.whole("thinwall_shard", seal_version, seal_version);
+    const auto identity = parse_identity(seal.value("run").dump());
     if (!identity) return std::nullopt;
     return ShardSeal{.identity = *identity,
                      .shard = parse_shard(identity->shard),
                      .record = {.shard = identity->shard,
-                                .cpu = seal.at("machine").at("cpu"),
-                                .system = seal.at("machine").at("system"),
-                                .started = seal.at("started"),
-                                .finished = seal.at("finished")},
-                     .journal_sha256 = seal.at("journal")};
-  } catch (const json::exception&) {
-    return std::nullopt;
+                                .cpu = machine.text("cpu"),
+                                .system = machine.text("system"),
+                                .started = seal.text("started"),
+                                .finished = seal.text("finished")},
+                     .journal_sha256 = seal.text("journal")};
   } catch (const UsageError&) {
     return std::nullopt;
   }

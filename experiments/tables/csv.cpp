@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include <thinwall/experiments/text/numbers.hpp>
 
@@ -19,6 +20,18 @@ std::string quoted(const std::string& field) {
   std::string out = "\"";
   for (const char letter : field) out += letter == '"' ? std::string("\"\"") : std::string(1, letter);
   return out + '"';
+}
+
+/// A spreadsheet computes what begins so and goes on; behind a quote it is text. A text that begins with a quote gets one too, so
+/// that whoever takes one off has every text back.
+std::string guarded(const std::string& text) {
+  const bool is_formula = text.size() > 1 && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
+  return is_formula || text.starts_with('\'') ? "'" + text : text;
+}
+
+std::string field(const Value& value) {
+  const auto* const text = std::get_if<std::string>(&value);
+  return quoted(text ? guarded(*text) : exact_text(value));
 }
 
 bool fits(const Value& value, ColumnType type) {
@@ -64,7 +77,7 @@ std::string csv_text(const Table& table) {
   for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j > 0 ? "," : "") + quoted(table.columns[j].name);
   out += "\n";
   for (const auto& row : table.rows) {
-    for (std::size_t j = 0; j < row.size(); ++j) out += (j > 0 ? "," : "") + quoted(exact_text(row[j]));
+    for (std::size_t j = 0; j < row.size(); ++j) out += (j > 0 ? "," : "") + field(row[j]);
     out += "\n";
   }
   return out;

@@ -76,7 +76,7 @@ std::string markdown_table(const Table& whole) {
     for (const ShownCell& cell : row) out += fmt::format(" {} |", markdown_cell(cell));
     out += "\n";
   }
-  return fmt::format("{}\n\n{}\n{}\n{}", table.caption, names, rule, out);
+  return fmt::format("{}\n\n{}\n{}\n{}", markdown_escaped(table.caption), names, rule, out);
 }
 
 std::string latex_table(const Table& whole) {

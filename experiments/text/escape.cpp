@@ -154,7 +154,7 @@ std::string latex_escaped(std::string_view text) {
 }
 
 std::string markdown_escaped(std::string_view text) {
-  return replaced(text, [](char letter) -> std::string_view {
+  std::string out = replaced(text, [](char letter) -> std::string_view {
     switch (letter) {
       case '|': return "\\|";
       case '*': return "\\*";
@@ -166,6 +166,8 @@ std::string markdown_escaped(std::string_view text) {
       default: return {};
     }
   });
+  for (auto at = out.find("]("); at != std::string::npos; at = out.find("](", at)) out.insert(at + 1, 1, '\\');
+  return out;
 }
 
 std::string shell_line(const std::vector<std::string>& words) {

@@ -34,7 +34,7 @@ std::string html_escaped(std::string_view text);
 /// For LaTeX text.
 std::string latex_escaped(std::string_view text);
 
-/// For a cell of a Markdown table.
+/// For a cell of a Markdown table, or a line of text: no markup, no link.
 std::string markdown_escaped(std::string_view text);
 
 /// A command line that a shell splits into the same words.

@@ -116,7 +116,10 @@ std::vector<fs::path> query_files(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) throw UsageError(shown(folder) + ": is not a folder");
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().extension() == ".csv") files.push_back(entry->path());
+    if (entry->path().extension() != ".csv") continue;
+    if (!entry->is_regular_file(error))
+      throw UsageError(shown(entry->path()) + ": is not a regular file; no other is read");
+    files.push_back(entry->path());
   }
   if (error) throw UsageError(shown(folder) + ": cannot be read: " + error.message());
   if (files.empty()) throw UsageError(shown(folder) + ": has no CSV files of queries");

@@ -54,6 +54,18 @@ TEST_F(CiteTest, keeps_the_version_and_date_of_the_program_that_made_the_result)
   EXPECT_NE(cited.find("  version = {9.8.7},\n  date    = {2031-02-03},\n  year    = {2031},\n"), std::string::npos);
 }
 
+TEST_F(CiteTest, escapes_every_field) {
+  const std::string entry = bibtex(ResultCitation{.experiment = "a_b",
+                                                  .question = "100 %?",
+                                                  .run_id = "1}",
+                                                  .seed = 1,
+                                                  .commit = "a}, note={",
+                                                  .dirty = false,
+                                                  .date = "2031}%"});
+  for (const char* part : {"@misc{thinwall_a_b_1,", "100 \\%?", "run 1\\},", "commit a\\}, note=\\{}", "{2031\\}\\%}"})
+    EXPECT_NE(entry.find(part), std::string::npos) << part << " in\n" << entry;
+}
+
 TEST_F(CiteTest, refuses_what_holds_no_result) {
   const auto expect_refusal = [](const std::string& target, const std::string& why) {
     const Reply reply = call({"cite", target});
@@ -67,7 +79,7 @@ TEST_F(CiteTest, refuses_what_holds_no_result) {
   write_text(folder / "journal.tsv", "");
   expect_refusal(folder.path().string(), "holds a run that is not finished");
   write_text(folder / "manifest.json", "{\"thinwall_manifest\": 1}");
-  expect_refusal(folder.path().string(), "its manifest.json is damaged");
+  EXPECT_EQ(call({"cite", folder.path().string()}).err, folder / "manifest.json: key 'program': missing\n");
   expect_refusal(folder / "manifest.json", "is not a folder");
   const Reply nameless = call({"cite", ""});
   EXPECT_EQ(nameless.status, 2);

@@ -8,6 +8,10 @@
 #include <chrono>
 #include <random>
 
+#include <thinwall/experiments/run/journal.hpp>
+#include <thinwall/experiments/run/temporary.hpp>
+#include <thinwall/experiments/text/sha256.hpp>
+
 #include "support/program_process.hpp"
 #include "support/small_wall.hpp"
 
@@ -32,6 +36,15 @@ struct KilledRunTest : testing::Test {
     std::error_code none;
     const auto size = fs::file_size(folder / out + "/journal.tsv", none);
     return none ? 0 : size;
+  }
+
+  /// True while a file of the result waits for its place.
+  bool is_staged(const std::string& out, const std::string& name) const {
+    std::error_code none;
+    for (fs::directory_iterator entry(folder / out, none), end; !none && entry != end; entry.increment(none)) {
+      if (is_temporary_name(entry->path().filename().string()) && fs::exists(entry->path() / name, none)) return true;
+    }
+    return false;
   }
 
   void run_to_the_end(const std::string& out) const {
@@ -76,7 +89,7 @@ TEST_F(KilledRunTest, ends_with_the_same_bytes_after_fifty_kills) {
       switch (kind) {
         case 0: return Clock::now() >= when;
         case 1: return journal_size(out) > size;
-        case 2: return fs::exists(folder / out + "/.staging/" + name);
+        case 2: return is_staged(out, name);
         default: return fs::exists(folder / out + "/" + name);
       }
     };
@@ -112,8 +125,8 @@ TEST_F(KilledRunTest, ends_with_the_same_bytes_after_fifty_kills) {
 TEST_F(KilledRunTest, clears_up_after_a_kill_between_the_manifest_and_the_end) {
   run_to_the_end("out");
   const auto expected = lasting_files(folder / "out");
-  write_text(folder / "out/journal.tsv", "left\n");
-  fs::create_directories(folder / "out/.staging/data");
+  Journal(folder / "out/journal.tsv", "left");
+  fs::create_directories(folder / "out/" + temporary_name() + "/data");
   run_to_the_end("out");
   EXPECT_NE(notes().find("complete already"), std::string::npos) << notes();
   EXPECT_EQ(lasting_files(folder / "out"), expected);
@@ -123,7 +136,7 @@ TEST_F(KilledRunTest, forgets_no_file_of_a_result_that_it_was_replacing) {
   run_to_the_end("out");
   const auto expected = lasting_files(folder / "out");
   std::string manifest = read_text(folder / "out/manifest.json");
-  manifest.insert(manifest.find("\"files\": {") + 10, "\"data/gone.csv\": \"\", ");
+  manifest.insert(manifest.find("\"files\": {") + 10, "\"data/gone.csv\": \"" + sha256("old\n") + "\", ");
   fs::remove(folder / "out/manifest.json");  // killed after its first moves, replacing a result with one file more
   write_text(folder / "out/manifest.old.json", manifest);
   write_text(folder / "out/data/gone.csv", "old\n");

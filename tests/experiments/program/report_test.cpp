@@ -7,6 +7,7 @@
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/check/csv_reader.hpp>
+#include <thinwall/experiments/results/result_folder.hpp>
 
 #include "support/toy_program.hpp"
 
@@ -84,7 +85,7 @@ TEST_F(ReportTest, sees_what_became_of_the_manifest) {
   std::filesystem::remove(out + "/data/timings.csv");
   expect_fault("data/timings.csv: missing; the manifest names it");
   write_text(out + "/manifest.json", "{}");
-  expect_fault("manifest.json: damaged, or not ours");
+  expect_fault("manifest.json: key 'thinwall_manifest': missing");
   std::filesystem::remove(out + "/manifest.json");
   expect_fault("manifest.json: missing");
   EXPECT_EQ(call({"report", out, "--check"}).status, 1);
@@ -105,9 +106,9 @@ TEST_F(ReportTest, sees_a_manifest_that_was_edited) {
   expect_manifest_fault("run toy --seed", "run toy  --seed", "resolved.toml: does not give the manifest's line");
   expect_manifest_fault("\"self_test_passed\": true", "\"self_test_passed\": false",
                         "report.html: does not give the manifest's verdict");
-  expect_manifest_fault("\"seed\": 3", "\"seed\": 3.5", "manifest.json: damaged, or not ours");
-  expect_manifest_fault("\"seed\": 3", "\"seed\": -3", "manifest.json: damaged, or not ours");
-  expect_manifest_fault("\"trials\": null", "\"trials\": 1.5", "manifest.json: damaged, or not ours");
+  expect_manifest_fault("\"seed\": 3", "\"seed\": 3.5", "manifest.json: key 'seed': 3.5 is not allowed; a whole");
+  expect_manifest_fault("\"seed\": 3", "\"seed\": -3", "manifest.json: key 'seed': -3 is not allowed; a whole");
+  expect_manifest_fault("\"trials\": null", "\"trials\": 1.5", "manifest.json: key 'trials': 1.5 is not");
 }
 
 TEST_F(ReportTest, recomputes_a_run_id_however_json_spells_the_numbers) {
@@ -282,6 +283,76 @@ TEST_F(ReportTest, draws_figures_for_print_that_are_no_part_of_the_result) {
   ToyControl::computed = 0;
   EXPECT_NE(run({"--seed", "3"}).err.find("complete already"), std::string::npos) << "the result is still complete";
   EXPECT_EQ(ToyControl::computed, 0);
+}
+
+TEST_F(ReportTest, runs_no_script_that_lies_in_the_folder) {
+  const std::string script = read_text(out + "/plots/squares.gp") + "\nsystem('touch " + folder / "run" + "')\n";
+  for (const char* figure : {"squares", "cost", "mine"})
+    write_text(out + "/plots/" + std::string(figure) + ".gp", script);
+  std::string said = read_text(out + "/plots/squares.json");
+  said.replace(said.find("y [m^2]"), 7, "`touch run` '.system('touch " + folder / "run" + "').'");
+  write_text(out + "/plots/squares.json", said);
+  EXPECT_EQ(call({"report", out, "--figures", "pdf"}).status, 0);
+  EXPECT_TRUE(read_text(out + "/plots/squares.pdf").starts_with("%PDF-"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+  EXPECT_EQ(read_text(out + "/plots/squares.gp"), script);
+}
+
+TEST_F(ReportTest, names_what_is_wrong_with_the_data_of_a_figure) {
+  const std::string good = read_text(out + "/plots/squares.json");
+  const auto expect_trouble = [&](const std::string& from, const std::string& to, const std::string& trouble) {
+    change("plots/squares.json", from, to);
+    const Reply reply = call({"report", out, "--figures", "pdf"});
+    EXPECT_EQ(reply.status, 1);
+    EXPECT_NE(reply.err.find("squares was not drawn as pdf: " + trouble), std::string::npos) << reply.err;
+    write_text(out + "/plots/squares.json", good);
+  };
+  expect_trouble("\"color\":\"\"", "\"color\":\"red'\"",
+                 "plots/squares.json: key 'panels[0].series[0].color': \"red'\" is");
+  expect_trouble("\"mark\":\"points\"", "\"mark\":1",
+                 "plots/squares.json: key 'panels[0].series[0].mark': 1 is not allowed");
+  expect_trouble("\"name\":\"squares\"", "\"name\":\"cost\"", "plots/squares.json is of another figure");
+  expect_trouble("\"y\":[", "\"y\":[0,", "figure 'squares', series 'squares': lists of different length");
+  std::filesystem::remove(out + "/plots/squares.json");
+  EXPECT_NE(call({"report", out, "--figures", "pdf"}).err.find("plots/squares.json is missing"), std::string::npos);
+}
+
+TEST_F(ReportTest, draws_beside_others_who_draw) {
+  const Workshop theirs(out);  // of a process that is not done
+  write_text(theirs.path() / "squares.gp", "theirs");
+  FolderLock lock;
+  ASSERT_TRUE(lock.take(out, true));
+  EXPECT_EQ(call({"report", out, "--figures", "pdf"}).status, 0);
+  EXPECT_EQ(read_text(theirs.path() / "squares.gp"), "theirs");
+}
+
+TEST_F(ReportTest, does_not_draw_what_a_run_is_replacing) {
+  FolderLock lock;
+  ASSERT_TRUE(lock.take(out));
+  EXPECT_EQ(call({"report", out, "--figures", "pdf"}).err, out + ": a run is at work here; wait for it\n");
+}
+
+TEST_F(ReportTest, prints_no_control_character_of_a_manifest) {
+  auto json = manifest();
+  json["question"] = "What\x1b]0;is\x07 a square\xc2\x9b?";
+  json["summary"] = "cells:\t20\x7f";
+  write_text(out + "/manifest.json", json.dump());
+  const std::string said = call({"report", out}).out;
+  EXPECT_TRUE(said.starts_with("What\\x1b]0;is\\x07 a square\\u009b?\n")) << said;
+  EXPECT_NE(said.find("cells:\t20\\u007f\n"), std::string::npos) << said;
+  const std::string reply = call({"report", out, "--json"}).out;
+  EXPECT_TRUE(std::ranges::none_of(reply, [](char letter) { return letter == 0x7f || letter == 0x1b; }));
+  EXPECT_EQ(nlohmann::json::parse(reply).at("summary"), json["summary"]);
+}
+
+TEST_F(ReportTest, sees_a_link_where_a_file_should_be) {
+  for (const char* file : {"data/cells.csv", "report.html", "plots/squares.gp"}) {
+    std::filesystem::rename(out + "/" + file, folder / "elsewhere");
+    std::filesystem::create_symlink(folder / "elsewhere", out + "/" + file);
+    expect_fault(std::string(file) + ": is a link, not the file that the run wrote");
+    std::filesystem::rename(folder / "elsewhere", out + "/" + file);
+  }
+  EXPECT_EQ(check_result(out), std::vector<std::string>{});
 }
 
 TEST_F(ReportTest, draws_them_at_the_end_of_a_run_too) {

@@ -138,7 +138,7 @@ TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
   fs::create_directory(out);
   expect_refusal({"reproduce", out}, out + ": holds no manifest.json");
   write_text(out + "/manifest.json", "{}");
-  expect_refusal({"reproduce", out}, out + "/manifest.json: is no manifest");
+  expect_refusal({"reproduce", out}, out + "/manifest.json: key 'thinwall_manifest': missing");
   fs::remove_all(out);
   ASSERT_EQ(run().status, 0);
   const std::string good = read_text(out + "/manifest.json");

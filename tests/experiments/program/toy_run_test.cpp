@@ -30,7 +30,8 @@ TEST_F(ToyRunTest, leaves_a_whole_result_folder) {
 TEST_F(ToyRunTest, hashes_every_file_but_timings_their_figures_report_and_manifest) {
   ASSERT_EQ(run().status, 0);
   auto files = files_in(out);
-  for (const char* name : {"data/timings.csv", "plots/cost.gp", "plots/cost.dat", "report.html", "manifest.json"}) {
+  for (const char* name :
+       {"data/timings.csv", "plots/cost.gp", "plots/cost.dat", "plots/cost.json", "report.html", "manifest.json"}) {
     EXPECT_EQ(files.erase(name), 1u);
   }
   files.erase("plots/cost.svg");  // there only if gnuplot is

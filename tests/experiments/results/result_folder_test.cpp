@@ -102,7 +102,10 @@ TEST_F(ResultFolderTest, refuses_a_folder_that_holds_things_of_others) {
   EXPECT_EQ(reply.status, 2);
   EXPECT_EQ(reply.err, "--out " + out + ": holds 'data', which is not ours; name another folder\n");
   write_text(out + "/manifest.json", "{}");
-  EXPECT_EQ(run().err, "--out " + out + ": holds a manifest.json that is not ours; name another folder\n");
+  EXPECT_EQ(run().err,
+            "--out " + out +
+                ": holds a manifest.json that is not ours (manifest.json: key 'thinwall_manifest': missing); "
+                "name another folder\n");
 }
 
 TEST_F(ResultFolderTest, refuses_a_folder_where_another_run_is_at_work) {
@@ -129,11 +132,34 @@ TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_w
 TEST_F(ResultFolderTest, clears_what_a_run_left_that_was_killed_while_it_wrote) {
   ToyControl::interrupt_after = 3;
   ASSERT_EQ(run().status, 130);
-  std::filesystem::create_directories(out + "/.staging/data");
-  write_text(out + "/.staging/data/half.csv", "half");
+  const std::string left = out + "/" + temporary_name();
+  std::filesystem::create_directories(left + "/data");
+  write_text(left + "/data/half.csv", "half");
+  write_text(out + "/" + temporary_name(), "half a journal");
   EXPECT_EQ(run().status, 0);
   EXPECT_FALSE(std::filesystem::exists(out + "/data/half.csv"));
-  EXPECT_FALSE(std::filesystem::exists(out + "/.staging"));
+  for (const auto& [name, text] : files_in(out)) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(ResultFolderTest, takes_no_row_of_another_seed) {
+  ASSERT_EQ(run().status, 0);
+  const std::string cells = read_text(out + "/data/cells.csv");
+  std::map<std::string, std::string> journals;
+  for (const char* seed : {"0", "99"}) {
+    out = folder / seed;
+    ToyControl::interrupt_after = 8;
+    ASSERT_EQ(run({"--threads", "1", "--seed", seed}).status, 130);
+    journals[seed] = read_text(out + "/journal.tsv");
+  }
+  out = folder / "0";
+  const auto first_row = [](const std::string& text) { return text.find('\n') + 1; };
+  write_text(out + "/journal.tsv",
+             journals["0"].substr(0, first_row(journals["0"])) + journals["99"].substr(first_row(journals["99"])));
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_NE(reply.err.find("journal.tsv:2: the row of 'cell 0' is damaged, or of another run"), std::string::npos)
+      << reply.err;
+  EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
 }
 
 }  // namespace

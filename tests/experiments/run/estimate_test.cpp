@@ -79,6 +79,13 @@ TEST(Estimate, says_what_it_knows_nothing_of) {
   EXPECT_EQ(basis_text(estimate(endless(100)->units(), endless, 0.05)), "10 units too long to try");
 }
 
+TEST(Estimate, tries_no_unit_that_says_how_long_it_takes) {
+  const auto tried = []() -> std::string { throw std::logic_error("it was tried"); };
+  const Estimate told = estimate_of(1, {{"a", 1, tried, 3}, {"b", 1, tried, 3}}, 0.2);
+  EXPECT_EQ(told.whole_tried, 12);
+  EXPECT_GE(told.seconds, 6);
+}
+
 TEST(Estimate, passes_over_trials_that_are_too_few) {
   const UnevenRun run(1000, {});
   const auto again = [](std::int64_t trials) {

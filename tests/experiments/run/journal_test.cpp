@@ -61,8 +61,34 @@ TEST_F(JournalTest, names_a_damaged_row_and_forgets_it) {
   EXPECT_EQ(journal.finished().size(), 2u);
   EXPECT_FALSE(journal.finished().contains("a"));
   ASSERT_EQ(journal.damage().size(), 1u);
-  EXPECT_EQ(journal.damage()[0], file + ":2: the row of 'a' is damaged; that unit is computed again");
+  EXPECT_EQ(journal.damage()[0],
+            file + ":2: the row of 'a' is damaged, or of another run; that unit is computed again");
   EXPECT_TRUE(Journal(file, "the run").damage().empty());  // the row is gone
+}
+
+TEST_F(JournalTest, takes_no_row_of_another_run) {
+  Journal(folder / "other.tsv", "another run").add("b", {0.2, "theirs"});
+  Journal(file, "the run").add("a", {0.1, "ours"});
+  const std::string other = read_text(folder / "other.tsv");
+  write_text(file, read_text(file) + other.substr(other.find('\n') + 1));
+  const Journal journal(file, "the run");
+  EXPECT_EQ(journal.finished().size(), 1u);
+  EXPECT_EQ(
+      journal.damage(),
+      std::vector<std::string>{file + ":3: the row of 'b' is damaged, or of another run; that unit is computed again"});
+}
+
+TEST_F(JournalTest, follows_no_link_and_overwrites_nothing_of_others) {
+  write_text(folder / "mine", "mine\n");
+  std::filesystem::create_symlink("mine", file + ".new");
+  std::filesystem::create_symlink("mine", folder / "link.tsv");
+  write_three();
+  EXPECT_THROW(Journal(folder / "link.tsv", "the run"), std::system_error);
+  EXPECT_THROW(Journal(folder / "mine", "the run"), std::system_error);
+  EXPECT_EQ(read_text(folder / "mine"), "mine\n");
+  EXPECT_TRUE(std::filesystem::is_symlink(file + ".new"));
+  std::filesystem::create_symlink("journal.tsv", folder / "linked.tsv");  // to a journal, too
+  EXPECT_THROW(Journal(folder / "linked.tsv", "the run"), std::system_error);
 }
 
 TEST_F(JournalTest, cannot_be_written_where_nothing_can) {

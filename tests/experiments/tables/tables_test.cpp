@@ -57,6 +57,16 @@ TEST(Csv, quotes_as_rfc_4180_says) {
             "method,angle_deg,shots,passed\nend_of_step,0.1,12000,true\n\"a,b\"\"c\"\"\nd\",-1.5e-07,12000,\n");
 }
 
+TEST(Csv, keeps_a_spreadsheet_from_computing_a_text) {
+  Table table{.name = "words", .description = "", .columns = {}, .rows = {}};
+  table.columns = {{"word", ColumnType::text, "", "Any."}, {"size", ColumnType::number, "1", "Any."}};
+  for (const char* word : {"=1+1", "@a", "+1", "-1", "\ta", "\ra", "'a", "'", "-", "a=b", ""})
+    table.rows.push_back({std::string(word), -1.5});
+  EXPECT_EQ(
+      csv_text(table),
+      "word,size\n'=1+1,-1.5\n'@a,-1.5\n'+1,-1.5\n'-1,-1.5\n'\ta,-1.5\n\"'\ra\",-1.5\n''a,-1.5\n'',-1.5\n-,-1.5\na=b,-1.5\n,-1.5\n");
+}
+
 TEST(Csv, spells_what_is_no_finite_number) {
   EXPECT_EQ(exact_text(Value{std::numeric_limits<double>::quiet_NaN()}), "");
   EXPECT_EQ(exact_text(Value{std::numeric_limits<double>::infinity()}), "INF");
@@ -99,6 +109,13 @@ TEST(ShownTable, tells_a_constant_column_in_words) {
   EXPECT_EQ(markdown,
             "A & B. In every row: shots 12,000.\n\n| method | angle [deg] | passed |\n| :--- | ---: | :--- |\n"
             "| end\\_of\\_step | 0.1 | yes |\n| a,b\"c\" d | -1.5e-07 | \u2013 |\n");
+}
+
+TEST(ShownTable, has_no_markup_of_its_words_in_markdown) {
+  Table table = small_table();
+  table.description = "<b>*a*</b> ![b](http://c) `d` [e, f]";
+  EXPECT_TRUE(markdown_table(table).starts_with("&lt;b>\\*a\\*&lt;/b> ![b]\\(http://c) \\`d\\` [e, f] In every row"))
+      << markdown_table(table);
 }
 
 TEST(ShownTable, is_what_latex_and_html_expect) {

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -149,6 +151,15 @@ TEST_F(ValidateTest, folders_without_queries_are_refused) {
   EXPECT_EQ(refusal(stray), stray + ": is not a folder\n");
   EXPECT_NE(refusal(folder.path().string()).find(stray + ": is in no folder named"), std::string::npos);
   EXPECT_NE(refusal("").find("a folder of published queries is missing"), std::string::npos);
+}
+
+TEST_F(ValidateTest, what_is_no_regular_file_is_named_and_refused) {
+  write("set/vertex-face/a.csv", falling("1,2", 1));
+  const std::string pipe = folder / "set/vertex-face/b.csv";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const Reply reply = validate(folder / "set");
+  EXPECT_EQ(reply.exit_code, 2);
+  EXPECT_EQ(reply.err, pipe + ": is not a regular file; no other is read\n");
 }
 
 TEST_F(ValidateTest, help_opens_with_examples) {

@@ -1,0 +1,32 @@
+#pragma once
+/// Names for what lasts only while a process works in a folder. Nobody can foresee one, so nothing of a user's is in its place;
+/// and a name shows that it is one, so what a killed process left can be told from what a user put there.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace thinwall {
+
+/// A name of letters and digits behind `.thinwall-`, at random; its end is a checksum of the rest.
+std::string temporary_name();
+
+bool is_temporary_name(std::string_view name);
+
+/// Removes what processes that were killed left in `folder`. Nobody else may be at work there.
+void remove_leftovers(const std::filesystem::path& folder);
+
+/// A new folder for ourselves alone in `folder`, gone with this. Throws std::system_error.
+class Workshop {
+ public:
+  explicit Workshop(const std::filesystem::path& folder);
+  ~Workshop();
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace thinwall
