@@ -27,7 +27,7 @@ constexpr std::array<std::pair<const char*, std::vector<double> Series::*>, 6> l
      {"x_upper", &Series::x_upper}}};
 
 /// The named tics of a panel, by name.
-constexpr std::array<std::pair<const char*, std::vector<Tic> Panel::*>, 3> tics = {
+constexpr std::array<std::pair<const char*, std::vector<Tic> Panel::*>, 3> named_tics = {
     {{"x_tics", &Panel::x_tics}, {"y_tics", &Panel::y_tics}, {"x_groups", &Panel::x_groups}}};
 
 ordered_json json_of(const Series& series) {
@@ -44,7 +44,7 @@ ordered_json json_of(const Panel& panel) {
   ordered_json out = {{"x_label", panel.x_label}, {"y_label", panel.y_label}, {"log_x", panel.log_x},
                       {"log_y", panel.log_y},     {"height", panel.height},   {"series", ordered_json::array()}};
   for (const Series& series : panel.series) out["series"].push_back(json_of(series));
-  for (const auto& [name, list] : tics) {
+  for (const auto& [name, list] : named_tics) {
     out[name] = ordered_json::array();
     for (const Tic& tic : panel.*list) out[name].push_back({{"at", tic.at}, {"label", tic.label}});
   }
@@ -80,7 +80,7 @@ Panel panel_of(const JsonReader& in) {
   out.height = in.number("height");
   if (!(out.height > 0 && out.height <= 100)) in.complain("height", "a number > 0 and <= 100");
   for (const JsonReader& series : in.objects("series")) out.series.push_back(series_of(series));
-  for (const auto& [name, list] : tics) {
+  for (const auto& [name, list] : named_tics) {
     for (const JsonReader& tic : in.objects(name)) (out.*list).push_back({tic.number("at"), tic.text("label")});
   }
   return out;

@@ -28,10 +28,11 @@
 namespace thinwall {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Tell = std::function<void(const Estimate&)>;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 std::unique_ptr<Run> run_of(const ConfigureTrials& again, std::int64_t trials) {
   try {
@@ -47,7 +48,7 @@ struct Rate {
   std::int64_t units = 0;
 
   void time(const Unit& unit) {
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     if (unit.seconds == 0) unit.compute();
     seconds += unit.seconds > 0 ? unit.seconds : seconds_since(start);
     trials += static_cast<double>(unit.trials);
@@ -106,9 +107,9 @@ void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double b
           .whole = parts->whole,
           .unknown = rate.units > 0 ? 0 : parts->cut});
   };
-  const auto begin = Clock::now();
+  const auto begin = std::chrono::steady_clock::now();
   for (std::int64_t trials = 1;; trials *= growth) {
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     if (const std::unique_ptr<Run> run = run_of(again, trials)) {
       const std::vector<Unit> smaller = run->units();
       const bool first = !parts;
@@ -169,7 +170,7 @@ void end_after(double seconds) {
 std::optional<Estimate> told_within(double seconds, const std::function<void(const Tell&)>& work) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
-  const auto [read, write] = ends;
+  const int read = ends[0], write = ends[1];
   const pid_t child = ::fork();
   if (child == 0) {
     end_after(seconds);
