@@ -37,12 +37,6 @@ template <Scalar S> Manifold<S> flipped(const Manifold<S>& manifold) {
   return changed(manifold, [](const Contact<S>& c) { return flipped(c); });
 }
 
-/// The same contact with every length multiplied by 2^e.
-template <Scalar S> Contact<S> scaled(const Contact<S>& c, int e) {
-  return {times_power_of_two(c.local_a, e), times_power_of_two(c.local_b, e), c.normal,
-          times_power_of_two(c.penetration, e)};
-}
-
 /// The closest or deepest points alone. Unlike contact(), a point of an axis-aligned box too, not its center.
 template <Shape A, Shape B>
 Manifold<typename A::Scalar> single_point(const A& a, const B& b, const CoreGap<typename A::Scalar>& gap) {
@@ -81,9 +75,17 @@ template <Shape A, Shape B> Manifold<typename A::Scalar> manifold(const A& a, co
   if constexpr (A::rank < B::rank) {
     return flipped(manifold(b, a));
   } else {
-    if (!overlaps(a, b)) return {};
-    if (is_ordinary(S(magnitude(a) + magnitude(b)))) return touching_manifold(a, b);
-    return changed(manifold(scaled(a, -8), scaled(b, -8)), [](const Contact<S>& c) { return scaled(c, 8); });
+    const auto unchecked = [](const A& x, const B& y) {
+      return overlaps_unchecked(x, y, S(0)) ? touching_manifold(x, y) : Manifold<S>{};
+    };
+    switch (range_of(S(magnitude(a) + magnitude(b)), a, b)) {
+      case Range::ordinary: return unchecked(a, b);
+      case Range::huge:
+        return changed(unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent)),
+                       [](const Contact<S>& c) { return scaled(c, huge_exponent); });
+      case Range::invalid: break;
+    }
+    return {};
   }
 }
 

@@ -3,7 +3,7 @@
 /// coordinates near the largest number from overflowing, and turns the gap between cores into the answer asked for.
 ///
 /// Every query counts touching as contact: shapes are closed sets. (The tutorial these rules come from compares with
-/// `<`; the two differ on a set of measure zero.) Every query wants valid() shapes; NaN gives false or nothing.
+/// `<`; the two differ on a set of measure zero.) Every query wants valid() shapes, and says false, nothing or NaN of others.
 
 #include <algorithm>
 #include <optional>
@@ -13,21 +13,44 @@
 
 namespace thinwall {
 
-/// True if the shapes come within `margin` [length] >= 0 of each other.
+/// The sum of all the numbers that the largest query is given, fewer than 64, is ordinary once they are divided by 2 to this power.
+inline constexpr int huge_exponent = 12;
+
+/// What a front door makes of what it is given, from the sum `size` of all magnitudes: it asks the kernels about ordinary()
+/// lengths, about huge ones divided by 2^huge_exponent, which is never done twice, and about nothing that is not valid.
+enum class Range { ordinary, huge, invalid };
+template <Scalar S, class... Given> THINWALL_HOT Range range_of(const S& size, const Given&... given) {
+  if (is_ordinary(size) && (has_valid_sizes(given) && ...) && (has_valid_axes(given) && ...)) return Range::ordinary;
+  return (valid(given) && ...) ? Range::huge : Range::invalid;
+}
+
+/// overlaps_within() of shapes that a front door has found valid and made ordinary: what a method asks of its poses. A float
+/// box that was promoted to double has axes that are orthonormal to float only, and would be refused a second time.
+template <Shape A, Shape B> bool overlaps_unchecked(const A& a, const B& b, const typename A::Scalar& margin) {
+  using S = typename A::Scalar;
+  if constexpr (A::rank < B::rank) {
+    return overlaps_unchecked(b, a, margin);
+  } else {
+    return cores_within(a, b, S(rounding(a) + rounding(b) + margin));
+  }
+}
+
+/// True if the shapes come within `margin` [length] >= 0 of each other. False if a shape or the margin is not valid.
 /// Error: decides as if the gap were off by a few units of round-off of the coordinates involved.
 template <Shape A, Shape B> bool overlaps_within(const A& a, const B& b, const typename A::Scalar& margin) {
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
-  if constexpr (A::rank < B::rank) {
-    return overlaps_within(b, a, margin);
-  } else {
-    if (is_ordinary(S(magnitude(a) + magnitude(b) + margin))) {
-      return cores_within(a, b, S(rounding(a) + rounding(b) + margin));
+  if (!(margin >= S(0)) || !is_finite(margin)) return false;
+  switch (range_of(S(magnitude(a) + magnitude(b) + margin), a, b)) {
+    case Range::ordinary: return overlaps_unchecked(a, b, margin);
+    case Range::huge: {
+      const S small = times_power_of_two(margin, -huge_exponent);
+      return overlaps_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent), small);
     }
-    if (!valid(a) || !valid(b) || !is_finite(margin)) return false;
-    return overlaps_within(scaled(a, -8), scaled(b, -8), times_power_of_two(margin, -8));
+    case Range::invalid: break;
   }
+  return false;
 }
 
 /// True if the shapes share a point; touching counts.
@@ -44,6 +67,15 @@ template <Shape A, Shape B> CoreGap<typename A::Scalar> core_gap_either_way(cons
   }
 }
 
+/// separation() of valid shapes of ordinary() size, as overlaps_unchecked().
+template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
+  using S = typename A::Scalar;
+  const CoreGap<S> gap = core_gap_either_way(a, b);
+  const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
+  return {gap.distance - (rounding(a) + rounding(b)), normal, center(a) + (gap.local_a + normal * rounding(a)),
+          center(b) + (gap.local_b - normal * rounding(b))};
+}
+
 /// Signed distance, normal, and a closest point on each. NaN throughout if a shape is not valid.
 /// Degenerate: where the cores touch, the normal is the one of least penetration; where several serve, the lowest axis
 /// and the positive side (boxes), or the one nearest to +x (rounded shapes).
@@ -51,28 +83,22 @@ template <Shape A, Shape B> Separation<typename A::Scalar> separation(const A& a
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
-  if (!is_ordinary(S(magnitude(a) + magnitude(b)))) {
-    if (!valid(a) || !valid(b)) return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
-    const Separation<S> small = separation(scaled(a, -8), scaled(b, -8));
-    return {times_power_of_two(small.distance, 8), small.normal, times_power_of_two(small.point_a, 8),
-            times_power_of_two(small.point_b, 8)};
+  switch (range_of(S(magnitude(a) + magnitude(b)), a, b)) {
+    case Range::ordinary: return separation_unchecked(a, b);
+    case Range::huge: {
+      const Separation<S> small = separation_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent));
+      return {times_power_of_two(small.distance, huge_exponent), small.normal,
+              times_power_of_two(small.point_a, huge_exponent), times_power_of_two(small.point_b, huge_exponent)};
+    }
+    case Range::invalid: break;
   }
-  const CoreGap<S> gap = core_gap_either_way(a, b);
-  const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
-  return {gap.distance - (rounding(a) + rounding(b)), normal, center(a) + (gap.local_a + normal * rounding(a)),
-          center(b) + (gap.local_b - normal * rounding(b))};
+  return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
 }
 
-/// One point of contact data, only when touching or overlapping: exactly where overlaps() is true.
-template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact(const A& a, const B& b) {
+/// contact() of valid shapes of ordinary() size.
+template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact_unchecked(const A& a, const B& b) {
   using S = typename A::Scalar;
-  if (!overlaps(a, b)) return std::nullopt;
-  if (!is_ordinary(S(magnitude(a) + magnitude(b)))) {
-    auto small = contact(scaled(a, -8), scaled(b, -8));
-    if (!small) return std::nullopt;
-    return Contact<S>{times_power_of_two(small->local_a, 8), times_power_of_two(small->local_b, 8), small->normal,
-                      times_power_of_two(small->penetration, 8)};
-  }
+  if (!overlaps_unchecked(a, b, S(0))) return std::nullopt;
   const CoreGap<S> gap = core_gap_either_way(a, b);
   const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
   const S penetration = std::max(S(0), S(rounding(a) + rounding(b) - gap.distance));
@@ -80,20 +106,44 @@ template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact(c
                     penetration};
 }
 
-/// Where the ray first meets the shape; nothing if it does not within max_t.
+/// One point of contact data, only when touching or overlapping: exactly where overlaps() is true.
+template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact(const A& a, const B& b) {
+  using S = typename A::Scalar;
+  static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
+  switch (range_of(S(magnitude(a) + magnitude(b)), a, b)) {
+    case Range::ordinary: return contact_unchecked(a, b);
+    case Range::huge: {
+      const auto small = contact_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent));
+      return small ? std::optional(scaled(*small, huge_exponent)) : small;
+    }
+    case Range::invalid: break;
+  }
+  return std::nullopt;
+}
+
+/// Where the ray first meets the shape; nothing if it does not within max_t, at no t or point that S holds, or if the ray or the
+/// shape is not valid.
 /// Error: forward error of t a few u * kappa * t (docs/closed_forms.md).
 /// Degenerate: a start inside or touching hits at 0 with a zero normal; a ray of no direction hits only there.
 template <Scalar S, Shape A> std::optional<RayHit<S>> raycast(const Ray<S>& ray, const A& shape) {
   static_assert(std::same_as<S, typename A::Scalar>, "the ray and the shape must have the same scalar");
-  const S size = ray.origin.cwiseAbs().sum() + ray.direction.cwiseAbs().sum() + magnitude(shape);
-  if (is_ordinary(size)) return ray_entry(ray, shape);
-  if (!is_finite(ray.origin) || !is_finite(ray.direction) || !valid(shape)) return std::nullopt;
-  const Ray<S> near{times_power_of_two(ray.origin, -8), times_power_of_two(ray.direction, -8), ray.max_t};
-  auto small = raycast(near, scaled(shape, -8));
-  if (!small) return small;
-  const bool from_inside = small->normal == Vec3<S>::Zero();
-  small->point = from_inside ? ray.origin : times_power_of_two(small->point, 8);
-  return small;
+  // An infinite t or point: t overflows, or a triangle seems to be hit because lengths 2^500 apart underflow beside each other.
+  const auto finite = [](const std::optional<RayHit<S>>& hit) {
+    return hit && is_finite(hit->t) && is_finite(hit->point) ? hit : std::nullopt;
+  };
+  switch (range_of(S(magnitude(ray) + magnitude(shape)), ray, shape)) {
+    case Range::ordinary: return finite(ray_entry(ray, shape));
+    case Range::huge: {
+      auto small = ray_entry(scaled(ray, -huge_exponent), scaled(shape, -huge_exponent));
+      if (!small) return small;
+      const bool from_inside = small->normal == Vec3<S>::Zero();
+      small->point = from_inside ? ray.origin : times_power_of_two(small->point, huge_exponent);
+      return finite(small);
+    }
+    case Range::invalid: break;
+  }
+  return std::nullopt;
 }
 
 }  // namespace thinwall

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <thinwall/discrete/scalar.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
 
 namespace thinwall {
 
@@ -32,6 +32,18 @@ template <Scalar S> struct Ray {
   S max_t = std::numeric_limits<S>::infinity();  ///< [1] >= 0
 };
 
+template <Scalar S> S magnitude(const Ray<S>& ray) {
+  return ray.origin.cwiseAbs().sum() + ray.direction.cwiseAbs().sum();
+}
+template <Scalar S> bool has_valid_sizes(const Ray<S>& ray) { return ray.max_t >= S(0); }
+/// True if its origin and direction are finite and max_t is not negative.
+template <Scalar S> bool valid(const Ray<S>& ray) {
+  return is_finite(ray.origin) && is_finite(ray.direction) && has_valid_sizes(ray);
+}
+template <Scalar S> Ray<S> scaled(const Ray<S>& ray, int e) {
+  return {times_power_of_two(ray.origin, e), times_power_of_two(ray.direction, e), ray.max_t};
+}
+
 /// Where a ray first meets a shape.
 template <Scalar S> struct RayHit {
   S t = 0;                           ///< [1] in [0, max_t], in lengths of the ray's direction
@@ -39,6 +51,11 @@ template <Scalar S> struct RayHit {
   Vec3<S> normal = Vec3<S>::Zero();  ///< unit, outward; zero if the ray starts inside or touching
 };
 
+/// The same contact with every length multiplied by 2^e.
+template <Scalar S> Contact<S> scaled(const Contact<S>& c, int e) {
+  return {times_power_of_two(c.local_a, e), times_power_of_two(c.local_b, e), c.normal,
+          times_power_of_two(c.penetration, e)};
+}
 template <Scalar S> Contact<S> flipped(const Contact<S>& c) { return {c.local_b, c.local_a, -c.normal, c.penetration}; }
 template <Scalar S> Separation<S> flipped(const Separation<S>& s) {
   return {s.distance, -s.normal, s.point_b, s.point_a};

@@ -11,7 +11,8 @@
 ///   moved(shape, by)   the shape translated by a vector
 ///   half_widths(shape) half of its extent along each axis, around its center
 ///   has_valid_sizes(shape)  true if no size is negative
-///   valid(shape)            the same, its fields are finite, and its axes, if any, orthonormal
+///   has_valid_axes(shape)   true if its axes are orthonormal; a shape without axes leaves it out
+///   valid(shape)            both, and its fields are finite
 ///   contact_point(shape, core_point, outward)   where a contact acts, relative to center(shape)
 ///   ray_entry(ray, shape)                       the raycast, coordinates small enough not to overflow
 /// and one overload per unordered pair, written for (later rank, earlier rank), of
@@ -27,6 +28,8 @@ namespace thinwall {
 
 template <class T>
 concept Shape = Scalar<typename T::Scalar> && std::same_as<decltype(T::rank), const int>;
+
+template <class T> bool has_valid_axes(const T&) { return true; }
 
 /// Two cores seen from A. Points are relative to the shapes' centers, so that nothing far from the origin is lost.
 template <Scalar S> struct CoreGap {

@@ -61,7 +61,7 @@ BatchReport answer(const A& a, const B& b, const ToiRows<S>& out, const BatchOpt
 }  // namespace batch
 
 /// time_of_impact of every row of A with that of B, or with the one shape that A or B is: each is a RowsOf<Moving<Shape>>
-/// or a Moving<Shape>, and at least one is rows. Every row has its own status; none spoils another.
+/// or a Moving<Shape>, and at least one is rows. Every row has its own status, `invalid` ones too; none spoils another.
 /// Throws std::invalid_argument where spans differ in length, or answers share memory with what is read or one another.
 template <batch::BatchSide A, batch::BatchSide B>
 BatchReport time_of_impact(const A& a, const B& b, const ToiRows<batch::ScalarOf<A>>& out, BatchOptions options = {}) {

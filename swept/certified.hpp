@@ -14,31 +14,14 @@ template <class A, class B> struct CertifiedAskedOf {
   static_assert(certifies<A, B>, "this pair of shapes cannot be certified: see docs/certified.md");
 };
 
-inline bool is_finite(const Sphere<double>& s) { return is_finite(s.center) && is_finite(s.radius); }
-inline bool is_finite(const Aabb<double>& b) { return is_finite(b.center) && is_finite(b.half_extents); }
-inline bool is_finite(const Obb<double>& b) {
-  return is_finite(b.center) && is_finite(b.half_extents) && is_finite<double>(b.axes.col(0)) &&
-         is_finite<double>(b.axes.col(1)) && is_finite<double>(b.axes.col(2));
-}
-inline bool is_finite(const Capsule<double>& c) { return is_finite(c.a) && is_finite(c.b) && is_finite(c.radius); }
-inline bool is_finite(const Triangle<double>& t) { return is_finite(t.a) && is_finite(t.b) && is_finite(t.c); }
-
-/// A question: finite fields and no negative size. Axes need not be orthonormal.
-template <Shape A> bool can_be_certified(const Moving<A>& moving) {
-  return is_finite(moving.shape) && is_finite(moving.displacement) && has_valid_sizes(moving.shape);
-}
-
 /// What needs more than double.
-template <Shape A, Shape B>
-THINWALL_COLD CertifiedToi decided_exactly(const Moving<A>& a, const Moving<B>& b, double guess) {
-  if (!can_be_certified(a) || !can_be_certified(b)) return {};
-  if (valid(a.shape) && valid(b.shape)) guess = time_of_impact(a, b).time;  // at any scale, unlike the certificate's
-  return exact_answer(exact_core(a, b), guess);
+template <Shape A, Shape B> THINWALL_COLD CertifiedToi decided_exactly(const Moving<A>& a, const Moving<B>& b) {
+  if (!valid(a) || !valid(b)) return {};
+  return exact_answer(exact_core(a, b), time_of_impact(a, b).time);  // a guess at any scale, unlike the certificate's
 }
 
 /// What bounded rounding decides; `gave_up` for the rest, and for whatever is not finite.
-template <Shape A, Shape B>
-THINWALL_HOT CertifiedToi decided_in_double(const Moving<A>& a, const Moving<B>& b, double& guess) {
+template <Shape A, Shape B> THINWALL_HOT CertifiedToi decided_in_double(const Moving<A>& a, const Moving<B>& b) {
   const Vec3<double> v = relative_displacement(a, b);
   if constexpr (std::same_as<A, Sphere<double>> && std::same_as<B, Sphere<double>>) {
     return ball_filter(a.shape.center - b.shape.center, v, a.shape.radius + b.shape.radius);
@@ -46,16 +29,15 @@ THINWALL_HOT CertifiedToi decided_in_double(const Moving<A>& a, const Moving<B>&
     return slab_filter(a.shape.center - b.shape.center, v, a.shape.half_extents + b.shape.half_extents);
   } else {
     constexpr double most = 0x1p200;  // NaN compares false
-    return magnitude(a) + magnitude(b) <= most ? certificate(a, b, guess) : undecided;
+    return magnitude(a) + magnitude(b) <= most ? certificate(a, b) : undecided;
   }
 }
 
 /// The stages, one after the other.
 template <Shape A, Shape B> THINWALL_HOT CertifiedToi certified_in_order(const Moving<A>& a, const Moving<B>& b) {
-  if (!has_valid_sizes(a.shape) || !has_valid_sizes(b.shape)) return {};
-  double guess = 0.5;
-  const CertifiedToi fast = decided_in_double(a, b, guess);
-  return fast.verdict != ToiStatus::gave_up ? fast : decided_exactly(a, b, guess);
+  if (!has_valid_sizes(a) || !has_valid_sizes(b) || !has_valid_axes(a) || !has_valid_axes(b)) return {};
+  const CertifiedToi fast = decided_in_double(a, b);
+  return fast.verdict != ToiStatus::gave_up ? fast : decided_exactly(a, b);
 }
 
 /// True if x is greater in the first number in which it and y differ.
@@ -79,11 +61,10 @@ inline bool comes_later(const Moving<Capsule<double>>& a, const Moving<Capsule<d
 
 /// When A and B first touch during the step: a proven verdict, and `lower` <= first contact <= `upper`.
 ///   hit: no contact before `lower`, contact by `upper`.   overlapping: in contact at the start, both 0.
-///   apart: no contact in the step, both 1.                invalid: a NaN, an infinity or a negative size, both NaN.
-/// Contact is closed: touching counts. Every finite input is answered; `gave_up` never is.
+///   apart: no contact in the step, both 1.                invalid: a shape that is not valid(), both NaN.
+/// Contact is closed: touching counts. All valid input is answered; `gave_up` never is.
 /// The shapes are the numbers as given, without rounding: a capsule is all points within its radius of its core segment, and
-/// an oriented box all center + sum of x_i h_i axes.col(i) with |x_i| <= 1, whether or not its axes are unit and at right
-/// angles.
+/// an oriented box all center + sum of x_i h_i axes.col(i) with |x_i| <= 1, though its axes be orthonormal to rounding only.
 /// Error: none; the bracket is a few units in the last place wide, times the conditioning of the contact (docs/certified.md).
 /// Degenerate: points, segments, plates, no motion and exact touches are all decided.
 /// Passing A and B the other way round gives the same bits.

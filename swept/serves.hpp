@@ -32,7 +32,7 @@ template <class A, class B> Vec3<typename A::Scalar> relative_displacement(const
 template <class A, class B>
 THINWALL_COLD Toi<typename A::Scalar> overlapping_at_start(const Moving<A>& a, const Moving<B>& b, int evaluations) {
   using S = typename A::Scalar;
-  const Separation<S> deepest = separation(a.shape, b.shape);
+  const Separation<S> deepest = separation_unchecked(a.shape, b.shape);
   return {ToiStatus::overlapping, evaluations, S(0), deepest.normal, middle(deepest)};
 }
 

@@ -10,7 +10,7 @@ enum class ToiStatus {
   hit,          ///< first contact at `time`
   overlapping,  ///< in contact at the start already, touching included, whatever the motion; time 0
   gave_up,      ///< out of budget; `time` is the largest time proven free
-  invalid,      ///< the input has a NaN, an infinity or a negative size, or the method an impossible option; time NaN
+  invalid,      ///< a shape is not valid(), a displacement not finite, or an option of the method impossible; time NaN
 };
 
 template <Scalar S> struct Toi {

@@ -103,8 +103,8 @@ template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, i
 /// The axis, of the fifteen, along which the shadows overlap least: the most negative where the boxes are apart.
 template <Scalar S> struct LeastOverlap {
   S overlap = std::numeric_limits<S>::infinity();  ///< [length]
-  int axis_a = -1, axis_b = -1;
-  Vec3<S> normal = Vec3<S>::Zero();  ///< unit, from A to B
+  int axis_a = 0, axis_b = -1;                     ///< as direction(); an axis whatever the numbers
+  Vec3<S> normal = axis_vector<S>(0);              ///< unit, from A to B
 };
 
 /// Of equal ones the first: A's faces, B's faces, edges.

@@ -35,15 +35,8 @@ template <Scalar S> Contact<S> seen_from_a(const BoxPair<S>& pair, const Contact
   return {pair.axes * c.local_b, pair.axes * c.local_a, -(pair.axes * c.normal), c.penetration};
 }
 
-/// The manifold of boxes that touch or overlap, in A's axes.
-template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
-  const S size = largest(pair.between, pair.half_a, pair.half_b);
-  if (!products_in_range(size) && binary_exponent(size) != 0) {
-    const int e = binary_exponent(size);
-    const BoxPair<S> near{times_power_of_two(pair.half_a, -e), times_power_of_two(pair.half_b, -e),
-                          times_power_of_two(pair.between, -e), pair.axes};
-    return changed(boxes_manifold(near), [&](const Contact<S>& c) { return scaled(c, e); });
-  }
+/// The manifold of boxes that touch or overlap, in A's axes. Requires lengths whose products of two are in range.
+template <Scalar S> Manifold<S> boxes_manifold_in_range(const BoxPair<S>& pair) {
   const CoreGap<S> gap = box_gap(pair);
   const BoxFace face = face_along(pair, gap.normal, parallel_sine<S>());
   if (face.axis >= 0) {
@@ -55,6 +48,16 @@ template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
   point.contacts[0] = {gap.local_a, gap.local_b, gap.normal, std::max(S(0), S(-gap.distance))};
   point.count = 1;
   return point;
+}
+
+/// The same at any scale.
+template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
+  const S size = largest(pair.between, pair.half_a, pair.half_b);
+  if (products_in_range(size)) return boxes_manifold_in_range(pair);
+  const int e = binary_exponent(size);
+  const BoxPair<S> near{times_power_of_two(pair.half_a, -e), times_power_of_two(pair.half_b, -e),
+                        times_power_of_two(pair.between, -e), pair.axes};
+  return changed(boxes_manifold_in_range(near), [&](const Contact<S>& c) { return scaled(c, e); });
 }
 
 /// A contact given in the box's own axes, in the world's.

@@ -168,9 +168,8 @@ Entry<S> entry_at_safe_scale(const EntryOf& entry_of, const Vec3<S>& p, const Ve
   const int length_exponent = products_in_range(length) ? 0 : binary_exponent(length);
   const int speed_exponent = products_in_range(speed) ? 0 : binary_exponent(speed);
   if (length_exponent == 0 && speed_exponent == 0) return entry_of(p, v, R, spans...);
-  Entry<S> entry =
-      entry_at_safe_scale<S>(entry_of, times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                             times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
+  Entry<S> entry = entry_of(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
+                            times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
   entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
   return entry;
 }

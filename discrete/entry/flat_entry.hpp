@@ -21,14 +21,15 @@ namespace thinwall {
 template <Scalar S>
 bool boxes_apart(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                  const S& last) {
-  const Vec3<S> zero = Vec3<S>::Zero(), end = p + v * last;
+  const Vec3<S> zero = Vec3<S>::Zero();
   const Vec3<S> low1 = zero.cwiseMin(e1), low2 = zero.cwiseMin(e2), high1 = zero.cwiseMax(e1),
                 high2 = zero.cwiseMax(e2);
   const bool one = shape == FlatShape::triangle;
   const Vec3<S> low = one ? Vec3<S>(low1.cwiseMin(low2)) : Vec3<S>(low1 + low2);
   const Vec3<S> high = one ? Vec3<S>(high1.cwiseMax(high2)) : Vec3<S>(high1 + high2);
   for (int i = 0; i < 3; ++i) {
-    if ((p[i] < low[i] && end[i] < low[i]) || (p[i] > high[i] && end[i] > high[i])) return true;
+    const S end = v[i] == S(0) ? p[i] : S(p[i] + v[i] * last);  // 0 * infinity would be NaN
+    if ((p[i] < low[i] && end < low[i]) || (p[i] > high[i] && end > high[i])) return true;
   }
   return false;
 }

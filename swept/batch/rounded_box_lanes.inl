@@ -150,8 +150,17 @@ struct ObbSphere {
     const Vector ax{box(6), box(7), box(8)}, ay{box(9), box(10), box(11)}, az{box(12), box(13), box(14)};
     const auto sum = [](const Vector& a)
                          HWY_ATTR { return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); };
-    return rounded_box<D>(d, {dot(ax, p), dot(ay, p), dot(az, p)}, {dot(ax, v), dot(ay, v), dot(az, v)},
-                          {box(3), box(4), box(5)}, sphere(3), hn::Add(sum(p), sum(v)));
+    auto out = rounded_box<D>(d, {dot(ax, p), dot(ay, p), dot(az, p)}, {dot(ax, v), dot(ay, v), dot(az, v)},
+                              {box(3), box(4), box(5)}, sphere(3), hn::Add(sum(p), sum(v)));
+    // Axes that are off by more than the roundings reckoned with are the scalar code's to judge. NaN: off.
+    const auto one = hn::Set(d, hn::TFromD<D>(1));
+    const auto off = hn::Add(sum({hn::Sub(dot(ax, ax), one), hn::Sub(dot(ay, ay), one), hn::Sub(dot(az, az), one)}),
+                             sum({dot(ax, ay), dot(ay, az), dot(az, ax)}));
+    const auto upright = hn::Le(off, hn::Set(d, 4 * Bounds<hn::TFromD<D>>::length));
+    out.hit = hn::And(upright, out.hit);
+    out.apart = hn::And(upright, out.apart);
+    out.overlapping = hn::And(upright, out.overlapping);
+    return out;
   }
 };
 

@@ -115,8 +115,7 @@ template <class A, class B, class S> std::size_t checked_rows(const A& a, const 
 
 /// raycast() as a Toi whose time is t.
 template <Scalar S> Toi<S> cast(const Ray<S>& ray, const Aabb<S>& box) {
-  const bool is_valid = is_finite(ray.origin) && is_finite(ray.direction) && ray.max_t >= S(0) && valid(box);
-  if (!is_valid) return {ToiStatus::invalid, 0, std::numeric_limits<S>::quiet_NaN()};
+  if (!valid(ray) || !valid(box)) return {ToiStatus::invalid, 0, std::numeric_limits<S>::quiet_NaN()};
   const auto hit = raycast(ray, box);
   if (!hit) return {ToiStatus::apart, 1, ray.max_t};
   const bool starts_inside = hit->normal == Vec3<S>::Zero();

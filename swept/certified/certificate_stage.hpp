@@ -80,12 +80,11 @@ template <class A, class B>
 inline constexpr bool are_boxes =
     std::same_as<A, Obb<double>> && (std::same_as<B, Obb<double>> || std::same_as<B, Aabb<double>>);
 
-/// The answer in double, if it can be proven there; and a guess for the next stage.
-template <Shape A, Shape B> CertifiedToi certificate(const Moving<A>& a, const Moving<B>& b, double& guess) {
+/// The answer in double, if it can be proven there.
+template <Shape A, Shape B> CertifiedToi certificate(const Moving<A>& a, const Moving<B>& b) {
   const RoundedCore<A, B> core(a, b);
   if (!sizes_in_range(core)) return undecided;
   const Toi<double> toi = impact(ClosedForm<double>{}, a, b);
-  guess = toi.time;
   switch (toi.status) {
     case ToiStatus::hit: return prove_hit(core, Vec3<double>(-toi.normal), toi.time);
     case ToiStatus::apart:

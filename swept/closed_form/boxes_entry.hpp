@@ -62,13 +62,12 @@ template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   return entry;
 }
 
-/// The same for boxes rounded by R > 0 in all.
+/// The same for boxes rounded by R > 0 in all, at any scale.
 template <Scalar S> Entry<S> rounded_boxes_entry(const MovingBoxPair<S>& moving, const S& R) {
   int count = 0;
-  const auto support = [&](const Vec3<S>& x) {  // no two planes are taken for the same part
-    BoxPair<S> there = moving.pair;
-    there.between = x;
-    const CoreGap<S> gap = parting_gap(there);
+  const auto support = [&](const Vec3<S>& x, const Vec3<S>& half_a, const Vec3<S>& half_b) {
+    const CoreGap<S> gap = parting_gap(BoxPair<S>{half_a, half_b, x, moving.pair.axes});
+    // No two planes are taken for the same part.
     CorePart<S> plane{++count, CorePart<S>::face, x - gap.normal * gap.distance, gap.normal, gap.normal};
     if (gap.distance > S(0)) {
       plane.gap = gap.normal * gap.distance;
@@ -77,7 +76,8 @@ template <Scalar S> Entry<S> rounded_boxes_entry(const MovingBoxPair<S>& moving,
     }
     return plane;
   };
-  return core_entry<S>(moving.pair.between, moving.motion, R, largest(moving.pair.half_a, moving.pair.half_b), support);
+  const BoxPair<S>& pair = moving.pair;
+  return core_entry_at_any_scale(support, pair.between, moving.motion, R, pair.half_a, pair.half_b);
 }
 
 }  // namespace thinwall

@@ -91,7 +91,7 @@ Vec3<T> sphere_point(const Moving<Sphere<T>>& s, const T& time, const Vec3<T>& o
 
 /// The middle of the closest points at `time`.
 template <class A, class B, Scalar T> Vec3<T> middle_point(const Moving<A>& a, const Moving<B>& b, const T& time) {
-  return middle(separation(pose_at(a, time), pose_at(b, time)));
+  return middle(separation_unchecked(pose_at(a, time), pose_at(b, time)));
 }
 
 template <Scalar T> Entry<T> flipped(Entry<T> entry) {

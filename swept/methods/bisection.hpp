@@ -50,13 +50,13 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
   using T = typename A::Scalar;
   if (!is_tolerance(method.tolerance)) return invalid_option<T>();
   const T margin(method.min_separation);
-  if (overlaps_within(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
+  if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
   const Vec3<T> path = relative_displacement(a, b);
   if (path == Vec3<T>::Zero()) return {ToiStatus::apart, 1};
   int evaluations = 1;
   const auto sample = [&](const T& time) {
     ++evaluations;
-    const Separation<T> closest = separation(pose_at(a, time), pose_at(b, time));
+    const Separation<T> closest = separation_unchecked(pose_at(a, time), pose_at(b, time));
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
   GapSample<T> before = sample(T(0));

@@ -26,7 +26,7 @@ template <Scalar S> struct CentreRay {
 /// The center ray of `shooter` against the shape of `target`. The normal points from the shooter to the target. Where the
 /// center starts in a target that, to rounding, the shooter does not overlap, it is along the ray; without a ray they are apart.
 template <Scalar T, Shape A, Shape B> Toi<T> cast_center(const Moving<A>& shooter, const Moving<B>& target) {
-  const auto hit = raycast(Ray<T>{center(shooter.shape), relative_displacement(shooter, target), T(1)}, target.shape);
+  const auto hit = ray_entry(Ray<T>{center(shooter.shape), relative_displacement(shooter, target), T(1)}, target.shape);
   if (!hit) return {ToiStatus::apart, 2};
   const bool starts_in_it = hit->normal == Vec3<T>::Zero();
   const Vec3<T> normal = starts_in_it ? safe_unit(relative_displacement(shooter, target)) : Vec3<T>(-hit->normal);
@@ -38,7 +38,7 @@ template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
 Toi<typename A::Scalar> impact(const CentreRay<S>& method, const Moving<A>& a, const Moving<B>& b) {
   using T = typename A::Scalar;
-  if (overlaps_within(a.shape, b.shape, T(method.min_separation))) return overlapping_at_start(a, b, 1);
+  if (overlaps_unchecked(a.shape, b.shape, T(method.min_separation))) return overlapping_at_start(a, b, 1);
   return first_shoots(a, b) ? cast_center<T>(a, b) : flipped(cast_center<T>(b, a));
 }
 

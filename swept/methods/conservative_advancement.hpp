@@ -30,13 +30,13 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const M
   using T = typename A::Scalar;
   if (!is_tolerance(method.tolerance) || method.max_evaluations < 1) return invalid_option<T>();
   const T margin(method.min_separation);
-  if (overlaps_within(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
+  if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
   const Vec3<T> path = relative_displacement(a, b);
   if (path == Vec3<T>::Zero()) return {ToiStatus::apart, 1};
   const T near = T(method.tolerance) * safe_norm(path);
   T free = 0;  // no contact before
   for (int k = 1; k <= method.max_evaluations; ++k) {
-    const Separation<T> closest = separation(pose_at(a, free), pose_at(b, free));
+    const Separation<T> closest = separation_unchecked(pose_at(a, free), pose_at(b, free));
     const SeparatingPlane<T> plane = separating_plane(a, b, closest.normal, margin);
     const T next = plane.free_until();
     if (next > T(1) || plane.free_from(free)) return {ToiStatus::apart, k + 1};

@@ -33,12 +33,12 @@ Toi<typename A::Scalar> impact(const Inclusion<S>& method, const Moving<A>& a, c
   using T = typename A::Scalar;
   if (!is_tolerance(method.tolerance) || method.max_evaluations < 1) return invalid_option<T>();
   const T margin(method.min_separation);
-  if (overlaps_within(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
+  if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
   if (relative_displacement(a, b) == Vec3<T>::Zero()) return {ToiStatus::apart, 1};
   T free = 0, width = 1;  // no contact up to `free`
   for (int k = 1; k <= method.max_evaluations; ++k) {
     const T end = std::min(T(1), T(free + width)), middle = (free + end) / 2;
-    const Separation<T> closest = separation(pose_at(a, middle), pose_at(b, middle));
+    const Separation<T> closest = separation_unchecked(pose_at(a, middle), pose_at(b, middle));
     const SeparatingPlane<T> plane = separating_plane(a, b, closest.normal, margin);
     if (plane.free_at(free) && plane.free_at(end)) {
       if (end == T(1)) return {ToiStatus::apart, k + 1};

@@ -29,10 +29,10 @@ Toi<typename A::Scalar> impact(const Speculative<S>& method, const Moving<A>& a,
   using T = typename A::Scalar;
   if (!(method.margin >= S(0)) || !is_finite(method.margin)) return invalid_option<T>();
   const T min_separation(method.min_separation);
-  if (overlaps_within(a.shape, b.shape, min_separation)) return overlapping_at_start(a, b, 1);
+  if (overlaps_unchecked(a.shape, b.shape, min_separation)) return overlapping_at_start(a, b, 1);
   const Vec3<T> path = relative_displacement(a, b);
   if (path == Vec3<T>::Zero()) return {ToiStatus::apart, 1};
-  const Separation<T> closest = separation(a.shape, b.shape);
+  const Separation<T> closest = separation_unchecked(a.shape, b.shape);
   const SeparatingPlane<T> plane = separating_plane(a, b, closest.normal, min_separation);
   const T inflation = T(method.margin) * safe_norm(path);
   const T slack = inflation * (8 * std::numeric_limits<T>::epsilon());

@@ -33,8 +33,8 @@ Toi<typename A::Scalar> impact(const Substeps<S>& method, const Moving<A>& a, co
     const T time = T(k) / T(method.n);
     const A a_then = pose_at(a, time);
     const B b_then = pose_at(b, time);
-    if (!overlaps_within(a_then, b_then, T(method.min_separation))) continue;
-    const Separation<T> deepest = separation(a_then, b_then);
+    if (!overlaps_unchecked(a_then, b_then, T(method.min_separation))) continue;
+    const Separation<T> deepest = separation_unchecked(a_then, b_then);
     return {ToiStatus::hit, k, time, deepest.normal, middle(deepest)};
   }
   return {ToiStatus::apart, method.n};

@@ -29,7 +29,7 @@ template <Scalar S> struct SweepThenConfirm {
 /// When the center of `shooter` first meets what `target` sweeps; nothing if it does not.
 template <Scalar T, Shape A, Sweepable B>
 std::optional<RayHit<T>> enters_track(const Moving<A>& shooter, const Moving<B>& target) {
-  return raycast(Ray<T>{center(shooter.shape), shooter.displacement, T(1)}, swept_volume(target));
+  return ray_entry(Ray<T>{center(shooter.shape), shooter.displacement, T(1)}, swept_volume(target));
 }
 
 template <Scalar S, Sweepable A, Sweepable B>
@@ -37,13 +37,13 @@ template <Scalar S, Sweepable A, Sweepable B>
 Toi<typename A::Scalar> impact(const SweepThenConfirm<S>& method, const Moving<A>& a, const Moving<B>& b) {
   using T = typename A::Scalar;
   const T margin(method.min_separation);
-  if (overlaps_within(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
+  if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
   const auto entry = first_shoots(a, b) ? enters_track<T>(a, b) : enters_track<T>(b, a);
   if (!entry) return {ToiStatus::apart, 2};
   const A a_then = pose_at(a, entry->t);
   const B b_then = pose_at(b, entry->t);
-  if (!overlaps_within(a_then, b_then, margin)) return {ToiStatus::apart, 3};
-  const Separation<T> deepest = separation(a_then, b_then);
+  if (!overlaps_unchecked(a_then, b_then, margin)) return {ToiStatus::apart, 3};
+  const Separation<T> deepest = separation_unchecked(a_then, b_then);
   return {ToiStatus::hit, 3, entry->t, deepest.normal, middle(deepest)};
 }
 

@@ -41,16 +41,16 @@ template <Scalar S> S closest_core_parameter(const Capsule<S>& capsule, const Tr
 /// The normal points from the sphere to the target.
 template <Scalar T, Shape B>
 Toi<T> sweep_and_cast(const Moving<Sphere<T>>& sphere, const Moving<B>& target, const T& margin) {
-  if (overlaps_within(sphere.shape, target.shape, margin)) return overlapping_at_start(sphere, target, 1);
+  if (overlaps_unchecked(sphere.shape, target.shape, margin)) return overlapping_at_start(sphere, target, 1);
   const Capsule<T> swept = swept_volume(Moving<Sphere<T>>{sphere.shape, relative_displacement(sphere, target)});
-  if (!overlaps_within(swept, target.shape, margin)) return {ToiStatus::apart, 2};
+  if (!overlaps_unchecked(swept, target.shape, margin)) return {ToiStatus::apart, 2};
   Toi<T> toi = cast_center<T>(sphere, target);
   if (toi.status == ToiStatus::hit) {
     toi.evaluations = 3;
     return toi;
   }
   const T time = closest_core_parameter(swept, target.shape);
-  const Separation<T> closest = separation(pose_at(sphere, time), pose_at(target, time));
+  const Separation<T> closest = separation_unchecked(pose_at(sphere, time), pose_at(target, time));
   return {ToiStatus::hit, 4, time, closest.normal, middle(closest)};
 }
 

@@ -37,14 +37,14 @@ Judgment judge_pair(const Exhibit& exhibit, const A& a, const B& b, ToiStatus pl
                         is_within_decades(exhibit.displacement_b, quick);
   const Moving first{a, exhibit.displacement_a};
   const Moving second{b, exhibit.displacement_b};
-  if (can_be_certified(first) && can_be_certified(second) && !is_quick) return {};
+  if (valid(first) && valid(second) && !is_quick) return {};
   const CertifiedToi toi = certified_time_of_impact(first, second), back = certified_time_of_impact(second, first);
   const auto fault = [&](const std::string& property, const std::string& details) {
     return Fault{"certified: " + property, text(toi) + "; " + details};
   };
   if (!(toi == back) && toi.lower == toi.lower) return fault("the other way round differs", text(back));
-  if (const char* torn = what_is_torn(toi, can_be_certified(first) && can_be_certified(second))) return fault(torn, "");
-  if (!judged) return {};
+  if (const char* torn = what_is_torn(toi, valid(first) && valid(second))) return fault(torn, "");
+  if (!judged || toi.verdict == ToiStatus::invalid) return {};  // axes that are orthonormal to float only
   const auto found = [&](const Judgment& judgment) { return fault(judgment->property, judgment->details); };
   if (const Judgment wrong = judge_bracket(exhibit, toi.verdict, toi.lower, toi.upper)) return found(wrong);
   if (plain == ToiStatus::gave_up || plain == ToiStatus::invalid) return {};

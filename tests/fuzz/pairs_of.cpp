@@ -6,18 +6,11 @@
 namespace thinwall::fuzz {
 namespace {
 
-/// Axes that are finite but not orthonormal: nobody promises anything.
-template <class A> bool is_skewed(const A&) { return false; }
-template <Scalar S> bool is_skewed(const Obb<S>& box) {
-  return box.axes.allFinite() && !valid(Obb<S>{Vec3<S>::Zero(), Vec3<S>::Zero(), box.axes});
-}
-
 template <class A, class B> void check_pair(Bytes& bytes, Reading reading) {
   using S = typename A::Scalar;
   const int plan = bytes();
   Numbers<S> numbers(bytes, reading);
   const Scene<A, B> scene = draw_scene<A, B>(numbers);
-  if (is_skewed(scene.a.shape) || is_skewed(scene.b.shape)) return;
   const Toi<S> toi = check_closed_form(scene);
   const int choice = plan / 8;
   if (!scene.is_valid()) {

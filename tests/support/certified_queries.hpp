@@ -76,9 +76,9 @@ template <class A, class B> Motion<A, B> plain_motion(Shaker<double>& draw) {
   return motion;
 }
 
-/// Axes that are neither unit nor at right angles.
+/// Axes that are neither unit nor at right angles, by up to all that a box may have.
 inline void skew(Obb<double>& box, Shaker<double>& draw) {
-  for (int i = 0; i < 3; ++i) box.axes.col(i) += any_vector(draw) * power<double>(-draw.pick(0, 60));
+  for (int i = 0; i < 3; ++i) box.axes.col(i) += any_vector(draw) * power<double>(-draw.pick(35, 60));
 }
 template <class Shape> void skew(Shape&, Shaker<double>&) {}
 

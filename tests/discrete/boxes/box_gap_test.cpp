@@ -34,7 +34,7 @@ TEST(BoxGap, axes_orthonormal_to_float_serve_in_double) {  // as the time of imp
   for (int run = 0; run < 2000; ++run) {
     const auto [a, b] = nearly_touching<Obb<float>, Obb<float>>(draw);
     const Obb<double> wide_a = cast<double>(a), wide_b = cast<double>(b);
-    const Separation<double> gap = separation(wide_a, wide_b);
+    const Separation<double> gap = separation_unchecked(wide_a, wide_b);
     const Wide allowed = 64 * Wide(unit<float>()) * Wide(magnitude(a) + magnitude(b));
     ASSERT_LE(off_surface(wide_a, Vec3<double>(gap.point_a - center(wide_a))), allowed) << run;
     ASSERT_LE(off_surface(wide_b, Vec3<double>(gap.point_b - center(wide_b))), allowed) << run;
@@ -52,6 +52,15 @@ TEST(BoxGap, overhanging_boxes_meet_in_the_middle_of_what_they_share) {
   tilted.axes(2, 0) = -1e-17;
   tilted.axes(0, 2) = 1e-17;
   EXPECT_EQ(contact(floor, tilted)->local_a, found->local_a);
+}
+
+TEST(BoxGap, least_overlap_is_on_an_axis_whatever_the_numbers) {
+  for (const double bad : {nan<double>(), infinity<double>()}) {
+    const BoxPair<double> pair{{1, 1, 1}, {bad, 1, 1}, {bad, 0, 0}, Mat3<double>::Identity()};
+    const LeastOverlap<double> least = least_overlap(pair);
+    EXPECT_TRUE(least.axis_a >= 0 || least.axis_b >= 0);
+    EXPECT_NE(least.normal, (Vec3<double>::Zero()));
+  }
 }
 
 }  // namespace

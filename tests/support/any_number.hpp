@@ -1,0 +1,109 @@
+#pragma once
+/// Shapes with any number in any of their fields: what every query must survive, and answer as it promises.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/swept/moving.hpp>
+#include <thinwall/swept/shapes.hpp>
+
+namespace thinwall::testing {
+
+template <class S> std::vector<S> special_numbers() {
+  using Limits = std::numeric_limits<S>;
+  const S huge = Limits::max() / 64, tiny = Limits::min() * 64;
+  return {Limits::quiet_NaN(),
+          Limits::infinity(),
+          -Limits::infinity(),
+          S(-1),
+          S(0),
+          Limits::denorm_min(),
+          Limits::max(),
+          -Limits::max(),
+          huge,
+          -huge,
+          tiny};
+}
+
+template <class S> Sphere<S> usual(TypeTag<Sphere<S>>) { return {{0, 0.25, 0}, 1}; }
+template <class S> Aabb<S> usual(TypeTag<Aabb<S>>) { return {{0, 0.5, 0}, {1, 0.5, 1}}; }
+template <class S> Obb<S> usual(TypeTag<Obb<S>>) {
+  Mat3<S> axes;
+  const S c = S(3) / S(5), s = S(4) / S(5);
+  axes << c, -s, 0, s, c, 0, 0, 0, 1;
+  return {{0, 0.5, 0}, {1, 0.5, 1}, axes};
+}
+template <class S> Triangle<S> usual(TypeTag<Triangle<S>>) { return {{-1, 0, 0}, {1, 0, 0.5}, {0, 1, -0.5}}; }
+template <class S> Capsule<S> usual(TypeTag<Capsule<S>>) { return {{-1, 0, 0}, {1, 0.25, 0}, 0.5}; }
+
+/// Where the numbers of a shape stand.
+template <class Matrix> void add_numbers(std::vector<typename Matrix::Scalar*>& to, Matrix& m) {
+  for (int i = 0; i < m.size(); ++i) to.push_back(m.data() + i);
+}
+template <class S> void add_numbers(std::vector<S*>& to, Sphere<S>& s) {
+  add_numbers(to, s.center);
+  to.push_back(&s.radius);
+}
+template <class S> void add_numbers(std::vector<S*>& to, Aabb<S>& box) {
+  add_numbers(to, box.center);
+  add_numbers(to, box.half_extents);
+}
+template <class S> void add_numbers(std::vector<S*>& to, Obb<S>& box) {
+  add_numbers(to, box.center);
+  add_numbers(to, box.half_extents);
+  add_numbers(to, box.axes);
+}
+template <class S> void add_numbers(std::vector<S*>& to, Triangle<S>& t) {
+  for (Vec3<S>* corner : {&t.a, &t.b, &t.c}) add_numbers(to, *corner);
+}
+template <class S> void add_numbers(std::vector<S*>& to, Capsule<S>& c) {
+  add_numbers(to, c.a);
+  add_numbers(to, c.b);
+  to.push_back(&c.radius);
+}
+template <class S> void add_numbers(std::vector<S*>& to, Ray<S>& ray) {
+  add_numbers(to, ray.origin);
+  add_numbers(to, ray.direction);
+  to.push_back(&ray.max_t);
+}
+template <class A> void add_numbers(std::vector<typename A::Scalar*>& to, Moving<A>& moving) {
+  add_numbers(to, moving.shape);
+  add_numbers(to, moving.displacement);
+}
+
+/// visit() with each special number in turn in each field of `thing`, which is then put back.
+template <class S, class Thing, class Visit> void with_every_number(Thing& thing, const Visit& visit) {
+  std::vector<S*> numbers;
+  add_numbers(numbers, thing);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const S usual_number = *numbers[i];
+    for (const S& special : special_numbers<S>()) {
+      SCOPED_TRACE("number " + std::to_string(i) + " is " + std::to_string(static_cast<double>(special)));
+      *numbers[i] = special;
+      visit();
+    }
+    *numbers[i] = usual_number;
+  }
+}
+
+/// visit(TypeTag<A>, TypeTag<B>) for every pair that is served, in the order of its overload.
+template <class S, class Visit> void for_each_served_pair(const Visit& visit) {
+  for_each_type(Shapes<S>{}, [&]<class A>(TypeTag<A> first) {
+    for_each_type(Shapes<S>{}, [&]<class B>(TypeTag<B> second) {
+      if constexpr (ServedPair<A, B> && A::rank >= B::rank) {
+        SCOPED_TRACE("ranks " + std::to_string(A::rank) + " and " + std::to_string(B::rank));
+        visit(first, second);
+      }
+    });
+  });
+}
+
+template <class S> bool is_nan(const Vec3<S>& v) { return v[0] != v[0] && v[1] != v[1] && v[2] != v[2]; }
+template <class S> bool is_unit_vector(const Vec3<S>& v) {
+  return largest(S(v.squaredNorm() - S(1))) <= 32 * std::numeric_limits<S>::epsilon();
+}
+
+}  // namespace thinwall::testing

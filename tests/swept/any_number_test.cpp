@@ -1,0 +1,150 @@
+// No number in any field breaks a time of impact: valid motions get a whole answer from every method, others are `invalid`.
+
+#include <thinwall/swept/methods.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+#include "support/any_number.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> void expect_invalid(const Toi<S>& toi) {
+  EXPECT_EQ(toi.status, ToiStatus::invalid);
+  EXPECT_NE(toi.time, toi.time);
+}
+
+template <class S> void expect_whole(const Toi<S>& toi, bool ordinary) {
+  EXPECT_NE(toi.status, ToiStatus::invalid);
+  EXPECT_GE(toi.time, S(0));
+  EXPECT_LE(toi.time, S(1));
+  const bool in_contact = toi.status == ToiStatus::hit || toi.status == ToiStatus::overlapping;
+  EXPECT_TRUE(in_contact ? is_unit_vector(toi.normal) : toi.normal == Vec3<S>::Zero()) << toi.normal.transpose();
+  EXPECT_TRUE(!ordinary || is_finite(toi.point)) << toi.point.transpose();
+}
+
+/// visit(Method{}) for every method that serves the pair.
+template <class A, class B, class Visit> void for_each_method(const Visit& visit) {
+  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
+    if constexpr (serves<Method, A, B>) {
+      SCOPED_TRACE(std::string(Method::name));
+      visit(Method{});
+    }
+  });
+}
+
+template <class Method, class A, class B>
+void ask_with_every_number(const Method& method, TypeTag<A> first, TypeTag<B> second) {
+  Moving<A> a{usual(first), {6, 0.25, 0.125}};
+  Moving<B> b = at_rest(moved(usual(second), Vec3<double>(5, 0.25, 0.125)));
+  const auto ask = [&] {
+    const auto toi = time_of_impact(method, a, b);
+    if (valid(a) && valid(b)) {
+      expect_whole(toi, is_ordinary(magnitude(a) + magnitude(b)));
+    } else {
+      expect_invalid(toi);
+    }
+  };
+  ask();
+  with_every_number<double>(a, ask);
+  with_every_number<double>(b, ask);
+}
+
+TEST(AnyNumberInMotion, in_a_shape_or_its_displacement) {
+  for_each_served_pair<double>(
+      [](auto first, auto second) { ask_with_every_number(ClosedForm<double>{}, first, second); });
+}
+
+TEST(AnyNumberInMotion, in_a_box_by_every_method) {  // they have one front door: a pair will do
+  for_each_method<Obb<double>, Sphere<double>>(
+      [](const auto& method) { ask_with_every_number(method, TypeTag<Obb<double>>{}, TypeTag<Sphere<double>>{}); });
+}
+
+TEST(AnyNumberInMotion, in_an_option) {
+  const Moving shot{usual(TypeTag<Obb<double>>{}), {6, 0.25, 0.125}};
+  const Moving<Sphere<double>> ball{{{5, 0.25, 0.125}, 1}, {0, 0, 0}};
+  const auto ask = [&](const auto& method, bool allowed) {
+    const auto toi = time_of_impact(method, shot, ball);
+    allowed ? expect_whole(toi, true) : expect_invalid(toi);
+  };
+  for (const double x : special_numbers<double>()) {
+    SCOPED_TRACE(x);
+    const bool is_length = x >= 0 && is_finite(x);
+    for_each_method<Obb<double>, Sphere<double>>([&](auto method) {
+      method.min_separation = x;
+      const auto toi = time_of_impact(method, shot, ball);
+      is_length ? expect_whole(toi, x < 1e300) : expect_invalid(toi);
+      if constexpr (requires { method.tolerance; }) {
+        ask(decltype(method){.tolerance = x}, false);
+      }
+    });
+    ask(Speculative<double>{.margin = x}, is_length);
+  }
+}
+
+/// A method asked in float, whose box is orthonormal to float and no more.
+template <class Method> void expect_hit_and_overlap(const Method& method) {
+  Obb<float> box{{0, 0, 0}, {1, 1, 1}, Mat3<float>::Identity()};
+  box.axes(0, 1) = 0x1p-14F;
+  const Sphere<float> ball{{-4, 0.25F, 0}, 1}, inside{{0.5F, 0.25F, 0}, 1};
+  const auto hit = time_of_impact(method, Moving{ball, {4, 0, 0}}, at_rest(box));
+  EXPECT_EQ(hit.status, ToiStatus::hit);
+  EXPECT_TRUE(is_unit_vector(hit.normal)) << hit.normal.transpose();
+  const auto overlapping = time_of_impact(method, at_rest(inside), at_rest(box));
+  EXPECT_NE(overlapping.status, ToiStatus::apart);
+  EXPECT_TRUE(is_unit_vector(overlapping.normal)) << overlapping.normal.transpose();
+  box.axes(0, 1) = 0x1p-12F;
+  expect_invalid(time_of_impact(method, at_rest(inside), at_rest(box)));
+}
+
+TEST(AnyNumberInMotion, boxes_in_float_have_axes_as_good_as_float) {  // though a query in float is computed in double
+  expect_hit_and_overlap(ClosedForm<float>{});
+  expect_hit_and_overlap(EndOfStep<float>{});
+  expect_hit_and_overlap(CentreRay<float>{});
+  expect_hit_and_overlap(Inclusion<float>{});
+}
+
+TEST(AnyNumberInMotion,
+     boxes_have_the_same_answer_at_every_size) {  // a minimal separation has them walk plane by plane
+  const Moving<Obb<double>> a{usual(TypeTag<Obb<double>>{}), {6, 0.25, 0.125}};
+  const auto b = at_rest(moved(usual(TypeTag<Obb<double>>{}), Vec3<double>(5, 0.25, 1.5)));
+  const auto here = time_of_impact(ClosedForm<double>{.min_separation = 0.25}, a, b);
+  EXPECT_EQ(here.status, ToiStatus::hit);
+  for (int e = -900; e <= 1000; e += 20) {
+    const ClosedForm<double> method{.min_separation = std::ldexp(1.0, e - 2)};
+    const auto there = time_of_impact(method, scaled(a, e), scaled(b, e));
+    EXPECT_EQ(there.status, here.status) << e;
+    EXPECT_EQ(there.time, here.time) << e;
+    EXPECT_EQ(there.normal, here.normal) << e;
+    EXPECT_EQ(there.point, times_power_of_two(here.point, e)) << e;
+  }
+}
+
+TEST(AnyNumberInMotion, boxes_far_beyond_their_sizes_are_apart) {  // products of their lengths overflow
+  const Obb<double> box = scaled(usual(TypeTag<Obb<double>>{}), 480);
+  const Vec3<double> far(-0x1p480, 0x1p987, 0x1p481);
+  for (const double speed : {0x1p453, 0x1p480, 0x1p986}) {
+    const Moving passing{moved(box, far), Vec3<double>(speed, 0, 0)};
+    const auto toi = time_of_impact(ClosedForm<double>{.min_separation = 0.25}, passing, at_rest(box));
+    EXPECT_EQ(toi.status, ToiStatus::apart) << speed;
+  }
+}
+
+TEST(AnyNumberInMotion, a_turn_that_underflows_is_none) {
+  const Aabb<double> box{{0, 0, 0}, {1.4, 0.4, 1}};
+  for (int e = -1074; e < -1060; ++e) {
+    const double tilt = std::ldexp(1.0, e);
+    Obb<double> turned{{0, 0, 0}, {0.4, 1.4, 1}, Mat3<double>::Identity()};
+    turned.axes(0, 2) = tilt;
+    turned.axes(2, 0) = -tilt;
+    for (double x = -1.75; x <= 1.75; x += 0.25) {
+      for (double y = -1.75; y <= 1.75; y += 0.25) {
+        turned.center = {x, y, 0.25};
+        EXPECT_TRUE(overlaps(box, turned)) << e << " " << x << " " << y;
+        EXPECT_TRUE(is_unit_vector(separation(box, turned).normal)) << e << " " << x << " " << y;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::testing
