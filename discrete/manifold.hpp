@@ -78,12 +78,12 @@ template <Shape A, Shape B> Manifold<typename A::Scalar> manifold(const A& a, co
     const auto unchecked = [](const A& x, const B& y) {
       return overlaps_unchecked(x, y, S(0)) ? touching_manifold(x, y) : Manifold<S>{};
     };
-    switch (range_of(S(magnitude(a) + magnitude(b)), a, b)) {
-      case Range::ordinary: return unchecked(a, b);
-      case Range::huge:
+    switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
+      case Magnitudes::ordinary: return unchecked(a, b);
+      case Magnitudes::huge:
         return changed(unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent)),
                        [](const Contact<S>& c) { return scaled(c, huge_exponent); });
-      case Range::invalid: break;
+      case Magnitudes::invalid: break;
     }
     return {};
   }

@@ -16,12 +16,13 @@ namespace thinwall {
 /// The sum of all the numbers that the largest query is given, fewer than 64, is ordinary once they are divided by 2 to this power.
 inline constexpr int huge_exponent = 12;
 
-/// What a front door makes of what it is given, from the sum `size` of all magnitudes: it asks the kernels about ordinary()
-/// lengths, about huge ones divided by 2^huge_exponent, which is never done twice, and about nothing that is not valid.
-enum class Range { ordinary, huge, invalid };
-template <Scalar S, class... Given> THINWALL_HOT Range range_of(const S& size, const Given&... given) {
-  if (is_ordinary(size) && (has_valid_sizes(given) && ...) && (has_valid_axes(given) && ...)) return Range::ordinary;
-  return (valid(given) && ...) ? Range::huge : Range::invalid;
+/// What a front door makes of what it is given, `size` being the sum of its magnitudes. It asks the kernels about ordinary ones
+/// as they are, about huge ones divided by 2^huge_exponent, which need not be done twice, and about nothing that is not valid.
+enum class Magnitudes { ordinary, huge, invalid };
+template <Scalar S, class... Given> THINWALL_HOT Magnitudes magnitudes_of(const S& size, const Given&... given) {
+  if (is_ordinary(size) && (has_valid_sizes(given) && ...) && (has_valid_axes(given) && ...))
+    return Magnitudes::ordinary;
+  return (valid(given) && ...) ? Magnitudes::huge : Magnitudes::invalid;
 }
 
 /// overlaps_within() of shapes that a front door has found valid and made ordinary: what a method asks of its poses. A float
@@ -42,13 +43,13 @@ template <Shape A, Shape B> bool overlaps_within(const A& a, const B& b, const t
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
   if (!(margin >= S(0)) || !is_finite(margin)) return false;
-  switch (range_of(S(magnitude(a) + magnitude(b) + margin), a, b)) {
-    case Range::ordinary: return overlaps_unchecked(a, b, margin);
-    case Range::huge: {
+  switch (magnitudes_of(S(magnitude(a) + magnitude(b) + margin), a, b)) {
+    case Magnitudes::ordinary: return overlaps_unchecked(a, b, margin);
+    case Magnitudes::huge: {
       const S small = times_power_of_two(margin, -huge_exponent);
       return overlaps_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent), small);
     }
-    case Range::invalid: break;
+    case Magnitudes::invalid: break;
   }
   return false;
 }
@@ -67,7 +68,7 @@ template <Shape A, Shape B> CoreGap<typename A::Scalar> core_gap_either_way(cons
   }
 }
 
-/// separation() of valid shapes of ordinary() size, as overlaps_unchecked().
+/// separation() of valid shapes of ordinary size, as overlaps_unchecked().
 template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
   using S = typename A::Scalar;
   const CoreGap<S> gap = core_gap_either_way(a, b);
@@ -83,19 +84,19 @@ template <Shape A, Shape B> Separation<typename A::Scalar> separation(const A& a
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
-  switch (range_of(S(magnitude(a) + magnitude(b)), a, b)) {
-    case Range::ordinary: return separation_unchecked(a, b);
-    case Range::huge: {
+  switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
+    case Magnitudes::ordinary: return separation_unchecked(a, b);
+    case Magnitudes::huge: {
       const Separation<S> small = separation_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent));
       return {times_power_of_two(small.distance, huge_exponent), small.normal,
               times_power_of_two(small.point_a, huge_exponent), times_power_of_two(small.point_b, huge_exponent)};
     }
-    case Range::invalid: break;
+    case Magnitudes::invalid: break;
   }
   return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
 }
 
-/// contact() of valid shapes of ordinary() size.
+/// contact() of valid shapes of ordinary size.
 template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact_unchecked(const A& a, const B& b) {
   using S = typename A::Scalar;
   if (!overlaps_unchecked(a, b, S(0))) return std::nullopt;
@@ -111,13 +112,13 @@ template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact(c
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
-  switch (range_of(S(magnitude(a) + magnitude(b)), a, b)) {
-    case Range::ordinary: return contact_unchecked(a, b);
-    case Range::huge: {
+  switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
+    case Magnitudes::ordinary: return contact_unchecked(a, b);
+    case Magnitudes::huge: {
       const auto small = contact_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent));
       return small ? std::optional(scaled(*small, huge_exponent)) : small;
     }
-    case Range::invalid: break;
+    case Magnitudes::invalid: break;
   }
   return std::nullopt;
 }
@@ -132,16 +133,16 @@ template <Scalar S, Shape A> std::optional<RayHit<S>> raycast(const Ray<S>& ray,
   const auto finite = [](const std::optional<RayHit<S>>& hit) {
     return hit && is_finite(hit->t) && is_finite(hit->point) ? hit : std::nullopt;
   };
-  switch (range_of(S(magnitude(ray) + magnitude(shape)), ray, shape)) {
-    case Range::ordinary: return finite(ray_entry(ray, shape));
-    case Range::huge: {
+  switch (magnitudes_of(S(magnitude(ray) + magnitude(shape)), ray, shape)) {
+    case Magnitudes::ordinary: return finite(ray_entry(ray, shape));
+    case Magnitudes::huge: {
       auto small = ray_entry(scaled(ray, -huge_exponent), scaled(shape, -huge_exponent));
       if (!small) return small;
       const bool from_inside = small->normal == Vec3<S>::Zero();
       small->point = from_inside ? ray.origin : times_power_of_two(small->point, huge_exponent);
       return finite(small);
     }
-    case Range::invalid: break;
+    case Magnitudes::invalid: break;
   }
   return std::nullopt;
 }

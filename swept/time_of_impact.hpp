@@ -33,14 +33,14 @@ THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Method& method, const 
     return flipped(time_of_impact(method, b, a));
   } else {
     const bool has_valid_option = method.min_separation >= 0 && is_finite(method.min_separation);
-    const Range range = range_of(S(magnitude(a) + magnitude(b) + S(method.min_separation)), a, b);
-    if (range == Range::invalid || !has_valid_option) return {ToiStatus::invalid, 0, nan_vector<S>()[0]};
+    const Magnitudes sizes = magnitudes_of(S(magnitude(a) + magnitude(b) + S(method.min_separation)), a, b);
+    if (sizes == Magnitudes::invalid || !has_valid_option) return {ToiStatus::invalid, 0, nan_vector<S>()[0]};
     if constexpr (std::is_same_v<S, float>) {
       const Toi<double> toi = impact(method, cast<double>(a), cast<double>(b));
       return {toi.status, toi.evaluations, static_cast<float>(toi.time), toi.normal.template cast<float>(),
               toi.point.template cast<float>()};
     } else {
-      return range == Range::ordinary ? impact(method, a, b) : impact_scaled_down(method, a, b);
+      return sizes == Magnitudes::ordinary ? impact(method, a, b) : impact_scaled_down(method, a, b);
     }
   }
 }
