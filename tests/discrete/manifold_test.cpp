@@ -178,10 +178,11 @@ template <class First, class Second> struct Both {
   using B = Second;
 };
 template <class S> using F = Both<Obb<S>, Obb<S>>;
-using ManifoldPairs = ::testing::Types<Both<Sphere<double>, Sphere<double>>, Both<Aabb<double>, Sphere<double>>,
-                               Both<Obb<double>, Sphere<double>>, Both<Triangle<double>, Sphere<double>>,
-                               Both<Aabb<double>, Aabb<double>>, Both<Obb<double>, Aabb<double>>, F<float>, F<double>,
-                               F<long double>, F<Wide>, Both<Obb<float>, Aabb<float>>, Both<Aabb<Wide>, Aabb<Wide>>>;
+using ManifoldPairs =
+    ::testing::Types<Both<Sphere<double>, Sphere<double>>, Both<Aabb<double>, Sphere<double>>,
+                     Both<Obb<double>, Sphere<double>>, Both<Triangle<double>, Sphere<double>>,
+                     Both<Aabb<double>, Aabb<double>>, Both<Obb<double>, Aabb<double>>, F<float>, F<double>,
+                     F<long double>, F<Wide>, Both<Obb<float>, Aabb<float>>, Both<Aabb<Wide>, Aabb<Wide>>>;
 TYPED_TEST_SUITE(ManifoldsOf, ManifoldPairs);
 
 TYPED_TEST(ManifoldsOf, are_real_points_as_deep_as_the_contact) {

@@ -170,8 +170,9 @@ TEST(Settings, limit_the_cells_that_lists_make) {
     return "";
   };
   using Lists = std::initializer_list<std::string_view>;
-  EXPECT_EQ(complaint_of(Lists{"methods", "speed"}, 251U),
-            "my.toml:2: key 'speed': methods (2) x speed (2,000) x 251 for each make 1,004,000 cells; at most 1,000,000");
+  EXPECT_EQ(
+      complaint_of(Lists{"methods", "speed"}, 251U),
+      "my.toml:2: key 'speed': methods (2) x speed (2,000) x 251 for each make 1,004,000 cells; at most 1,000,000");
   const std::string many = complaint_of(Lists{"speed", "speed", "speed", "speed", "speed", "speed"});  // 2^64 is 1.8e19
   EXPECT_NE(many.find("make 6.4e+19 cells"), std::string::npos) << many;
 }

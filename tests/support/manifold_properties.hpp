@@ -23,7 +23,8 @@ template <class A, class B> std::pair<A, B> nearly_touching(Shaker<typename A::S
 /// How far a point of the surface, given as in a contact, is from the surface.
 template <class A> Wide off_surface(const A& shape, const Vec3<typename A::Scalar>& local) {
   const auto wide = cast<Wide>(shape);
-  return largest(separation_unchecked(Sphere<Wide>{center(wide) + local.template cast<Wide>(), Wide(0)}, wide).distance);
+  return largest(
+      separation_unchecked(Sphere<Wide>{center(wide) + local.template cast<Wide>(), Wide(0)}, wide).distance);
 }
 
 /// The manifold of two shapes is empty exactly where they are apart, and else a set of real points as deep as contact()
