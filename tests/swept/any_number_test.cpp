@@ -121,9 +121,9 @@ TEST(AnyNumberInMotion,
 
 TEST(AnyNumberInMotion, boxes_far_beyond_their_sizes_are_apart) {  // products of their lengths overflow
   const Obb<double> box = scaled(usual(TypeTag<Obb<double>>{}), 480);
-  const Vec3<double> far(-0x1p480, 0x1p987, 0x1p481);
+  const Vec3<double> far(-0x1p480, -0x1p987, 0x1p481);
   for (const double speed : {0x1p453, 0x1p480, 0x1p986}) {
-    const Moving passing{moved(box, far), Vec3<double>(speed, 0, 0)};
+    const Moving passing{moved(box, far), Vec3<double>(speed, speed, 0)};
     const auto toi = time_of_impact(ClosedForm<double>{.min_separation = 0.25}, passing, at_rest(box));
     EXPECT_EQ(toi.status, ToiStatus::apart) << speed;
   }

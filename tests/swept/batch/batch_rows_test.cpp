@@ -132,7 +132,7 @@ TEST_P(BatchRowsOfBoxesAndBalls, are_not_spoiled_by_a_neighbor) {
 template <class S> void expect_bad_axes_to_be_invalid() {
   RowTable<Moving<Obb<S>>> boxes;
   RowTable<Moving<Sphere<S>>> balls;
-  const std::array bad = {std::numeric_limits<S>::quiet_NaN(), std::numeric_limits<S>::infinity(), S(-2), S(0.5),
+  const std::array bad = {std::numeric_limits<S>::quiet_NaN(), std::numeric_limits<S>::infinity(), S(-3), S(0.5),
                           S(1e-3)};
   for (int i = 0; i < 90; ++i) {
     boxes.push_back(at_rest(Obb<S>{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity()}));
