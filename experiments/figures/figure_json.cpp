@@ -57,8 +57,8 @@ bool is_mark(std::string_view text) {
 
 /// Also the letters that gnuplot is told without quotes of its own: none of them may end the quotes.
 bool is_color(std::string_view text) {
-  return text.empty() ||
-         (text.size() == 7 && text[0] == '#' && text.find_first_not_of("0123456789abcdefABCDEF", 1) == text.npos);
+  return text.empty() || (text.size() == 7 && text[0] == '#' &&
+                          text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string_view::npos);
 }
 
 Series series_of(const JsonReader& in) {
