@@ -18,7 +18,7 @@ class HarmlessOutput final : public std::ostream {
     explicit Buffer(std::ostream& out) : out_(out) {}
 
    private:
-    int_type overflow(int_type letter) override;
+    int_type overflow(int_type value) override;
     int sync() override;
 
     std::ostream& out_;
