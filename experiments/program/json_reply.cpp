@@ -26,7 +26,7 @@ std::string list_reply(std::span<const Experiment> experiments) {
   return line(out);
 }
 
-std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const Estimate& told) {
+std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const RunEstimate& told) {
   ordered_json reply = size_of(run, out);
   reply["dry_run"] = true;
   reply["estimated_seconds"] = told.tried() > 0 ? ordered_json(seconds) : ordered_json();

@@ -39,7 +39,7 @@ std::string size_text(const RunRecord& run) {
                      run.ranks > 1 ? fmt::format("{} ranks of {}", run.ranks, threads) : threads);
 }
 
-std::string time_text(const Estimate& told, double seconds) {
+std::string time_text(const RunEstimate& told, double seconds) {
   if (told.tried() == 0) return "for how long, cannot be told";
   return (told.unknown == 0 ? "about " : "at least ") + duration_text(seconds);
 }
@@ -50,7 +50,7 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all
     request.options.trials = trials;
     return configure_run(wish.target, request, call.experiments).run;
   };
-  const Estimate told = estimate(all, again);
+  const RunEstimate told = estimate(all, again);
   double trials = 0;  // of the whole run, of which a shard is a part
   for (const Unit& unit : all) trials += static_cast<double>(unit.trials);
   const auto crew = std::min(static_cast<double>(run.threads) * run.ranks, static_cast<double>(run.units));

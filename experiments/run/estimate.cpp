@@ -28,7 +28,7 @@
 namespace thinwall {
 namespace {
 
-using Tell = std::function<void(const Estimate&)>;
+using Tell = std::function<void(const RunEstimate&)>;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -134,7 +134,7 @@ void try_whole(std::span<const Unit> units, const ConfigureTrials& again, const 
   const Parts parts = parts_of(units, run->units());
   std::map<std::int64_t, Rate> rates;
   const auto know = [&] {
-    Estimate known = {.whole = parts.whole};
+    RunEstimate known = {.whole = parts.whole};
     for (const auto& [trials, group] : parts.groups) {
       const Rate& rate = rates[trials];
       known.whole_tried += rate.units;
@@ -168,7 +168,7 @@ void end_after(double seconds) {
 }
 
 /// The last that `work` tells in a process of its own, within `seconds`; nothing if that is nothing.
-std::optional<Estimate> told_within(double seconds, const std::function<void(const Tell&)>& work) {
+std::optional<RunEstimate> told_within(double seconds, const std::function<void(const Tell&)>& work) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
   const int read = ends[0], write = ends[1];
@@ -176,7 +176,7 @@ std::optional<Estimate> told_within(double seconds, const std::function<void(con
   if (child == 0) {
     end_after(seconds);
     try {
-      work([write](const Estimate& known) {
+      work([write](const RunEstimate& known) {
         if (::write(write, &known, sizeof known) != sizeof known) ::_exit(1);
       });
     } catch (const std::exception&) {  // a unit that fails is for the run itself to tell
@@ -184,8 +184,8 @@ std::optional<Estimate> told_within(double seconds, const std::function<void(con
     ::_exit(0);
   }
   ::close(write);
-  std::optional<Estimate> last;
-  Estimate next;
+  std::optional<RunEstimate> last;
+  RunEstimate next;
   for (ssize_t got = 0; (got = ::read(read, &next, sizeof next)) != 0;) {
     if (got == sizeof next) last = next;
     if (got < 0 && errno != EINTR) break;
@@ -197,7 +197,7 @@ std::optional<Estimate> told_within(double seconds, const std::function<void(con
 
 }  // namespace
 
-std::string basis_text(const Estimate& e) {
+std::string basis_text(const RunEstimate& e) {
   std::vector<std::string> parts;
   if (e.cut_tried > 0) {
     parts.push_back(fmt::format("{} tried with {} in the place of its own", plural_text(e.cut_tried, "unit"),
@@ -210,10 +210,10 @@ std::string basis_text(const Estimate& e) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-Estimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget) {
+RunEstimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget) {
   const double half = budget / 2;
   const auto cut = told_within(half, [&](const Tell& tell) { try_cut(units, again, half, tell); });
-  Estimate known = cut.value_or(Estimate{.unknown = std::ssize(units)});
+  RunEstimate known = cut.value_or(RunEstimate{.unknown = std::ssize(units)});
   if (!cut || cut->whole == 0) return known;
   const auto whole = told_within(half, [&](const Tell& tell) { try_whole(units, again, tell); });
   known.seconds += whole ? whole->seconds : 0;

@@ -11,7 +11,7 @@
 
 namespace thinwall {
 
-struct Estimate {
+struct RunEstimate {
   double seconds = 0;            ///< of all units but the unknown ones, one after the other
   std::int64_t cut_tried = 0;    ///< units that fewer trials shorten, timed with
   std::int64_t trials = 0;       ///< in the place of the run's own
@@ -23,7 +23,7 @@ struct Estimate {
 };
 
 /// What the estimate rests on, and what it leaves out.
-std::string basis_text(const Estimate& estimate);
+std::string basis_text(const RunEstimate& estimate);
 
 using ConfigureTrials = std::function<std::unique_ptr<Run>(std::int64_t trials)>;
 
@@ -31,6 +31,6 @@ using ConfigureTrials = std::function<std::unique_ptr<Run>(std::int64_t trials)>
 /// one of each number of trials is timed whole, then a second, and so on, and those of a number are taken to be alike. Both
 /// is done by processes of their own, which the system ends after half of `budget` [s] each, whatever they are at: no unit
 /// is too long. `again` configures the same run with other trials, and may throw UsageError where they are too few.
-Estimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget = 1.5);
+RunEstimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget = 1.5);
 
 }  // namespace thinwall

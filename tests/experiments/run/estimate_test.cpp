@@ -43,7 +43,7 @@ class UnevenRun final : public Run {
   std::string (*work_)();
 };
 
-Estimate estimate_of(std::int64_t trials, const std::vector<Unit>& whole, double budget) {
+RunEstimate estimate_of(std::int64_t trials, const std::vector<Unit>& whole, double budget) {
   return estimate(
       UnevenRun(trials, whole).units(), [&](std::int64_t fewer) { return std::make_unique<UnevenRun>(fewer, whole); },
       budget);
@@ -51,7 +51,7 @@ Estimate estimate_of(std::int64_t trials, const std::vector<Unit>& whole, double
 
 TEST(Estimate, is_made_from_few_trials_and_by_another_process) {
   computed = 0;
-  const Estimate told = estimate_of(std::int64_t(1) << 60, {{"whole", 3, compute}}, 0.2);
+  const RunEstimate told = estimate_of(std::int64_t(1) << 60, {{"whole", 3, compute}}, 0.2);
   EXPECT_EQ(computed, 0);
   EXPECT_EQ(told.unknown, 0);
   EXPECT_EQ(told.cut_tried, 10);
@@ -61,7 +61,8 @@ TEST(Estimate, is_made_from_few_trials_and_by_another_process) {
 }
 
 TEST(Estimate, ends_where_a_unit_does_not) {
-  const Estimate told = estimate_of(100, {{"endless", 3, compute_forever}, {"a", 1, compute}, {"b", 2, compute}}, 0.5);
+  const RunEstimate told =
+      estimate_of(100, {{"endless", 3, compute_forever}, {"a", 1, compute}, {"b", 2, compute}}, 0.5);
   EXPECT_EQ(told.cut_tried, 10);
   EXPECT_EQ(told.whole, 3);
   EXPECT_EQ(told.whole_tried, 2);  // those of few trials come first
@@ -70,7 +71,7 @@ TEST(Estimate, ends_where_a_unit_does_not) {
 }
 
 TEST(Estimate, says_what_it_knows_nothing_of) {
-  const Estimate told = estimate_of(100, {{"endless", 3, compute_forever}}, 0.2);
+  const RunEstimate told = estimate_of(100, {{"endless", 3, compute_forever}}, 0.2);
   EXPECT_EQ(told.unknown, 1);
   EXPECT_TRUE(basis_text(told).ends_with(", 1 unit too long to try")) << basis_text(told);
   const auto endless = [](std::int64_t trials) {
@@ -81,7 +82,7 @@ TEST(Estimate, says_what_it_knows_nothing_of) {
 
 TEST(Estimate, tries_no_unit_that_says_how_long_it_takes) {
   const auto tried = []() -> std::string { throw std::logic_error("it was tried"); };
-  const Estimate told = estimate_of(1, {{"a", 1, tried, 3}, {"b", 1, tried, 3}}, 0.2);
+  const RunEstimate told = estimate_of(1, {{"a", 1, tried, 3}, {"b", 1, tried, 3}}, 0.2);
   EXPECT_EQ(told.whole_tried, 12);
   EXPECT_GE(told.seconds, 6);
 }
@@ -96,7 +97,7 @@ TEST(Estimate, passes_over_trials_that_are_too_few) {
 }
 
 TEST(Estimate, of_a_run_of_one_trial_is_the_run_itself) {
-  const Estimate told = estimate_of(1, {}, 0.2);
+  const RunEstimate told = estimate_of(1, {}, 0.2);
   EXPECT_EQ(told.cut_tried, 0);
   EXPECT_EQ(told.whole_tried, 10);
   EXPECT_EQ(told.unknown, 0);
