@@ -193,3 +193,7 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 }
 
 }  // namespace thinwall
+
+#ifdef THINWALL_COMPILED
+#include <thinwall/capsule/compiled.hpp>
+#endif

@@ -135,3 +135,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, 
 }
 
 }  // namespace thinwall
+
+#ifdef THINWALL_COMPILED
+#include <thinwall/swept/compiled.hpp>
+#endif
