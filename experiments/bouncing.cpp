@@ -1,4 +1,4 @@
-#include <thinwall/experiments/bouncing.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/broad_phase.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <memory>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/extremes.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/plan.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <memory>
 #include <utility>

@@ -32,6 +32,17 @@ bool can_be_judged(std::int64_t shots, double theory) {
   return 5 <= n * theory && n * theory <= n - 5;
 }
 
+void ResidualTest::add(double residual) {
+  ++judged;
+  chi_square += residual * residual;
+}
+
+std::optional<Interval> ResidualTest::allowed() const {
+  return judged > 0 ? std::optional(chi_square_range(judged, central)) : std::nullopt;
+}
+
+bool ResidualTest::passed() const { return judged == 0 || allowed()->contains(chi_square); }
+
 bool SelfTest::passed() const {
   return certain_wrong == 0 && covered_allowed.contains(static_cast<double>(covered)) &&
          chi_square_allowed.contains(chi_square);

@@ -3,6 +3,7 @@
 /// fails here; chance alone fails a right one about once in 500 times for each method and scalar.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,17 @@ std::string self_test_text(const std::vector<SelfTest>& tests);
 
 Table self_test_table(const std::vector<SelfTest>& tests);
 bool all_passed(const std::vector<SelfTest>& tests);
+
+/// Do standard residuals, one of each of several cells, spread as standard normal numbers do? Their squares are added.
+struct ResidualTest {
+  std::int64_t judged = 0;
+  double chi_square = 0;
+
+  void add(double residual);
+  std::optional<Interval> allowed()
+      const;  ///< central 99.9 % of the chi-square distribution; missing if nothing is judged
+  bool passed() const;
+};
 
 /// True if at least five shots are expected to tunnel and five not to: a cell that can be judged by its residual.
 bool can_be_judged(std::int64_t shots, double theory);

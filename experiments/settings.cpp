@@ -261,7 +261,8 @@ std::int64_t Settings::trials(std::string_view key, std::int64_t lower, std::int
   return *option;
 }
 
-void Settings::limit_cells(std::initializer_list<std::string_view> lists, std::size_t each) const {
+void Settings::limit_cells(std::span<const std::string_view> lists, std::size_t each) const {
+  if (lists.empty()) return;
   const auto count = [&](std::string_view key) {
     const auto* const array = impl_->entry(key).node->as_array();
     return array ? array->size() : 1;
@@ -309,6 +310,21 @@ std::vector<std::string> Settings::choices(std::string_view key, std::span<const
   return impl_->several(
       key, [&](const toml::node& node) { return one_of(node, allowed); },
       [&](const toml::node& node) { return choice_text(node, allowed); });
+}
+
+std::vector<std::string> Settings::choices_or_all(std::string_view key,
+                                                  std::span<const std::string_view> allowed) const {
+  std::vector<std::string_view> with_all(allowed.begin(), allowed.end());
+  with_all.emplace_back("all");
+  const std::vector<std::string> chosen = choices(key, with_all);
+  const auto is_chosen = [&](std::string_view name) {
+    return std::ranges::find(chosen, "all") != chosen.end() || std::ranges::find(chosen, name) != chosen.end();
+  };
+  std::vector<std::string> names;
+  for (const std::string_view name : allowed) {
+    if (is_chosen(name)) names.emplace_back(name);
+  }
+  return names;
 }
 
 std::vector<Settings> Settings::tables(std::string_view key, std::string_view defaults) const {

@@ -59,6 +59,8 @@ class Settings {
   std::string text(std::string_view key) const;  ///< any, of one line and at most 200 bytes
   std::string choice(std::string_view key, std::span<const std::string_view> allowed) const;
   std::vector<std::string> choices(std::string_view key, std::span<const std::string_view> allowed) const;
+  /// The same, in the order of `allowed` and with "all" for all of them.
+  std::vector<std::string> choices_or_all(std::string_view key, std::span<const std::string_view> allowed) const;
 
   /// The tables of the list `[[key]]`, each laid over `defaults`; complaints name this file, the line and `key.inner`.
   std::vector<Settings> tables(std::string_view key, std::string_view defaults) const;
@@ -69,7 +71,10 @@ class Settings {
 
   /// Refuses a design that would have more than `most_cells`, before any is made: one, or `each`, for every combination of
   /// the values of these lists.
-  void limit_cells(std::initializer_list<std::string_view> lists, std::size_t each = 1) const;
+  void limit_cells(std::span<const std::string_view> lists, std::size_t each = 1) const;
+  void limit_cells(std::initializer_list<std::string_view> lists, std::size_t each = 1) const {
+    limit_cells(std::span(lists.begin(), lists.size()), each);
+  }
 
   /// As if the user's file said so: for an option of the command line. The key must not have a dot.
   void assign(std::string_view key, const std::string& text);

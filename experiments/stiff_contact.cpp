@@ -1,4 +1,4 @@
-#include <thinwall/experiments/stiff_contact.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <memory>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/work_precision.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <limits>

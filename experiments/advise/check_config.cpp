@@ -8,7 +8,7 @@
 
 #include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/advise/words.hpp>
-#include <thinwall/experiments/thin_wall.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/thin_wall/plan.hpp>
 
 namespace thinwall {

@@ -40,18 +40,18 @@ Toi<double> answer_of(const SweptOverlap&, const Encounter& e) {
   return {overlaps(swept_volume(e.faster), swept_volume(e.slower)) ? ToiStatus::hit : ToiStatus::apart, 1};
 }
 
-template <class Method> void note_cause(const Method&, const Encounter&, const TrueContact&, MissCauses&) {}
-void note_cause(const SweepThenConfirm<double>&, const Encounter& e, const TrueContact& truth, MissCauses& causes) {
+template <class Method> void note_cause(const Method&, const Encounter&, const TrueContact&, CrossingTally&) {}
+void note_cause(const SweepThenConfirm<double>&, const Encounter& e, const TrueContact& truth, CrossingTally& tally) {
   const auto entry = first_shoots(e.faster, e.slower) ? enters_track<double>(e.faster, e.slower)
                                                       : enters_track<double>(e.slower, e.faster);
   if (!entry) {
-    ++causes.beside;
+    ++tally.beside;
   } else if (entry->t == 0) {
-    ++causes.inside;
+    ++tally.inside;
   } else if (static_cast<long double>(entry->t) < truth.time) {
-    ++causes.too_early;
+    ++tally.early;
   } else {
-    ++causes.too_late;
+    ++tally.late;
   }
 }
 
@@ -61,8 +61,7 @@ void note_time(const Encounter& e, const TrueContact& truth, double time, Crossi
   tally.deepest = std::min(tally.deepest, gap);
   if (!truth.touches) return;
   const double late = static_cast<double>(static_cast<long double>(time) - truth.time);
-  ++tally.timed;
-  tally.lateness += std::llround(std::ldexp(late, 32));
+  tally.lateness.add(late);
   tally.latest = std::max(tally.latest, late);
   tally.earliest = std::min(tally.earliest, late);
 }
@@ -78,7 +77,7 @@ template <class Method> void put(const Method& method, const Encounter& e, Cross
   if (says_so && !truth.touches) ++tally.false_hits;
   if (!says_so && truth.touches) {
     ++tally.missed;
-    note_cause(method, e, truth, tally.causes);
+    note_cause(method, e, truth, tally);
   }
   if (!std::is_same_v<Method, SweptOverlap> && says_so) note_time(e, truth, toi.time, tally);
 }
@@ -109,7 +108,7 @@ std::vector<CrossingRule> crossing_rules(std::span<const std::string> names) {
 }
 
 CrossingTally ask_all(const CrossingRule& rule, const Crossing& c, std::uint64_t seed, std::int64_t shots) {
-  const RandomStream stream = random_stream(c, seed);
+  const RandomStream stream = crossing_factors().stream(c, seed);
   CrossingTally tally;
   for (std::int64_t i = 0; i < shots; ++i) {
     rule.ask(random_encounter(c, stream, static_cast<std::uint64_t>(i)), tally);

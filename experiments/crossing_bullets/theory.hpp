@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <thinwall/experiments/crossing_bullets/crossing.hpp>
+#include <thinwall/experiments/crossing_bullets/model.hpp>
 
 namespace thinwall {
 

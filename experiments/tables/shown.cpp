@@ -101,6 +101,10 @@ std::string bracket_words(const Table& table, const std::vector<Choice>& shown_c
 
 }  // namespace
 
+std::string header_of(const Column& column) {
+  return has_unit(column) ? fmt::format("{} [{}]", title(column), column.unit) : title(column);
+}
+
 ShownTable shown(const Table& table) {
   std::vector<Choice> kept;
   std::string same;
@@ -126,8 +130,7 @@ ShownTable shown(const Table& table) {
   for (const Choice& choice : kept) {
     const Column& column = table.columns[choice.at];
     const bool right = column.type == ColumnType::integer || column.type == ColumnType::number;
-    out.columns.push_back({has_unit(column) ? fmt::format("{} [{}]", title(column), column.unit) : title(column),
-                           column.description, right});
+    out.columns.push_back({header_of(column), column.description, right});
   }
   for (const auto& row : table.rows) {
     out.rows.emplace_back();

@@ -29,6 +29,9 @@ struct ShownTable {
   std::string caption;  ///< what the table is, what is the same in every row, and what stands in brackets
 };
 
+/// The column's name in words, and its unit if it has one: `step ratio`, `angle [deg]`.
+std::string header_of(const Column& column);
+
 /// Throws std::logic_error if a column names an end of its interval that is not there.
 ShownTable shown(const Table& table);
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/bouncing.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/bouncing/results.hpp>
 
 #include "support/experiment_run.hpp"

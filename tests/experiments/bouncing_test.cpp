@@ -1,5 +1,5 @@
 /// The bouncing ball's answers: who loses energy, who gains it, and does theory agree?
-#include <thinwall/experiments/bouncing.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <cmath>

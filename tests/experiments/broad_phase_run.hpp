@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/broad_phase.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/broad_phase/lines.hpp>
 
 #include "support/experiment_run.hpp"

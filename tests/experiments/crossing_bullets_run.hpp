@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/crossing_bullets.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/crossing_bullets/line.hpp>
 
 #include "support/experiment_run.hpp"

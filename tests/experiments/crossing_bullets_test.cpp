@@ -1,5 +1,5 @@
 /// The crossing bullets' answers: who misses, who hits what is not there, and does theory agree?
-#include <thinwall/experiments/crossing_bullets.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <cmath>

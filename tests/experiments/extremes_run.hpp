@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/extremes.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/extremes/line.hpp>
 
 #include "support/experiment_run.hpp"

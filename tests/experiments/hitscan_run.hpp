@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/hitscan.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/hitscan/line.hpp>
 
 #include "support/experiment_run.hpp"

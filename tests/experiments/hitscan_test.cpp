@@ -1,5 +1,5 @@
 /// Hitscan's answers: what the ray misses and hits falsely, how late the next frame is, and does theory agree?
-#include <thinwall/experiments/hitscan.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <thinwall/experiments/plan.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/plan/report.hpp>
 
 #include "support/experiment_run.hpp"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/speed.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
 #include "support/temporary_folder.hpp"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/stiff_contact.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/stiff_contact/verdicts.hpp>
 
 #include "support/experiment_run.hpp"

@@ -1,5 +1,5 @@
 /// The stiff contact's answers, and whether a wrong theory would be noticed.
-#include <thinwall/experiments/stiff_contact.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <cmath>

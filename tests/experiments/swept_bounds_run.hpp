@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/swept_bounds.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/swept_bounds/line.hpp>
 
 #include "support/experiment_run.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/thin_wall.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
 

@@ -1,5 +1,5 @@
 /// The thin wall's answers: who tunnels, and does theory agree?
-#include <thinwall/experiments/thin_wall.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/work_precision.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/work_precision/heat.hpp>
 
 #include "support/experiment_run.hpp"

@@ -1,0 +1,65 @@
+#pragma once
+/// A panel of a figure, stated by the columns of a table.
+///
+///   Figure f = {.name = "probability", .title = "...", .caption = "...", .panels = {
+///       plot(cells).where("wall", "infinite").x("step_ratio", Axis::log).y("probability").by("method")
+///           .curve("theory", [](double x) { return miss_probability(x); }),
+///       plot(cells).x("step_ratio", Axis::log).y("residual").by("method")}};
+///
+/// A series for each value of the `by` column, in the order of the rows; bars where the y column has an interval; rows without x or y
+/// are left out. A method looks the same in every figure: figures/plot_style.hpp.
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <thinwall/experiments/figure.hpp>
+#include <thinwall/experiments/table.hpp>
+
+namespace thinwall {
+
+enum class Axis { linear, log };
+
+class Plot {
+ public:
+  explicit Plot(const Table& table) : table_(table) {}
+
+  /// Only the rows in which the column reads as this value does.
+  Plot& where(std::string_view column, const Value& value);
+  /// Only the rows in which the number in the column is such; a missing one is not.
+  Plot& where(std::string_view column, const std::function<bool(double)>& is_it);
+
+  /// `label` in place of the column's name and unit.
+  Plot& x(std::string_view column, Axis axis = Axis::linear, std::string label = "");
+  Plot& y(std::string_view column, Axis axis = Axis::linear, std::string label = "");
+  Plot& by(std::string_view column);
+  Plot& label(std::string label);  ///< of the only series, where there is no `by`
+  Plot& mark(Mark mark);
+  Plot& height(double share);
+
+  /// A line over the range of x that the rows have, or from `from` to `to`; NaN leaves a gap.
+  Plot& curve(std::string label, const std::function<double(double)>& f);
+  Plot& curve(std::string label, const std::function<double(double)>& f, double from, double to);
+  Plot& line(std::string label, std::vector<double> xs, std::vector<double> ys);
+
+  operator Panel() const;  // NOLINT(google-explicit-constructor): it stands where a panel does
+
+ private:
+  struct Curve {
+    std::string label;
+    std::function<double(double)> f;
+    double from, to;
+  };
+
+  std::size_t place_of(std::string_view column) const;
+
+  Table table_;
+  Panel panel_;
+  std::string x_, y_, by_, label_;
+  Mark mark_ = Mark::points;
+  std::vector<Curve> curves_;
+};
+
+inline Plot plot(const Table& table) { return Plot(table); }
+
+}  // namespace thinwall

@@ -1,0 +1,121 @@
+#include <thinwall/experiments/lab/terminal.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include <thinwall/experiments/tables/shown.hpp>
+#include <thinwall/experiments/text/escape.hpp>
+
+namespace thinwall {
+namespace {
+
+/// Letters, not bytes: what UTF-8 continues does not count.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    if (end > at) words.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+/// The words on lines of at most `most` letters, a longer word on a line of its own.
+std::vector<std::string> broken(std::string_view text, std::size_t most) {
+  std::vector<std::string> lines;
+  for (const std::string& word : words_of(text)) {
+    if (lines.empty() || width(lines.back()) + 1 + width(word) > most) {
+      lines.push_back(word);
+    } else {
+      lines.back() += " " + word;
+    }
+  }
+  return lines;
+}
+
+std::string padded(const std::string& text, std::size_t to, bool right) {
+  const std::string spaces(to - std::min(to, width(text)), ' ');
+  return right ? spaces + text : text + spaces;
+}
+
+std::string without_spaces_at_end(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const auto lines = broken(text.substr(at, end - at), terminal_width);
+    for (const std::string& line : lines) out += line + "\n";
+    if (lines.empty()) out += "\n";
+    at = end + 1;
+  }
+  return out;
+}
+
+Table only_columns(const Table& table, std::initializer_list<std::string_view> names) {
+  Table out = table;
+  out.columns.clear();
+  for (auto& row : out.rows) row.clear();
+  const auto take = [&](std::string_view name) {
+    const auto found = std::ranges::find(table.columns, name, &Column::name);
+    if (found == table.columns.end())
+      throw std::logic_error("table '" + table.name + "' has no column '" + std::string(name) + "'");
+    const auto j = static_cast<std::size_t>(found - table.columns.begin());
+    out.columns.push_back(*found);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) out.rows[i].push_back(table.rows[i][j]);
+  };
+  for (const std::string_view name : names) {
+    take(name);
+    const Column column = out.columns.back();
+    if (!column.lower.empty()) take(column.lower);
+    if (!column.upper.empty()) take(column.upper);
+  }
+  return out;
+}
+
+std::string terminal(const Table& table, std::initializer_list<std::string_view> names) {
+  const ShownTable all = shown(names.size() == 0 ? table : only_columns(table, names));
+  std::vector<std::vector<std::string>> headers;
+  std::vector<std::size_t> widths;
+  std::size_t height = 0, whole = 0;
+  for (std::size_t j = 0; j < all.columns.size(); ++j) {
+    std::size_t widest = 0;
+    for (const auto& row : all.rows) widest = std::max(widest, width(row[j].text));
+    for (const std::string& word : words_of(all.columns[j].header)) widest = std::max(widest, width(word));
+    headers.push_back(broken(all.columns[j].header, widest));
+    height = std::max(height, headers.back().size());
+    widths.push_back(widest);
+    whole += widest + (j > 0 ? 2 : 0);
+  }
+  if (whole > terminal_width) throw std::logic_error("table '" + table.name + "' is too wide for a terminal");
+  std::string caption = all.caption.substr(0, all.caption.find(" Brackets hold "));
+  std::string out = wrapped(caption);
+  for (std::size_t k = 0; k < height; ++k) {
+    std::string line;
+    for (std::size_t j = 0; j < headers.size(); ++j) {
+      const std::size_t first = height - headers[j].size();  // the last words stand on the rows
+      line += (j > 0 ? "  " : "") + padded(k < first ? "" : headers[j][k - first], widths[j], all.columns[j].right);
+    }
+    out += without_spaces_at_end(line);
+  }
+  for (const auto& row : all.rows) {
+    std::string line;
+    for (std::size_t j = 0; j < row.size(); ++j)
+      line += (j > 0 ? "  " : "") + padded(one_line(row[j].text), widths[j], all.columns[j].right);
+    out += without_spaces_at_end(line);
+  }
+  return out;
+}
+
+}  // namespace thinwall
