@@ -12,12 +12,14 @@
 ///
 /// `number`, `count` and `choice` read one value, `numbers`, `counts` and `choices` a list.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -91,6 +93,25 @@ Factor<Cell> choice(std::string_view name, std::string Cell::*member, std::span<
                         [=](const Settings& settings) { return std::vector{settings.choice(name, names)}; });
 }
 
+/// A cell holds the name's place, as an enumeration.
+template <class Cell, class Place>
+  requires std::is_enum_v<Place>
+Factor<Cell> choices(std::string_view name, Place Cell::*member, std::span<const std::string_view> names,
+                     std::string_view description) {
+  const auto read = [=](const Settings& settings) {
+    std::vector<typename Factor<Cell>::Set> all;
+    for (const std::string& choice : settings.choices(name, names)) {
+      const auto place = static_cast<Place>(std::ranges::find(names, choice) - names.begin());
+      all.push_back([=](Cell& cell) { cell.*member = place; });
+    }
+    return all;
+  };
+  return {{std::string(name), ColumnType::text, "", std::string(description)},
+          true,
+          read,
+          [=](const Cell& cell) -> Value { return std::string(names[static_cast<std::size_t>(cell.*member)]); }};
+}
+
 template <class Cell> class Factors {
  public:
   explicit Factors(std::vector<Factor<Cell>> all) : all_(std::move(all)) {}
@@ -110,6 +131,13 @@ template <class Cell> class Factors {
     std::set<std::string> keys;
     add(values, 0, base, adjust, keys, cells);
     return cells;
+  }
+
+  /// The same, whose `cells` come with the first factor fastest.
+  Factors first_fastest() const {
+    Factors out = *this;
+    out.first_fastest_ = true;
+    return out;
   }
 
   /// One line, for people and the journal.
@@ -150,7 +178,7 @@ template <class Cell> class Factors {
   void add(const std::vector<std::vector<typename Factor<Cell>::Set>>& values, std::size_t depth, Cell cell,
            const std::function<bool(Cell&)>& adjust, std::set<std::string>& keys, std::vector<Cell>& cells) const {
     if (depth < values.size()) {
-      for (const auto& set : values[depth]) {
+      for (const auto& set : values[first_fastest_ ? values.size() - 1 - depth : depth]) {
         set(cell);
         add(values, depth + 1, cell, adjust, keys, cells);
       }
@@ -160,6 +188,7 @@ template <class Cell> class Factors {
   }
 
   std::vector<Factor<Cell>> all_;
+  bool first_fastest_ = false;
 };
 
 template <class Cell, class... Rest> Factors<Cell> factors(Factor<Cell> first, Rest... rest) {
