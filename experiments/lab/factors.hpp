@@ -12,12 +12,15 @@
 ///
 /// `number`, `count` and `choice` read one value, `numbers`, `counts` and `choices` a list.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -91,6 +94,25 @@ Factor<Cell> choice(std::string_view name, std::string Cell::*member, std::span<
                         [=](const Settings& settings) { return std::vector{settings.choice(name, names)}; });
 }
 
+/// A cell holds the name's place, as an enumeration.
+template <class Cell, class Place>
+  requires std::is_enum_v<Place>
+Factor<Cell> choices(std::string_view name, Place Cell::*member, std::span<const std::string_view> names,
+                     std::string_view description) {
+  const auto read = [=](const Settings& settings) {
+    std::vector<typename Factor<Cell>::Set> all;
+    for (const std::string& choice : settings.choices(name, names)) {
+      const auto place = static_cast<Place>(std::ranges::find(names, choice) - names.begin());
+      all.push_back([=](Cell& cell) { cell.*member = place; });
+    }
+    return all;
+  };
+  return {
+      {std::string(name), ColumnType::text, "", std::string(description)}, true, read, [=](const Cell& cell) -> Value {
+        return std::string(names[static_cast<std::size_t>(cell.*member)]);
+      }};
+}
+
 template <class Cell> class Factors {
  public:
   explicit Factors(std::vector<Factor<Cell>> all) : all_(std::move(all)) {}
@@ -110,6 +132,13 @@ template <class Cell> class Factors {
     std::set<std::string> keys;
     add(values, 0, base, adjust, keys, cells);
     return cells;
+  }
+
+  /// The same, whose `cells` come with the first factor fastest.
+  Factors first_fastest() const {
+    Factors out = *this;
+    out.first_fastest_ = true;
+    return out;
   }
 
   /// One line, for people and the journal.
@@ -132,8 +161,13 @@ template <class Cell> class Factors {
     return {seed, stream_of(numbers)};
   }
 
-  /// A column each, for rows in which `get` finds the cell.
-  template <class Get> auto columns(Get get) const { return FactorColumns<Get>{all_, std::move(get)}; }
+  /// A column each, or of those of these names, for rows in which `get` finds the cell.
+  template <class Get> auto columns(Get get, std::initializer_list<std::string_view> names = {}) const {
+    std::vector<Factor<Cell>> chosen = all_;
+    const auto is_other = [&](const Factor<Cell>& f) { return std::ranges::find(names, f.column.name) == names.end(); };
+    if (names.size() > 0) std::erase_if(chosen, is_other);
+    return FactorColumns<Get>{std::move(chosen), std::move(get)};
+  }
 
  private:
   template <class Get> struct FactorColumns {
@@ -150,7 +184,7 @@ template <class Cell> class Factors {
   void add(const std::vector<std::vector<typename Factor<Cell>::Set>>& values, std::size_t depth, Cell cell,
            const std::function<bool(Cell&)>& adjust, std::set<std::string>& keys, std::vector<Cell>& cells) const {
     if (depth < values.size()) {
-      for (const auto& set : values[depth]) {
+      for (const auto& set : values[first_fastest_ ? values.size() - 1 - depth : depth]) {
         set(cell);
         add(values, depth + 1, cell, adjust, keys, cells);
       }
@@ -160,6 +194,7 @@ template <class Cell> class Factors {
   }
 
   std::vector<Factor<Cell>> all_;
+  bool first_fastest_ = false;
 };
 
 template <class Cell, class... Rest> Factors<Cell> factors(Factor<Cell> first, Rest... rest) {

@@ -114,7 +114,7 @@ template <class V> void merge(Merge how, V& into, const V& more) {
   }
 }
 
-template <class V> void write(JournalText& out, const V& value) {
+template <class V> void write(JournalWriter& out, const V& value) {
   if constexpr (Record<V>) {
     for_each_field<V>([&](const auto& field) { write(out, value.*field.member); });
   } else if constexpr (std::is_enum_v<V>) {
@@ -167,7 +167,7 @@ template <Record T> T& operator+=(T& into, const T& more) {
 
 /// One line without tabs. `T` is a record, a number, a text, an enumeration, or a list, an array or an optional of such.
 template <class T> std::string to_text(const T& value) {
-  JournalText out;
+  JournalWriter out;
   detail::write(out, value);
   return std::move(out).text();
 }
