@@ -1,14 +1,99 @@
 #pragma once
-/// Ways to take a step of the bouncing ball: how it flies, how an impact is found, and what is done about it.
-/// `drift` is the mean change of the flight's energy a bounce at restitution 1 and random phase, to first order, in units
-/// of g h / V of the energy. Derived in docs/bouncing.md.
+/// A ball above a floor, under gravity, in one step size, and the ways to take a step: how it flies, how an impact is found, and what
+/// is done about it. Only heights and vertical speeds differ from zero. Derived in docs/bouncing.md.
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string_view>
 
-#include <thinwall/experiments/bouncing/arc.hpp>
+#include <thinwall/discrete/aabb.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
+
+struct BouncingWorld {
+  double gravity;      ///< [m/s^2] > 0, downward
+  double restitution;  ///< [1] in [0, 1]: speed after over speed before
+  double step;         ///< [s] > 0
+  Aabb<double> floor;  ///< its top is at height 0
+};
+
+struct BouncingBall {
+  Sphere<double> body;
+  double velocity;           ///< [m/s] upward, as the integrator keeps it
+  double time = 0;           ///< [s] since the start
+  std::int64_t bounces = 0;  ///< impacts so far
+};
+
+/// A floor so deep that nothing gets through: its top is exactly at 0.
+inline Aabb<double> floor_of_depth(double depth) { return {{0, -depth / 2, 0}, {depth / 2, depth / 2, depth / 2}}; }
+
+inline BouncingBall ball_at(double gap, double velocity, double radius) {
+  return {{{0, radius + gap, 0}, radius}, velocity};
+}
+
+/// [m] Between ball and floor; negative inside.
+inline double gap_of(const BouncingBall& ball) { return ball.body.center.y() - ball.body.radius; }
+
+/// An approaching ball leaves with its speed times the restitution.
+inline void bounce(const BouncingWorld& world, BouncingBall& ball) {
+  if (!(ball.velocity < 0)) return;
+  ball.velocity = world.restitution * -ball.velocity;
+  ++ball.bounces;
+}
+
+/// Semi-implicit Euler's positions lie on an exact parabola, and its velocities are that parabola's half a step earlier. This
+/// is the parabola's own velocity, now. Derived in docs/bouncing.md.
+template <class Policy> double flight_velocity(const BouncingWorld& world, const BouncingBall& ball) {
+  return Policy::staggered ? ball.velocity - world.gravity * world.step / 2 : ball.velocity;
+}
+
+/// [J/kg] Energy of the flight: gravity times the height that the ball will rise to.
+template <class Policy> double flight_energy(const BouncingWorld& world, const BouncingBall& ball) {
+  const double v = flight_velocity<Policy>(world, ball);
+  return v * v / 2 + world.gravity * gap_of(ball);
+}
+
+/// [s] When gap + v t - g t^2 / 2 = 0, for gap >= 0 and g > 0: the root that is not negative. Neither branch subtracts, so
+/// that no digit is lost, whether the ball rises or falls. Zero gap and zero speed: 0.
+inline double landing_time(double gap, double velocity, double gravity) {
+  const double speed = std::sqrt(velocity * velocity + 2 * gravity * gap);  // at landing
+  if (velocity > 0) return (velocity + speed) / gravity;
+  return speed > 0 ? 2 * gap / (speed - velocity) : 0;
+}
+
+/// Follows the arc through one step, and calls at_bounce(time) at each impact. Bounces pile up towards a limit where the
+/// restitution is below 1; the ball is at rest from the one on whose flight is too short to move the clock. No tolerance.
+/// Degenerate: at rest on the floor it stays, to the bit.
+template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBall& ball, const AtBounce& at_bounce) {
+  const double g = world.gravity, start = ball.time;
+  double gap = std::max(0.0, gap_of(ball)), left = world.step;
+  while (left > 0) {
+    const double end = gap + left * (ball.velocity - g * left / 2);
+    if (end > 0) {  // the arc is concave: above the floor at both ends, it is so between
+      gap = end;
+      ball.velocity -= g * left;
+      break;
+    }
+    const double speed = std::sqrt(ball.velocity * ball.velocity + 2 * g * gap);
+    left = std::max(0.0, left - landing_time(gap, ball.velocity, g));
+    gap = 0;
+    ball.velocity = -speed;
+    bounce(world, ball);
+    const double clock = start + (world.step - left), flight = 2 * ball.velocity / g;
+    if (speed > 0) at_bounce(clock);
+    if (!(clock + flight > clock)) {
+      ball.velocity = 0;
+      break;
+    }
+  }
+  ball.body.center.y() = ball.body.radius + gap;
+  ball.time += world.step;
+}
+
+// The policies. `drift` is the mean change of the flight's energy a bounce at restitution 1 and random phase, to first order, in
+// units of g h / V of the energy.
 
 /// Semi-implicit Euler: first the speed, then the height with the new speed.
 inline void kick_and_drift(const BouncingWorld& world, BouncingBall& ball) {

@@ -1,14 +1,52 @@
 #pragma once
 /// Impacts that come in crowds: at one instant, without end, or in tens of millions. Each has an answer of its own to be held
-/// against; each is a row of the results and a test. Everything moves without gravity here but the ball on the floor.
+/// against; each is a row of the results and a test. But for the ball on the floor, bodies fly straight between impacts, and each
+/// impact comes in turn, at the time that the library finds.
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <thinwall/experiments/bouncing/trials.hpp>
+#include <thinwall/experiments/bouncing/model.hpp>
 
 namespace thinwall {
+
+/// Two bodies on one line after an impact: speeds and masses before, restitution in [0, 1].
+/// The change of each is its own product, so that neither is lost beside the other at any ratio of the masses.
+template <class S> struct LineSpeeds {
+  S a, b;  ///< [m/s]
+};
+template <class S> LineSpeeds<S> after_impact(LineSpeeds<S> before, S mass_a, S mass_b, S restitution) {
+  const S closing = (S(1) + restitution) * (before.a - before.b), mass = mass_a + mass_b;
+  return {before.a - closing * (mass_b / mass), before.b + closing * (mass_a / mass)};
+}
+
+/// A ball, or a wall that nothing moves out of its way.
+template <class Shape> struct FlyingBody {
+  Shape shape;
+  Vec3<double> velocity;                                          ///< [m/s]
+  Moving<Shape> motion() const { return {shape, velocity * 1}; }  ///< in a second
+  void fly(double seconds) { shape = moved(shape, Vec3<double>(velocity * seconds)); }
+};
+using FlyingBall = FlyingBody<Sphere<double>>;
+using FlyingWall = FlyingBody<Aabb<double>>;
+
+/// The next impact within a second of bodies that approach each other; a pair in touch that parts is none.
+template <class A, class B> std::optional<Toi<double>> next_impact(const FlyingBody<A>& a, const FlyingBody<B>& b) {
+  const Toi<double> toi = time_of_impact(a.motion(), b.motion());
+  const bool meets = toi.status == ToiStatus::hit || toi.status == ToiStatus::overlapping;
+  if (!meets || !((a.velocity - b.velocity).dot(toi.normal) > 0)) return std::nullopt;
+  return toi;
+}
+
+/// Lets a ball bounce between walls for `seconds`, without loss. Impacts at one instant come one after the other, at times of
+/// impact of 0, until it parts from all. Returns how many impacts there were.
+std::int64_t fly_between(FlyingBall& ball, std::span<FlyingWall> walls, double seconds);
+
+/// Lets balls of one mass bounce off each other without loss, in any order of the list. Returns how many impacts there were.
+std::int64_t fly_together(std::vector<FlyingBall>& balls, double seconds);
 
 struct BounceScenario {
   std::string name;      ///< what is done
@@ -16,6 +54,11 @@ struct BounceScenario {
   std::string happened;  ///< what did
   bool passed = false;
 
+  static constexpr auto fields() {
+    using S = BounceScenario;
+    return record(kept("scenario", &S::name, "", "What is done."), kept("must", &S::must, "", "What must happen."),
+                  kept("happened", &S::happened, "", "What did."), kept("passed", &S::passed, "", "It is what must."));
+  }
   bool operator==(const BounceScenario&) const = default;
 };
 
@@ -50,9 +93,5 @@ struct BlockCount {
 /// Error: right up to 5 digits in float and 7 in double, as measured.
 template <class S> BlockCount count_block_impacts(int digits);
 std::vector<BounceScenario> digit_scenarios(int most);
-
-/// Lists of scenarios as the line that a run's journal keeps, and back. Throws std::runtime_error if it is not one.
-std::string to_line(const std::vector<BounceScenario>& scenarios);
-std::vector<BounceScenario> bounce_scenarios_from_line(const std::string& line);
 
 }  // namespace thinwall

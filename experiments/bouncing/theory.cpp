@@ -1,12 +1,10 @@
 #include <thinwall/experiments/bouncing/theory.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include <boost/math/quadrature/gauss.hpp>
-
-#include <thinwall/experiments/bouncing/policies.hpp>
 
 namespace thinwall {
 
@@ -20,6 +18,26 @@ BounceTheory late_speed(double delta, double e) { return {delta / 4 - e, e * e -
 
 /// What the depth at the end of the step is worth: V s + g s^2 / 2 with s = (1 + u) h / 2.
 BounceTheory depth(double delta) { return {1 + delta / 4, 1 + delta / 2, delta / 4}; }
+
+constexpr double normal_95 = 1.959963984540054;
+constexpr std::int64_t least_for_mean = 30, least_for_spread = 100;
+
+void add(BounceTest& test, const BounceRow& row) {
+  if (is_certain(row)) {
+    const double expected = row.theory.mean(), allowed = rounding_of(row.cell) + 4 * row.theory.sigma();
+    ++test.certain_cells;
+    if (!(row.tally.most - expected <= allowed && expected - row.tally.least <= allowed)) ++test.certain_wrong;
+    return;
+  }
+  const auto mean = mean_residual(row), variance = variance_residual(row);
+  if (row.tally.trials < least_for_mean || !mean) {
+    ++test.other_cells;
+    return;
+  }
+  test.means.add(*mean);
+  if (std::abs(*mean) <= normal_95) ++test.covered;
+  if (variance) test.variances.add(*variance);
+}
 
 }  // namespace
 
@@ -43,5 +61,72 @@ BounceTheory bounce_theory(std::string_view policy, double delta, double restitu
   if (policy == ParabolaToi::name) return {};
   throw std::logic_error("no theory for the policy '" + std::string(policy) + "'");
 }
+
+double random_phase_mean(int drift, double delta, double bounces) {
+  const double speed = 1 + drift * delta * bounces / 2;
+  return speed > 0 ? speed * speed : 0;
+}
+
+double random_phase_sigma(int drift, double sigma, double delta, double bounces) {
+  return std::sqrt(random_phase_mean(drift, delta, bounces) * bounces) * delta * sigma;
+}
+
+double standard_error(const BounceRow& row) {
+  return row.theory.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
+}
+
+Interval mean_interval(const BounceRow& row) {
+  const double half = normal_95 * row.tally.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
+  return {row.tally.mean - half, row.tally.mean + half};
+}
+
+bool is_certain(const BounceRow& row) { return row.theory.sigma() <= rounding_of(row.cell); }
+
+std::optional<double> mean_residual(const BounceRow& row) {
+  if (is_certain(row)) return std::nullopt;
+  const double difference = row.tally.mean - row.theory.mean();
+  const double beyond = std::max(0.0, std::abs(difference) - rounding_of(row.cell));
+  return std::copysign(beyond / standard_error(row), difference);
+}
+
+std::optional<double> variance_residual(const BounceRow& row) {
+  if (is_certain(row) || row.tally.trials < least_for_spread) return std::nullopt;
+  const double n = static_cast<double>(row.tally.trials), s = row.tally.sigma() / row.theory.sigma();
+  return (s * s - 1) / std::sqrt((row.theory.kurtosis() - (n - 3) / (n - 1)) / n);
+}
+
+std::vector<BounceRow> bounce_rows(const std::vector<BounceCell>& cells, const std::vector<BouncePolicy>& policies,
+                                   const std::vector<BounceTally>& tallies) {
+  std::vector<BounceRow> rows;
+  rows.reserve(tallies.size());
+  for (const BounceCell& cell : cells) {
+    for (const BouncePolicy& policy : policies) {
+      rows.push_back(
+          {cell, policy.name, bounce_theory(policy.name, delta(cell), cell.restitution), tallies[rows.size()]});
+    }
+  }
+  return rows;
+}
+
+std::optional<Interval> BounceTest::covered_allowed() const {
+  return means.judged > 0 ? std::optional(binomial_range(means.judged, 0.95, 0.999)) : std::nullopt;
+}
+
+bool BounceTest::passed() const {
+  const bool is_covered = means.judged == 0 || covered_allowed()->contains(static_cast<double>(covered));
+  return certain_wrong == 0 && is_covered && means.passed() && variances.passed();
+}
+
+std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
+  std::vector<BounceTest> tests;
+  for (const Group<BounceRow>& group : group_by(rows, &BounceRow::policy)) {
+    BounceTest& test = tests.emplace_back();
+    test.policy = group[0]->policy;
+    for (const BounceRow* row : group) add(test, *row);
+  }
+  return tests;
+}
+
+bool all_passed(const std::vector<BounceTest>& tests) { return std::ranges::all_of(tests, &BounceTest::passed); }
 
 }  // namespace thinwall

@@ -1,7 +1,15 @@
 #pragma once
-/// What a bounce does to the energy of the flight, exactly and not only to first order. Derived in docs/bouncing.md.
+/// What a bounce does to the energy of the flight, exactly and not only to first order, derived in docs/bouncing.md; and whether what
+/// was measured agrees with it.
 
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/bouncing/model.hpp>
+#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/statistics.hpp>
 
 namespace thinwall {
 
@@ -19,5 +27,46 @@ struct BounceTheory {
 
 /// Requires one of the five policies' names.
 BounceTheory bounce_theory(std::string_view policy, double delta, double restitution);
+
+/// [1] What the mean energy of a long run and its standard deviation would be if every phase were random, to first order: V changes by
+/// drift g h / 2 a bounce, of standard deviation `sigma` [g h / V] of the energy.
+double random_phase_mean(int drift, double delta, double bounces);
+double random_phase_sigma(int drift, double sigma, double delta, double bounces);
+
+/// A cell, a policy, what was measured and what theory expects.
+struct BounceRow {
+  BounceCell cell;
+  std::string policy;
+  BounceTheory theory;
+  BounceTally tally;
+};
+
+double standard_error(const BounceRow& row);   ///< [g h / V] of the mean, by theory
+Interval mean_interval(const BounceRow& row);  ///< [g h / V] 95 % normal interval around the measured mean
+bool is_certain(const BounceRow& row);         ///< phases differ by no more than rounding: every bounce is the same
+/// Standard errors between the mean and theory, where the two differ by more than rounding; nothing where it is certain.
+std::optional<double> mean_residual(const BounceRow& row);
+/// The same of the variance, whose standard error follows from the kurtosis; nothing below 100 trials.
+std::optional<double> variance_residual(const BounceRow& row);
+
+/// `tallies[i]` is of cell i / policies and policy i % policies.
+std::vector<BounceRow> bounce_rows(const std::vector<BounceCell>& cells, const std::vector<BouncePolicy>& policies,
+                                   const std::vector<BounceTally>& tallies);
+
+/// The verdict on one policy. A right theory fails by chance about once in 300 times for each.
+struct BounceTest {
+  std::string policy;
+  std::int64_t certain_cells = 0;  ///< every bounce must give what theory says, to rounding
+  std::int64_t certain_wrong = 0;  ///< ... and does not
+  std::int64_t covered = 0;        ///< of the judged means, those whose 95 % interval holds the theory
+  ResidualTest means = {};         ///< of cells with at least 30 bounces, and phases that matter
+  ResidualTest variances = {};     ///< of those with at least 100
+  std::int64_t other_cells = 0;    ///< too few bounces to judge
+  std::optional<Interval> covered_allowed()
+      const;  ///< central 99.9 % of Binomial(judged, 0.95); missing if nothing is judged
+  bool passed() const;
+};
+std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows);  ///< by policy
+bool all_passed(const std::vector<BounceTest>& tests);
 
 }  // namespace thinwall

@@ -2,15 +2,81 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include <thinwall/experiments/hitscan/shadow.hpp>
-
 namespace thinwall {
 
 namespace {
+
+std::optional<Interval> shadow_of(const PathPiece& piece, double range, double radius) {
+  const double from = std::max(piece.x0 - range, -radius), to = std::min(piece.x1 - range, radius);
+  if (from > to) return std::nullopt;
+  const double slope = (piece.s1 - piece.s0) / (piece.x1 - piece.x0);
+  const auto path = [&](double x) { return piece.s0 + slope * (x + range - piece.x0); };
+  const auto rise = [&](double x) { return std::sqrt(std::max(0.0, radius * radius - x * x)); };
+  // Where a line of this slope touches the ball, or at the end nearest to that: rise is concave.
+  const double touch = slope * radius / std::hypot(1.0, slope);
+  const double low = std::clamp(-touch, from, to), high = std::clamp(touch, from, to);
+  return Interval{path(low) - rise(low), path(high) + rise(high)};
+}
+
+/// The i-th of evenly spaced phases, such that none of them is near where one step takes over from another at the
+/// target: there everything jumps. A ray along the velocity gets a little farther than the bullet, as that slows down.
+double phase_of(const HitscanRule& rule, const HitscanCell& c, int i, int phases) {
+  const double beyond = rule.path == FlightPath::tangents ? dragged_time(c.drag, c.step) / c.step - 1 : 0;
+  const double phase = (i + 0.5) / phases + beyond - flight_time(c) / c.step;
+  const double part = phase - std::floor(phase);
+  return part < 1 ? part : 0;
+}
+
+constexpr int moment_phases = 2000;
+
+/// Mean and deviation over the phase, uniform over a step.
+HitscanMoments over_phases(const HitscanRule& rule, const HitscanCell& c, const std::function<double(double)>& f) {
+  double sum = 0, squares = 0;
+  for (int i = 0; i < moment_phases; ++i) {
+    const double x = f(phase_of(rule, c, i, moment_phases));
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / moment_phases;
+  return {mean, std::sqrt(std::max(0.0, squares / moment_phases - mean * mean))};
+}
+
+struct FrameAt {
+  double begins, ends;  ///< [s] since firing
+};
+/// The first frame that covers(its start, time since then, its length) where the bullet is at `t`, or begins there.
+template <class Covers> FrameAt first_frame(const HitscanCell& c, double phase, double t, const Covers& covers) {
+  double frame = std::max(0.0, std::floor(t / c.step + phase) - 1);
+  for (;; frame += 1) {
+    const double begins = frame > 0 ? (frame - phase) * c.step : 0, ends = (frame + 1 - phase) * c.step;
+    if (begins >= t || covers(begins, t - begins, ends - begins)) return {begins, ends};
+  }
+}
+
+/// [m] At the range, of a rule that goes step by step: seen from the start of a step the arc begins anew, so it is off
+/// the tangent by the pull's own factor.
+double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
+  const auto arc = arc_of<double>(c);
+  const double there = flight_time(c);
+  const auto fallen = [&](double t) { return arc.pull * pull_factor(arc.drag, undragged_time(arc.drag, t)); };
+  if (rule.path == FlightPath::tangents) {
+    const FrameAt frame = first_frame(c, phase, there, [&](double, double since, double length) {
+      return undragged_time(arc.drag, since) <= length;
+    });
+    return fallen(there - frame.begins);
+  }
+  const FrameAt frame =
+      first_frame(c, phase, there, [](double, double since, double length) { return since <= length; });
+  const double since = there - frame.begins, length = frame.ends - frame.begins;
+  const double part = undragged_time(arc.drag, since) / undragged_time(arc.drag, length);
+  return part * fallen(length) - fallen(since);
+}
 
 constexpr int count_phases = 32;
 
@@ -85,7 +151,128 @@ double drawn_area(const HitscanCell& c) {
   return 2 * std::numbers::pi * disc * disc - lens_area(disc, disc, deflection(c));
 }
 
+HitscanMomentTest& test_of(std::vector<HitscanMomentTest>& tests, const HitscanRule& rule, const char* quantity) {
+  const auto found = std::ranges::find_if(
+      tests, [&](const HitscanMomentTest& t) { return t.rule == rule.name && t.quantity == quantity; });
+  if (found != tests.end()) return *found;
+  return tests.emplace_back(HitscanMomentTest{.rule = std::string(rule.name), .quantity = quantity});
+}
+
+void judge(HitscanMomentTest& test, const HitscanSpread& spread, double unit,
+           const std::optional<HitscanMoments>& theory, const Interval& allowed) {
+  if (spread.count == 0) return;
+  ++test.cells;
+  if (!allowed.contains(spread.least) || !allowed.contains(spread.most)) ++test.out_of_bounds;
+  constexpr std::int64_t enough = 50;  // for a mean to be normal
+  if (!theory || theory->sigma <= 0 || spread.count < enough) return;
+  const double error = theory->sigma / std::sqrt(static_cast<double>(spread.count));
+  test.means.add((spread.mean(unit) - theory->mean) / error);
+}
+
+/// [s] What the moment of a report can be after first contact, which is within the window.
+Interval possible_lateness(const HitscanRow& row) {
+  const HitscanCell& c = row.cell;
+  const HitscanWindow window = contact_window(c);
+  const double across = window.until - window.from;
+  switch (row.rule.report) {
+    case ReportTime::firing: return {-window.until, -window.from};
+    case ReportTime::end_of_step:  // a ray of a step may be some of the next step long, as the bullet slows down
+      return {c.step - dragged_time(c.drag, c.step) - across, c.step + across};
+    case ReportTime::in_step: break;
+  }
+  return {-across, across};
+}
+
 }  // namespace
+
+Places shadow(const std::vector<PathPiece>& pieces, double range, double radius) {
+  Places all;
+  for (const PathPiece& piece : pieces) {
+    if (const auto one = shadow_of(piece, range, radius)) all.push_back(*one);
+  }
+  std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.lower < b.lower; });
+  Places merged;
+  for (const Interval& i : all) {
+    if (!merged.empty() && i.lower <= merged.back().upper) {
+      merged.back().upper = std::max(merged.back().upper, i.upper);
+    } else {
+      merged.push_back(i);
+    }
+  }
+  return merged;
+}
+
+double length(const Places& places) {
+  double sum = 0;
+  for (const Interval& i : places) sum += i.upper - i.lower;
+  return sum;
+}
+
+Places common(const Places& a, const Places& b) {
+  Places both;
+  for (const Interval& i : a) {
+    for (const Interval& j : b) {
+      const Interval k = {std::max(i.lower, j.lower), std::min(i.upper, j.upper)};
+      if (k.lower < k.upper) both.push_back(k);
+    }
+  }
+  return both;
+}
+
+double lens_area(double radius_a, double radius_b, double apart) {
+  const double least = std::min(radius_a, radius_b), most = std::max(radius_a, radius_b);
+  if (apart >= least + most) return 0;
+  if (apart <= most - least) return std::numbers::pi * least * least;
+  // The common chord is `x` from the one center and `apart - x` from the other: two segments.
+  const auto segment = [](double radius, double x) {
+    return radius * radius * std::acos(std::clamp(x / radius, -1.0, 1.0)) -
+           x * std::sqrt(std::max(0.0, radius * radius - x * x));
+  };
+  const double x = (apart * apart + (radius_a - radius_b) * (radius_a + radius_b)) / (2 * apart);
+  return segment(radius_a, x) + segment(radius_b, apart - x);
+}
+
+HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c) {
+  if (rule.path == FlightPath::line) return {deflection(c), 0};  // the same in every shot
+  return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
+}
+
+double path_error_bound(const HitscanRule& rule, const HitscanCell& c) {
+  const auto arc = arc_of<double>(c);
+  switch (rule.path) {
+    case FlightPath::line: return deflection(c);
+    case FlightPath::tangents: return arc.pull * pull_factor(arc.drag, c.step);  // its own speed takes the ray that far
+    case FlightPath::chords: break;
+  }
+  const double tau = undragged_time(arc.drag, c.step), longest = tau / (1 - arc.drag * tau);
+  return arc.pull * longest * longest / 8;  // the arc's curvature over tau is at most pull / (1 - drag * tau)^2
+}
+
+HitscanMoments next_frame_lateness(const HitscanCell& c) {
+  const auto arc = arc_of<double>(c);
+  const auto there = at_distance(arc, c.range);
+  const double speed = std::hypot(there.vx, there.vs), outer = reach(c);
+  double ahead = 0, ahead_squared = 0, depth = 0;  // means over a disc, in rings of equal area
+  constexpr int rings = 2000;
+  for (int i = 0; i < rings; ++i) {
+    const double squared = c.target * c.target * (i + 0.5) / rings;
+    const double inner = std::sqrt(c.target * c.target - squared), lead = std::sqrt(outer * outer - squared) - inner;
+    ahead += lead / rings;
+    ahead_squared += lead * lead / rings;
+    depth += inner / rings;
+  }
+  const double arrival = flight_time(c) - depth / speed;
+  const HitscanMoments rest = over_phases(next_frame, c, [&](double phase) {
+    const FrameAt frame = first_frame(c, phase, arrival, [&](double begins, double since, double length) {
+      const auto start = after(arc, begins);
+      const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;
+      return tau + arc.pull * start.vs / square * pull_factor(arc.drag, tau) <= length;  // along the ray
+    });
+    return frame.ends - arrival;
+  });
+  const double variance = std::max(0.0, ahead_squared - ahead * ahead) / (speed * speed);
+  return {rest.mean + ahead / speed, std::hypot(rest.sigma, std::sqrt(variance))};
+}
 
 HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c) {
   const Areas areas = areas_of(rule, c);
@@ -124,6 +311,45 @@ std::optional<double> range_of_missed(const HitscanCell& c, double share) {
   std::uintmax_t most = 200;
   const auto bracket = boost::math::tools::toms748_solve(too_many, 0.0, farthest, tolerance, most);
   return bracket.first + (bracket.second - bracket.first) / 2;
+}
+
+std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,
+                                     const std::vector<std::vector<HitscanTally>>& tallies) {
+  std::vector<HitscanRow> rows;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t k = 0; k < rules.size(); ++k)
+      rows.push_back({cells[i], rules[k], expected_of(rules[k], cells[i]), tallies[i][k]});
+  }
+  return rows;
+}
+
+std::vector<CellCount> counts_of(const std::vector<HitscanRow>& rows) {
+  std::vector<CellCount> counts;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const HitscanTally& t = rows[i].tally;
+    const HitscanExpected& e = rows[i].expected;
+    const std::string rule(rows[i].rule.name);
+    if (i == 0 || rows[i - 1].cell != rows[i].cell)
+      counts.push_back({"exact arc", "touching", t.shots, t.touching, e.touch});
+    counts.push_back({rule, "reported", t.shots, t.reported(), e.reported});
+    counts.push_back({rule, "missed", t.shots, t.missed, e.missed});
+    counts.push_back({rule, "false", t.shots, t.false_hits, e.false_hits});
+  }
+  return counts;
+}
+
+std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanRow>& rows) {
+  std::vector<HitscanMomentTest> tests;
+  for (const HitscanRow& row : rows) {
+    const HitscanCell& c = row.cell;
+    const double rounding = 64 * std::numeric_limits<double>::epsilon() * (c.range + length_unit(c));
+    const double least = row.rule.path == FlightPath::line ? deflection(c) : 0;  // the ray's is the same in every shot
+    judge(test_of(tests, row.rule, "path error"), row.tally.path_error, length_unit(c), row.expected.path_error,
+          {least - rounding, row.expected.path_error_most + rounding});
+    judge(test_of(tests, row.rule, "lateness"), row.tally.lateness, time_unit(c), row.expected.lateness,
+          possible_lateness(row));
+  }
+  return tests;
 }
 
 }  // namespace thinwall

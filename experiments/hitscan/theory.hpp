@@ -1,11 +1,50 @@
 #pragma once
-/// What geometry expects of a cell. Derived in docs/hitscan.md.
+/// What geometry expects of a cell, derived in docs/hitscan.md, and whether what was counted and measured agrees with it.
 
 #include <optional>
+#include <string>
+#include <vector>
 
-#include <thinwall/experiments/hitscan/error_theory.hpp>
+#include <thinwall/experiments/hitscan/model.hpp>
+#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/statistics.hpp>
 
 namespace thinwall {
+
+// Which places of a ball a path meets: plane geometry.
+
+/// A straight bit of path in the plane of the arc, x0 < x1.
+struct PathPiece {
+  double x0, s0, x1, s1;  ///< [m]
+};
+
+/// A set of places on a line: ascending, apart.
+using Places = std::vector<Interval>;
+
+/// The places `p` for which some point of the pieces has (x - range)^2 + (s - p)^2 <= radius^2.
+Places shadow(const std::vector<PathPiece>& pieces, double range, double radius);
+
+double length(const Places& places);
+Places common(const Places& a, const Places& b);
+
+/// [m^2] What two discs, their centers `apart`, have in common.
+double lens_area(double radius_a, double radius_b, double apart);
+
+// How far off and how late the rules are: what needs no areas.
+
+/// Mean and spread of a quantity from shot to shot.
+struct HitscanMoments {
+  double mean = 0, sigma = 0;
+};
+
+/// [m] From the rule's path to the arc at the range.
+HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c);
+/// [m] No path error is larger.
+double path_error_bound(const HitscanRule& rule, const HitscanCell& c);
+
+/// [s] Of next_frame: what is left of the step in which the center gets to the target, and how much earlier the ball
+/// touches.
+HitscanMoments next_frame_lateness(const HitscanCell& c);
 
 /// What a rule should count, as shares of the shots, and measure.
 struct HitscanExpected {
@@ -26,5 +65,34 @@ double flat_false(double target, double radius, double deflection);   ///< [1] o
 /// [m] The range at which hitscan misses that share of the true hits, of a bullet without radius, in the limit of flat
 /// fire. The other factors are the cell's. Nothing where no range does: no pull, or the bullet does not get there.
 std::optional<double> range_of_missed(const HitscanCell& c, double share);
+
+// Whether the two agree.
+
+/// A cell, a rule, what was counted and measured and what theory expects.
+struct HitscanRow {
+  HitscanCell cell;
+  HitscanRule rule;
+  HitscanExpected expected;
+  HitscanTally tally;
+};
+
+/// By cell, then rule. `tallies[i]` is of cell i, as long as `rules`.
+std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,
+                                     const std::vector<std::vector<HitscanTally>>& tallies);
+
+/// What is held against theory, as the self-test wants it: `method` is the rule, `scalar` the event, "reported",
+/// "missed" or "false"; the rule "exact arc" is the oracle.
+std::vector<CellCount> counts_of(const std::vector<HitscanRow>& rows);
+
+/// A measured quantity of one rule, over all cells, against theory: means by chi-square, extremes by what geometry
+/// allows.
+struct HitscanMomentTest {
+  std::string rule, quantity;
+  std::int64_t cells = 0;          ///< with a measurement
+  std::int64_t out_of_bounds = 0;  ///< ... that is beyond what is possible, more than rounding explains
+  ResidualTest means = {};         ///< with an expected mean, and at least 50 shots
+  bool passed() const { return out_of_bounds == 0 && means.passed(); }
+};
+std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanRow>& rows);
 
 }  // namespace thinwall

@@ -5,8 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/bouncing/scenarios.hpp>
+#include <thinwall/experiments/bouncing/theory.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/bouncing/results.hpp>
 
 #include "support/experiment_run.hpp"
 

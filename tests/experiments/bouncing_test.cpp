@@ -25,8 +25,8 @@ TEST(Bouncing, agrees_with_theory) {
 }
 
 /// Lines of a run that is large enough to tell theories apart.
-const std::vector<BounceLine>& measured() {
-  static const std::vector<BounceLine> lines = [] {
+const std::vector<BounceRow>& measured() {
+  static const std::vector<BounceRow> rows = [] {
     const Experiment experiment = bouncing_experiment();
     const Settings settings("step = [0.06666666666666667, 0.03333333333333333]\nrestitution = [0, 0.5, 1]", "test.toml",
                             experiment.default_toml);
@@ -36,30 +36,30 @@ const std::vector<BounceLine>& measured() {
     for (const BounceCell& c : cells) {
       for (const BouncePolicy& policy : policies) tallies.push_back(random_bounces(policy, c, 1, 4000));
     }
-    return make_bounce_lines(cells, policies, tallies);
+    return bounce_rows(cells, policies, tallies);
   }();
-  return lines;
+  return rows;
 }
 
 /// Does the self-test pass if one policy's theory is another?
-bool passes(const std::string& policy, const std::function<BounceTheory(const BounceLine&)>& theory) {
-  std::vector<BounceLine> lines = measured();
-  for (BounceLine& line : lines) {
-    if (line.policy == policy) line.theory = theory(line);
+bool passes(const std::string& policy, const std::function<BounceTheory(const BounceRow&)>& theory) {
+  std::vector<BounceRow> rows = measured();
+  for (BounceRow& row : rows) {
+    if (row.policy == policy) row.theory = theory(row);
   }
-  return all_passed(bounce_tests(lines));
+  return all_passed(bounce_tests(rows));
 }
 
 TEST(Bouncing, fails_a_wrong_theory) {
-  const auto own = [](const BounceLine& l) { return l.theory; };
+  const auto own = [](const BounceRow& r) { return r.theory; };
   for (const BouncePolicy& policy : all_bounce_policies()) EXPECT_TRUE(passes(policy.name, own)) << policy.name;
-  const auto first_order = [](const BounceLine& l) { return bounce_theory(l.policy, 0, l.cell.restitution); };
+  const auto first_order = [](const BounceRow& r) { return bounce_theory(r.policy, 0, r.cell.restitution); };
   const auto off_by = [](double shift) {
-    return [shift](const BounceLine& l) { return BounceTheory{l.theory.c0 + shift, l.theory.c1, l.theory.c2}; };
+    return [shift](const BounceRow& r) { return BounceTheory{r.theory.c0 + shift, r.theory.c1, r.theory.c2}; };
   };
   const auto spread_by = [](double factor) {  // the mean stays
-    return [factor](const BounceLine& l) {
-      return BounceTheory{l.theory.mean() - factor * l.theory.c2 / 3, factor * l.theory.c1, factor * l.theory.c2};
+    return [factor](const BounceRow& r) {
+      return BounceTheory{r.theory.mean() - factor * r.theory.c2 / 3, factor * r.theory.c1, factor * r.theory.c2};
     };
   };
   for (const char* policy : {"project_flip", "flip_only", "linear_toi", "exact_project"}) {
@@ -69,46 +69,41 @@ TEST(Bouncing, fails_a_wrong_theory) {
     EXPECT_FALSE(passes(policy, spread_by(1 / 1.1))) << policy;
   }
   EXPECT_FALSE(passes("parabola_toi", off_by(1e-11)));
-  EXPECT_FALSE(passes("flip_only", [](const BounceLine& l) {  // as if it were pushed out
-    return bounce_theory("project_flip", delta(l.cell), l.cell.restitution);
+  EXPECT_FALSE(passes("flip_only", [](const BounceRow& r) {  // as if it were pushed out
+    return bounce_theory("project_flip", delta(r.cell), r.cell.restitution);
   }));
 }
 
 /// A single bounce that is off is enough where every bounce must be the same.
 TEST(Bouncing, fails_a_bounce_that_loses_energy_on_the_exact_arc) {
   for (const double off : {-1e-9, 1e-9}) {
-    std::vector<BounceLine> lines = measured();
-    for (BounceLine& line : lines) {
-      if (line.policy == "parabola_toi") line.tally.add(off);
+    std::vector<BounceRow> rows = measured();
+    for (BounceRow& row : rows) {
+      if (row.policy == "parabola_toi") row.tally.add(off);
     }
-    EXPECT_FALSE(all_passed(bounce_tests(lines)));
+    EXPECT_FALSE(all_passed(bounce_tests(rows)));
   }
 }
 
+/// Of the journal of a run: one crowd that went wrong.
 TEST(Bouncing, fails_a_scenario_that_went_wrong) {
-  BouncingResults results;
-  results.groups = {{"walls", {{"a", "b", "c", true}, {"d", "e", "f", true}}}};
-  EXPECT_TRUE(results.passed());
-  results.groups[0].scenarios[1].passed = false;
-  EXPECT_FALSE(results.passed());
-  EXPECT_EQ(results.scenarios_passed(), 1U);
+  const auto run = bouncing_run(few_bounces);
+  const std::vector<Unit> units = run->units();
+  std::vector<std::string> results = results_of(units);
+  const std::vector<double> seconds(results.size(), 1e-3);
+  EXPECT_TRUE(run->finish(results, seconds).self_test_passed);
+  ASSERT_EQ(units[1].key, "scenario walls");
+  results[1] = to_text(std::vector<BounceScenario>{{"a", "b", "c", true}, {"d", "e", "f", false}});
+  const Outcome outcome = run->finish(results, seconds);
+  EXPECT_FALSE(outcome.self_test_passed);
+  EXPECT_NE(outcome.summary.find("FAILED d: f"), std::string::npos) << outcome.summary;
 }
 
 TEST(Bouncing, too_few_bounces_are_not_judged) {
-  const Outcome outcome = bouncing_outcome(std::string(few_bounces) + "policy = ['project_flip']\n");
-  EXPECT_EQ(value_of(table_of(outcome, "self_test"), "project_flip", "other_cells"), Value(std::int64_t{0}));
+  EXPECT_EQ(value_of(table_of(few_bounces_outcome(), "self_test"), "project_flip", "other_cells"),
+            Value(std::int64_t{0}));
   const auto run = bouncing_run(few_bounces, {.seed = 1, .trials = 20});
   EXPECT_EQ(value_of(table_of(outcome_of(*run), "self_test"), "linear_toi", "other_cells"), Value(std::int64_t{6}));
-}
-
-TEST(Bouncing, does_not_depend_on_the_order_of_the_units) {
-  const auto run = bouncing_run(few_bounces);
-  std::vector<Unit> units = run->units();
-  const std::vector<std::string> forward = results_of(units);
-  std::reverse(units.begin(), units.end());
-  std::vector<std::string> backward = results_of(units);
-  std::reverse(backward.begin(), backward.end());
-  EXPECT_EQ(forward, backward);
 }
 
 /// Times are in tables and figures that no hash covers, and nowhere else.
@@ -178,10 +173,52 @@ TEST(BounceTally, is_the_mean_and_the_variance) {
   EXPECT_NEAR(tally.rms(), std::sqrt(102.0 / 4), 1e-15);
   EXPECT_EQ(tally.least, 1);
   EXPECT_EQ(tally.most, 9);
-  EXPECT_EQ(bounce_tally_from_line(to_line(tally)), tally);
-  EXPECT_EQ(bounce_tally_from_line(to_line(BounceTally{})), BounceTally{});
-  EXPECT_THROW(bounce_tally_from_line("1 2 3"), std::runtime_error);
-  EXPECT_THROW(bounce_tally_from_line(to_line(tally) + " 4"), std::runtime_error);
+}
+
+/// Any policy alone has an answer, tables and pictures.
+TEST(BouncingConfig, answers_for_any_one_policy_and_step) {
+  for (const std::string_view policy : bounce_policy_names()) {
+    const Outcome outcome = bouncing_outcome("policy = ['" + std::string(policy) + R"(']
+      step = [0.05]
+      restitution = [0.5]
+      scenario = ["walls"]
+      bounces = 50
+      runs = 2
+      run_bounces = 2
+      rounds = 1)");
+    EXPECT_NE(outcome.answer.find(policy), std::string::npos) << outcome.answer;
+    EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
+    EXPECT_EQ(outcome.figures.size(), 4U);
+  }
+}
+
+/// What a factor's range allows is the factor's own; this is what goes together, or not.
+TEST(BouncingConfig, refuses_what_does_not_go_together) {
+  struct Refusal {
+    const char *text, *reason;
+  };
+  for (const auto& [text, reason] :
+       {Refusal{"step = [0.3]", "gravity adds 0.0001 to 0.5 of the impact speed"},
+        Refusal{"step = [1e-6]", "gravity adds 0.0001 to 0.5 of the impact speed"},
+        Refusal{"radius = 1e-4", "0.001 to 10 times the height"},
+        Refusal{"radius = 11", "0.001 to 10 times the height"},
+        Refusal{"policy = ['project_flp']", "did you mean 'project_flip'?"},
+        Refusal{"scenario = ['pi']", "key 'scenario'"}, Refusal{"mass_ratio = [0.5]", "key 'mass_ratio'"},
+        Refusal{"runs = 1", "key 'runs'"}, Refusal{"run_bounces = 0", "key 'run_bounces'"},
+        Refusal{"rounds = 0", "key 'rounds'"}, Refusal{"digits = 8", "key 'digits'"}}) {
+    try {
+      bouncing_run(text);
+      ADD_FAILURE() << text;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(BouncingConfig, crowds_come_in_the_order_asked) {
+  const auto run = bouncing_run("scenario = ['walls', 'zeno']");
+  EXPECT_EQ(run->units()[0].key, "scenario walls");
+  EXPECT_EQ(run->units()[1].key, "scenario zeno");
 }
 
 }  // namespace

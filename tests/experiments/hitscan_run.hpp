@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/hitscan/line.hpp>
+#include <thinwall/experiments/hitscan/theory.hpp>
 
 #include "support/experiment_run.hpp"
 

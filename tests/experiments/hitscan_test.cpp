@@ -16,9 +16,9 @@
 namespace thinwall {
 namespace {
 
-const std::vector<HitscanRule> all_rules = {hitscan_ray, hitscan_ball, next_frame, swept_steps};
+const std::vector<HitscanRule> all_rules(hitscan_rules.begin(), hitscan_rules.end());
 
-/// The target's center, seen from a point along the line of fire at the range: upward, and to the side.
+/// The target's center, seen from a point along the row of fire at the range: upward, and to the side.
 Placement target_at(const HitscanCell& c, double up, double side, double phase) {
   return {{{c.range, up, side}, c.target}, phase};
 }
@@ -93,100 +93,84 @@ TEST(Hitscan, the_next_frame_is_up_to_a_step_late) {
   EXPECT_LT(tally.lateness.least, 0.01 * c.step);
   EXPECT_LE(tally.lateness.most, c.step + window);
   EXPECT_GT(tally.lateness.most, 0.99 * c.step);
-  EXPECT_NEAR(mean(tally.lateness, time_unit(c)), c.step / 2, 0.03 * c.step);
+  EXPECT_NEAR(tally.lateness.mean(time_unit(c)), c.step / 2, 0.03 * c.step);
 }
 
-TEST(Hitscan, says_what_the_ray_misses) {
-  const std::string answer = hitscan_outcome(few_hitscans).answer;
-  for (const char* part :
-       {"Of the true hits the ray misses", "with a rifle at 100 m (theory 28.7 %", "The flight time decides",
-        "It has no radius", "late on average", "The ball swept along each step"}) {
-    EXPECT_NE(answer.find(part), std::string::npos) << part << "\n" << answer;
-  }
-}
-
-TEST(Hitscan, agrees_with_theory) {
+TEST(Hitscan, agrees_with_theory_and_says_what_the_ray_misses) {
   const Outcome outcome = hitscan_outcome(few_hitscans);
+  EXPECT_NE(outcome.answer.find("with a rifle at 100 m (theory 28.7 %"), std::string::npos) << outcome.answer;
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 1U + 4 * 3);
   EXPECT_EQ(table_of(outcome, "moments").rows.size(), 4U * 2);
+  ASSERT_EQ(outcome.figures.size(), 3U);
+  EXPECT_EQ(outcome.figures[0].panels.size(), 3U);
+  EXPECT_EQ(outcome.figures[2].panels.size(), 2U);
 }
 
 /// Lines of a run that is large enough to tell theories apart.
-const std::vector<HitscanLine>& measured() {
-  static const std::vector<HitscanLine> lines = [] {
+const std::vector<HitscanRow>& measured() {
+  static const std::vector<HitscanRow> rows = [] {
     const Experiment experiment = hitscan_experiment();
     const Settings settings("range = [5, 20, 100]\nspeed = [30, 300]\nradius = [0, 0.02]\nwind = [5]", "test.toml",
                             experiment.default_toml);
     const std::vector<HitscanCell> cells = make_hitscan_cells(settings);
     std::vector<std::vector<HitscanTally>> tallies;
     for (const HitscanCell& c : cells) tallies.push_back(shoot(all_rules, c, 1, 10000));
-    return make_hitscan_lines(cells, all_rules, tallies);
+    return hitscan_rows(cells, all_rules, tallies);
   }();
-  return lines;
+  return rows;
 }
 
-using Share = std::function<double(const HitscanLine&)>;
+using Share = std::function<double(const HitscanRow&)>;
 
 /// Does the self-test pass if one rule's expected number is that of another theory?
 bool passes(const HitscanRule& rule, double HitscanExpected::*field, const Share& theory) {
-  std::vector<HitscanLine> lines = measured();
-  for (HitscanLine& line : lines) {
-    if (line.rule.name == rule.name) line.expected.*field = std::clamp(theory(line), 0.0, 1.0);
+  std::vector<HitscanRow> rows = measured();
+  for (HitscanRow& row : rows) {
+    if (row.rule.name == rule.name) row.expected.*field = std::clamp(theory(row), 0.0, 1.0);
   }
-  return all_passed(self_test(counts_of(lines)));
+  return all_passed(self_test(counts_of(rows)));
 }
 
 TEST(Hitscan, fails_a_wrong_theory) {
   using E = HitscanExpected;
-  EXPECT_TRUE(passes(hitscan_ray, &E::missed, [](const HitscanLine& l) { return l.expected.missed; }));
-  EXPECT_FALSE(passes(hitscan_ray, &E::missed, [](const HitscanLine& l) { return 0.95 * l.expected.missed; }));
-  EXPECT_FALSE(passes(hitscan_ray, &E::missed, [](const HitscanLine& l) {  // forgets drag and wind
-    const double time = l.cell.range / l.cell.speed;
-    return l.expected.touch * flat_missed(l.cell.target, l.cell.radius, l.cell.gravity * time * time / 2);
+  EXPECT_TRUE(passes(hitscan_ray, &E::missed, [](const HitscanRow& r) { return r.expected.missed; }));
+  EXPECT_FALSE(passes(hitscan_ray, &E::missed, [](const HitscanRow& r) { return 0.95 * r.expected.missed; }));
+  EXPECT_FALSE(passes(hitscan_ray, &E::missed, [](const HitscanRow& r) {  // forgets drag and wind
+    const double time = r.cell.range / r.cell.speed;
+    return r.expected.touch * flat_missed(r.cell.target, r.cell.radius, r.cell.gravity * time * time / 2);
   }));
-  EXPECT_FALSE(passes(hitscan_ray, &E::missed, [](const HitscanLine& l) {  // forgets the radius
-    return l.expected.touch * flat_missed(l.cell.target, 0, deflection(l.cell));
+  EXPECT_FALSE(passes(hitscan_ray, &E::missed, [](const HitscanRow& r) {  // forgets the radius
+    return r.expected.touch * flat_missed(r.cell.target, 0, deflection(r.cell));
   }));
   EXPECT_FALSE(
-      passes(hitscan_ray, &E::false_hits, [](const HitscanLine& l) {  // takes the target for as large as the reach
-        return l.expected.reported * flat_false(l.cell.target + l.cell.radius, 0, deflection(l.cell));
+      passes(hitscan_ray, &E::false_hits, [](const HitscanRow& r) {  // takes the target for as large as the reach
+        return r.expected.reported * flat_false(r.cell.target + r.cell.radius, 0, deflection(r.cell));
       }));
-  EXPECT_FALSE(passes(hitscan_ball, &E::missed, [](const HitscanLine&) { return 0; }));  // forgets that bullets fall
-  EXPECT_FALSE(passes(next_frame, &E::missed, [](const HitscanLine&) { return 0; }));    // forgets the radius
-  EXPECT_FALSE(passes(next_frame, &E::reported, [](const HitscanLine& l) { return l.expected.touch; }));
-  EXPECT_FALSE(passes(swept_steps, &E::missed, [](const HitscanLine&) { return 0; }));  // forgets the chord
-  std::vector<HitscanLine> flat = measured();
-  for (HitscanLine& l : flat)
-    l.expected.touch *= l.cell.aim * reach(l.cell) / disc_radius(l.cell);  // forgets the slope
+  EXPECT_FALSE(passes(hitscan_ball, &E::missed, [](const HitscanRow&) { return 0; }));  // forgets that bullets fall
+  EXPECT_FALSE(passes(next_frame, &E::missed, [](const HitscanRow&) { return 0; }));    // forgets the radius
+  EXPECT_FALSE(passes(next_frame, &E::reported, [](const HitscanRow& r) { return r.expected.touch; }));
+  EXPECT_FALSE(passes(swept_steps, &E::missed, [](const HitscanRow&) { return 0; }));  // forgets the chord
+  std::vector<HitscanRow> flat = measured();
+  for (HitscanRow& r : flat) r.expected.touch *= r.cell.aim * reach(r.cell) / disc_radius(r.cell);  // forgets the slope
   EXPECT_FALSE(all_passed(self_test(counts_of(flat))));
 }
 
 TEST(Hitscan, fails_wrong_errors) {
-  const auto passes_with = [](const std::function<void(HitscanLine&)>& change) {
-    std::vector<HitscanLine> changed = measured();
-    for (HitscanLine& line : changed) change(line);
+  const auto passes_with = [](const std::function<void(HitscanRow&)>& change) {
+    std::vector<HitscanRow> changed = measured();
+    for (HitscanRow& row : changed) change(row);
     const auto tests = moment_tests(changed);
     return std::all_of(tests.begin(), tests.end(), [](const HitscanMomentTest& t) { return t.passed(); });
   };
-  EXPECT_TRUE(passes_with([](HitscanLine&) {}));
-  EXPECT_FALSE(passes_with([](HitscanLine& l) { l.expected.path_error.mean *= 1.05; }));
-  EXPECT_FALSE(passes_with([](HitscanLine& l) { l.expected.path_error_most *= 0.999; }));
-  EXPECT_FALSE(passes_with([](HitscanLine& l) {  // forgets that the ball touches before its center
-    if (l.expected.lateness) l.expected.lateness->mean = l.cell.step / 2;
+  EXPECT_TRUE(passes_with([](HitscanRow&) {}));
+  EXPECT_FALSE(passes_with([](HitscanRow& r) { r.expected.path_error.mean *= 1.05; }));
+  EXPECT_FALSE(passes_with([](HitscanRow& r) { r.expected.path_error_most *= 0.999; }));
+  EXPECT_FALSE(passes_with([](HitscanRow& r) {  // forgets that the ball touches before its center
+    if (r.expected.lateness) r.expected.lateness->mean = r.cell.step / 2;
   }));
-  EXPECT_FALSE(passes_with([](HitscanLine& l) { l.tally.lateness.most = 2 * l.cell.step; }));
-  EXPECT_FALSE(passes_with([](HitscanLine& l) { l.tally.lateness.least = -2 * contact_window(l.cell).until; }));
-}
-
-TEST(Hitscan, does_not_depend_on_the_order_of_the_units) {
-  const auto run = hitscan_run(few_hitscans);
-  std::vector<Unit> units = run->units();
-  const std::vector<std::string> forward = results_of(units);
-  std::reverse(units.begin(), units.end());
-  std::vector<std::string> backward = results_of(units);
-  std::reverse(backward.begin(), backward.end());
-  EXPECT_EQ(forward, backward);
+  EXPECT_FALSE(passes_with([](HitscanRow& r) { r.tally.lateness.most = 2 * r.cell.step; }));
+  EXPECT_FALSE(passes_with([](HitscanRow& r) { r.tally.lateness.least = -2 * contact_window(r.cell).until; }));
 }
 
 TEST(Hitscan, a_cell_keeps_its_shots_whatever_else_is_asked) {
@@ -197,6 +181,58 @@ TEST(Hitscan, a_cell_keeps_its_shots_whatever_else_is_asked) {
   ASSERT_EQ(one.rows.size(), known_shots.size() + 1);
   for (const std::vector<Value>& row : one.rows) {
     EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
+  }
+}
+
+std::vector<HitscanCell> cells_of(const char* text) {
+  const Experiment experiment = hitscan_experiment();
+  return make_hitscan_cells(Settings(text, "test.toml", experiment.default_toml));
+}
+
+TEST(HitscanConfig, opens_with_the_known_shots) {
+  const auto cells = cells_of("");
+  for (std::size_t i = 0; i < known_shots.size(); ++i) EXPECT_EQ(cells[i], known_shots[i].cell);
+}
+
+TEST(HitscanConfig, takes_every_combination_that_arrives) {
+  const std::size_t known = known_shots.size();
+  EXPECT_EQ(cells_of("range = [3, 10]\nspeed = [30, 300]\nradius = [0, 0.02]\nwind = [0, 5]").size(), known + 16);
+  // At half its speed a second a bullet of 30 m/s comes to rest at 60 m.
+  EXPECT_EQ(cells_of("range = [3, 100]\nspeed = [30]\nradius = [0]\nwind = [0]").size(), known + 1);
+  // Without drag it gets everywhere, and wind does nothing: two winds are one cell.
+  const auto still = cells_of("range = [100]\nspeed = [30]\nradius = [0]\nwind = [0, 5]\ndrag = [0]");
+  ASSERT_EQ(still.size(), known + 1);
+  EXPECT_EQ(still.back().wind, 0);
+}
+
+/// Without the rules of the question, and without anything that pulls, there is still an answer.
+TEST(HitscanConfig, answers_for_any_choice_of_rules) {
+  const Outcome outcome = hitscan_outcome("rule = ['hitscan_ball']\nrange = [3]\nspeed = [30]\nshots = 20");
+  EXPECT_NE(outcome.answer.find("hitscan_ball misses"), std::string::npos) << outcome.answer;
+  const Outcome weightless =
+      hitscan_outcome("gravity = 0\nwind = [0]\nrange = [3]\nspeed = [30]\nradius = [0]\nshots = 200");
+  EXPECT_TRUE(weightless.self_test_passed) << weightless.summary;
+  EXPECT_FALSE(weightless.answer.empty());
+}
+
+/// What a factor's range allows is the factor's own; this is what goes together, or not.
+TEST(HitscanConfig, refuses_what_does_not_go_together) {
+  struct Refusal {
+    const char *text, *reason;
+  };
+  for (const auto& [text, reason] : {Refusal{"range = [0.2]", "more than 2 * (target + radius)"},
+                                     Refusal{"target = [2]\nrange = [3]", "more than 2 * (target + radius)"},
+                                     Refusal{"speed = [3]\nrange = [3]", "fast enough to fly nearly straight"},
+                                     Refusal{"speed = [30]\nrange = [100]", "a range that some bullet reaches"},
+                                     Refusal{"drag = [40]\nspeed = [1000]\nrange = [3]", "drag * step at most 0.5"},
+                                     Refusal{"step = [1e-9]", "a path of at least 0.01"},
+                                     Refusal{"rule = ['next_fram']", "did you mean 'next_frame'?"}}) {
+    try {
+      hitscan_run(text);
+      ADD_FAILURE() << text;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -1,0 +1,367 @@
+#include <thinwall/experiments/bouncing/scenarios.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/text/numbers.hpp>
+
+namespace thinwall {
+
+std::int64_t fly_between(FlyingBall& ball, std::span<FlyingWall> walls, double seconds) {
+  std::int64_t impacts = 0;
+  for (double left = seconds;;) {
+    const FlyingWall* struck = nullptr;
+    Toi<double> first;
+    for (const FlyingWall& wall : walls) {
+      const auto toi = next_impact(ball, wall);
+      if (!toi || toi->time > left || (struck != nullptr && toi->time >= first.time)) continue;
+      struck = &wall;
+      first = *toi;
+    }
+    const double flight = struck != nullptr ? first.time : left;
+    ball.fly(flight);
+    for (FlyingWall& wall : walls) wall.fly(flight);
+    if (struck == nullptr) return impacts;
+    left -= flight;
+    ball.velocity -= first.normal * (2 * (ball.velocity - struck->velocity).dot(first.normal));
+    ++impacts;
+  }
+}
+
+std::int64_t fly_together(std::vector<FlyingBall>& balls, double seconds) {
+  std::int64_t impacts = 0;
+  for (double left = seconds;;) {
+    FlyingBall *a = nullptr, *b = nullptr;
+    Toi<double> first;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      for (std::size_t j = i + 1; j < balls.size(); ++j) {
+        const auto toi = next_impact(balls[i], balls[j]);
+        if (!toi || toi->time > left || (a != nullptr && toi->time >= first.time)) continue;
+        a = &balls[i];
+        b = &balls[j];
+        first = *toi;
+      }
+    }
+    const double flight = a != nullptr ? first.time : left;
+    for (FlyingBall& ball : balls) ball.fly(flight);
+    if (a == nullptr) return impacts;
+    left -= flight;
+    const LineSpeeds<double> before = {a->velocity.dot(first.normal), b->velocity.dot(first.normal)};
+    const LineSpeeds<double> after = after_impact(before, 1.0, 1.0, 1.0);
+    a->velocity += first.normal * (after.a - before.a);
+    b->velocity += first.normal * (after.b - before.b);
+    ++impacts;
+  }
+}
+
+// One ball on the floor: bounces that pile up, and rest.
+
+namespace {
+
+constexpr int zeno_steps = 40;  // 10 s
+constexpr double rest_restitution = 0.25;
+
+struct Zeno {
+  std::vector<double> times;
+  BouncingBall ball;
+};
+
+Zeno run_zeno() {
+  const BouncingWorld world = {2, 0.5, 0.25, floor_of_depth(8)};
+  Zeno run = {{}, ball_at(1, 0, 0.5)};
+  for (int i = 0; i < zeno_steps; ++i) {
+    follow_arc(world, run.ball, [&](double time) { run.times.push_back(time); });
+  }
+  return run;
+}
+
+/// [m] How deep a ball is after `steps` that only turns its speed. From rest, its speed after step k is v (1 - (-e)^k) with
+/// v = e g h / (1 + e), and it sinks by (g h - the speed before) h in each. Derived in docs/bouncing.md.
+double depth_of_flip_only(const BounceCell& c, double steps) {
+  const double e = c.restitution, kick = c.gravity * c.step, speed = e * kick / (1 + e);
+  return c.step * (steps * kick - speed * (steps - (1 - std::pow(-e, steps)) / (1 + e)));
+}
+
+}  // namespace
+
+std::vector<double> zeno_times() { return run_zeno().times; }
+
+std::vector<BounceScenario> zeno_scenarios() {
+  const Zeno run = run_zeno();
+  bool exact = run.times.size() == 54;
+  for (std::size_t n = 0; n < run.times.size(); ++n)
+    exact &= run.times[n] == 3 - std::ldexp(1.0, 1 - static_cast<int>(n));
+  const bool rests = gap_of(run.ball) == 0 && run.ball.velocity == 0;
+  return {{"bounces that pile up (restitution 1/2)",
+           "at 3 - 2^(2-n) s, exactly; the clock stalls at 3 s with the 54th, then rest",
+           fmt::format("{} bounces, the last at {} s, {}; {} at 10 s", run.times.size(),
+                       run.times.empty() ? 0 : run.times.back(), exact ? "all exact" : "NOT all exact",
+                       rests ? "at rest" : "NOT at rest"),
+           exact && rests}};
+}
+
+std::vector<BounceScenario> rest_scenarios() {
+  constexpr std::int64_t steps = 100000;
+  std::vector<BounceScenario> scenarios;
+  for_each_bounce_policy([&]<class Policy>(Policy) {
+    const bool sinks = Policy::name == FlipOnly::name;
+    const BounceCell cell = {9.81, sinks ? 1024.0 : 1.0, 0.5, 1.0 / 60, rest_restitution};
+    const BouncingWorld world = world_of(cell);
+    BouncingBall ball = ball_at(0, 0, cell.radius);
+    double lowest = 0, highest = 0;
+    for (std::int64_t i = 0; i < steps; ++i) {
+      Policy::step(world, ball);
+      lowest = std::min(lowest, gap_of(ball));
+      highest = std::max(highest, gap_of(ball));
+    }
+    BounceScenario row = {fmt::format("rest on the floor, {}", Policy::name), "no drift over 100 000 steps",
+                          fmt::format("{:.3g} to {:.3g} m", lowest, highest), false};
+    const double moved = std::max(highest, -lowest);
+    if (sinks) {
+      const double depth = depth_of_flip_only(cell, static_cast<double>(steps));
+      row.must = fmt::format("sinks: nothing pushes it out; {:.3f} m in 100 000 steps", depth);
+      row.happened = fmt::format("{:.3f} m", -gap_of(ball));
+      row.passed = std::abs(gap_of(ball) + depth) <= 1e-9 * depth;
+    } else if (Policy::name == LinearToi::name || Policy::name == ParabolaToi::name) {
+      row.must += ", to the bit";
+      row.passed = moved == 0;
+    } else {  // pushed out of a floor, whose coordinates are rounded
+      row.must += " but the rounding of the floor";
+      row.passed = moved <= 0x1p-52 * world.floor.half_extents.y();
+    }
+    scenarios.push_back(row);
+  });
+  return scenarios;
+}
+
+// A ball between walls: several at one instant, and a gap that holds a million bounces.
+
+namespace {
+
+/// A wall of 2 m at rest whose face, towards the origin, lies `at` > 0 m along the axis; 16 m wide.
+FlyingWall wall_across(int axis, double at) {
+  FlyingWall wall = {{Vec3<double>::Zero(), Vec3<double>::Constant(8)}, Vec3<double>::Zero()};
+  wall.shape.half_extents[axis] = 1;
+  wall.shape.center[axis] = at + 1;
+  return wall;
+}
+
+/// Flies a ball of radius 1/2 at (3, 1, 2) m/s (only its first `count` speeds) into faces it reaches after half a second.
+BounceScenario corner(int count) {
+  const Vec3<double> speeds = {3, 1, 2};
+  std::vector<int> order;
+  for (int axis = 0; axis < count; ++axis) order.push_back(axis);
+  std::set<std::array<double, 7>> ends;  // impacts, position, speed: of every order
+  do {
+    FlyingBall ball = {{Vec3<double>::Zero(), 0.5}, Vec3<double>::Zero()};
+    std::vector<FlyingWall> walls;
+    for (const int axis : order) {
+      ball.velocity[axis] = speeds[axis];
+      walls.push_back(wall_across(axis, 0.5 + speeds[axis] / 2));
+    }
+    const auto impacts = static_cast<double>(fly_between(ball, walls, 1));
+    const Vec3<double>&p = ball.shape.center, &v = ball.velocity;
+    ends.insert({impacts, p.x(), p.y(), p.z(), v.x(), v.y(), v.z()});
+  } while (std::next_permutation(order.begin(), order.end()));
+  std::array<double, 7> expected = {static_cast<double>(count), 0, 0, 0, 0, 0, 0};
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(count); ++axis) {
+    expected[4 + axis] = -speeds[static_cast<int>(axis)];
+  }
+  const std::array<double, 7>& end = *ends.begin();
+  return {fmt::format("{} walls hit at one instant", count),
+          fmt::format("{} speeds turn, and it is back at the start; the same in every order of the walls", count),
+          fmt::format("speed ({:g}, {:g}, {:g}), place ({:g}, {:g}, {:g}); {}", end[4], end[5], end[6], end[1], end[2],
+                      end[3], ends.size() == 1 ? "the same in every order" : "orders DIFFER"),
+          ends.size() == 1 && end == expected};
+}
+
+BounceScenario fixed_gap() {
+  constexpr double play = 0x1p-20, start = 0x1p-22, radius = 0.5;
+  FlyingBall ball = {{{start, 0, 0}, radius}, {1, 0, 0}};
+  std::array<FlyingWall, 2> walls = {wall_across(0, play + radius), wall_across(0, radius)};
+  walls[1].shape.center.x() *= -1;
+  const std::int64_t impacts = fly_between(ball, walls, 1);
+  return {"ping-pong in a gap with 2^-20 m of play, 1 s at 1 m/s",
+          "2^20 = 1048576 bounces, and at 2^-22 m again, exactly: the path unfolded",
+          fmt::format("{} bounces, at 2^{:g} m, speed {:g} m/s", impacts, std::log2(ball.shape.center.x()),
+                      ball.velocity.x()),
+          impacts == 1 << 20 && ball.shape.center.x() == start && ball.velocity.x() == 1};
+}
+
+/// A point starts at a plate at 0, and another plate comes in. Each round trip adds 2 u to its speed v, and the gap that it
+/// finds back at the plate is gap * v / (v + 2 u): their product stays. Derived in docs/bouncing.md.
+BounceScenario closing_gap() {
+  constexpr double gap = 0x1p-20, closing = 0x1p-4;
+  constexpr int trips = 1 << 13;
+  const auto plate = [](double x, double speed) { return FlyingWall{{{x, 0, 0}, {0, 8, 8}}, {-speed, 0, 0}}; };
+  FlyingBall point = {{Vec3<double>::Zero(), 0}, {1, 0, 0}};
+  FlyingWall still = plate(0, 0), coming = plate(gap, closing);
+  int impacts = 0;
+  for (; impacts < 2 * trips; ++impacts) {
+    FlyingWall& next = impacts % 2 == 0 ? coming : still;
+    const auto toi = next_impact(point, next);
+    if (!toi) break;
+    point.fly(toi->time);
+    coming.fly(toi->time);
+    point.shape.center.x() = next.shape.center.x();  // it touches: a rounding does not add up
+    point.velocity -= toi->normal * (2 * (point.velocity - next.velocity).dot(toi->normal));
+  }
+  const double speed = 1 + 2 * closing * trips, left = gap / speed;
+  const double error = std::abs(coming.shape.center.x() / left - 1);
+  // A trip rounds the gap six times, by half a unit each; the product of gap and speed keeps what it has lost.
+  const double allowed = trips * 6 * 0x1p-53;
+  return {fmt::format("a gap of 2^-20 m closes at 1/16 m/s, for {} round trips", trips),
+          fmt::format("speed {:g} m/s, gap {:.6g} m: their product at the plate stays, within {:.1e}", speed, left,
+                      allowed),
+          fmt::format("{} bounces, speed {:g} m/s, gap {:.6g} m, off by {:.1e} of it", impacts, point.velocity.x(),
+                      coming.shape.center.x(), error),
+          impacts == 2 * trips && point.velocity.x() == speed && error <= allowed};
+}
+
+}  // namespace
+
+std::vector<BounceScenario> corner_scenarios() { return {corner(2), corner(3)}; }
+std::vector<BounceScenario> gap_scenarios() { return {fixed_gap(), closing_gap()}; }
+
+// Bodies that hit each other head-on: masses far apart, a cradle, and the billiard that counts the digits of pi.
+
+namespace {
+
+constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+
+/// Units of round-off between an answer and what it should be.
+double rounds_off(double answer, long double expected) {
+  return static_cast<double>(
+      std::abs((static_cast<long double>(answer) - expected) / (expected * static_cast<long double>(u))));
+}
+
+/// A ball of mass `a` at 1 m/s hits one of mass `b` at rest; the library says when.
+BounceScenario head_on(double a, double b) {
+  FlyingBall first = {{{-1, 0, 0}, 0.5}, {1, 0, 0}}, second = {{{0.5, 0, 0}, 0.5}, {0, 0, 0}};
+  const auto toi = next_impact(first, second);
+  const LineSpeeds<double> after = after_impact({first.velocity.x(), second.velocity.x()}, a, b, 1.0);
+  const long double la = a, lb = b;
+  const long double back = (la - lb) / (la + lb), on = 2 * la / (la + lb);
+  // v' = 1 - 2 b / (a + b): three roundings of a number up to 2 beside an answer that may be small; V' has three of its own.
+  const double off =
+      std::max(a == b ? std::abs(after.a) : rounds_off(after.a, back) * std::abs(static_cast<double>(back)) / 2,
+               rounds_off(after.b, on));
+  return {fmt::format("masses {} : {}, elastic", exact_text(a), exact_text(b)),
+          fmt::format("v' = {}, V' = {}, within 4 u", rounded_text(static_cast<double>(back), 10),
+                      rounded_text(static_cast<double>(on), 10)),
+          fmt::format("v' = {}, V' = {}, off by {:.2g} u", rounded_text(after.a, 10), rounded_text(after.b, 10), off),
+          toi && toi->time == 0.5 && off <= 4};
+}
+
+/// Of five balls of 1 m that touch in a row, the first `count` come in at 1 m/s.
+BounceScenario cradle(int count) {
+  bool passed = true;
+  std::string speeds;
+  std::int64_t impacts = 0;
+  for (const bool reversed : {false, true}) {
+    std::vector<FlyingBall> balls;
+    for (int i = 0; i < 5; ++i) {
+      const double gap = i < count ? 0.5 : 0;  // half a second before they meet the others
+      balls.push_back({{{i - gap, 0, 0}, 0.5}, {i < count ? 1.0 : 0.0, 0, 0}});
+    }
+    if (reversed) std::reverse(balls.begin(), balls.end());
+    impacts = fly_together(balls, 1);
+    if (reversed) std::reverse(balls.begin(), balls.end());
+    speeds.clear();
+    for (int i = 0; i < 5; ++i) {
+      const FlyingBall& ball = balls[static_cast<std::size_t>(i)];
+      const bool leaves = i >= 5 - count;
+      const double place = leaves ? i + 0.5 : i;
+      passed &= ball.velocity == Vec3<double>(leaves ? 1 : 0, 0, 0) && ball.shape.center == Vec3<double>(place, 0, 0);
+      speeds += (i > 0 ? " " : "") + rounded_text(ball.velocity.x(), 6);
+    }
+    passed &= impacts == std::int64_t{count} * (5 - count);
+  }
+  return {fmt::format("a cradle of five balls, {} come{} in", count, count == 1 ? "s" : ""),
+          fmt::format("only the last {} leave{}, exactly; {} impacts at one instant, in either order of the list",
+                      count == 1 ? "one" : std::to_string(count), count == 1 ? "s" : "", count * (5 - count)),
+          fmt::format("speeds {}, {} impacts", speeds, impacts), passed};
+}
+
+constexpr std::array<std::int64_t, 8> pi_digits = {3, 31, 314, 3141, 31415, 314159, 3141592, 31415926};
+
+template <class S> BounceScenario digits_of_pi(int digits, const char* scalar) {
+  const BlockCount count = count_block_impacts<S>(digits);
+  const std::int64_t expected = pi_digits[static_cast<std::size_t>(digits)];
+  BounceScenario row = {fmt::format("blocks of masses 1 : 100^{} and a wall, {}", digits, scalar),
+                        fmt::format("{} impacts: the digits of pi", expected), fmt::format("{} impacts", count.impacts),
+                        count.impacts == expected};
+  if (std::is_same_v<S, double>) {
+    // Each impact rounds places of up to 4 m beside speeds of up to 10^digits.
+    const double error = std::abs(count.moment - 1),
+                 allowed = 8 * u * static_cast<double>(expected) * std::pow(10.0, digits);
+    row.must += fmt::format("; the moment of the path, 1, stays within {:.1e}", allowed);
+    row.happened += fmt::format(", moment off by {:.1e}", error);
+    row.passed &= error <= allowed;
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<BounceScenario> mass_scenarios(const std::vector<double>& ratios) {
+  std::vector<BounceScenario> scenarios;
+  for (const double ratio : ratios) {
+    scenarios.push_back(head_on(1, ratio));
+    if (ratio != 1) scenarios.push_back(head_on(ratio, 1));
+  }
+  return scenarios;
+}
+
+std::vector<BounceScenario> cradle_scenarios() { return {cradle(1), cradle(2), cradle(3)}; }
+
+/// The blocks never both approach: after an impact of the two, only the light one can approach the wall, and after that one,
+/// only the two each other. So the speeds alone decide whether there is a next impact, and the library when.
+template <class S> BlockCount count_block_impacts(int digits) {
+  using Block = Moving<Aabb<S>>;
+  const S mass = static_cast<S>(std::pow(100.0, digits)), half = S(1) / S(2);
+  const auto block = [&](S left) { return Block{{{left + half, 0, 0}, {half, half, half}}, Vec3<S>::Zero()}; };
+  const Block wall = block(S(-1));
+  Block light = block(S(1)), heavy = block(S(3));
+  LineSpeeds<S> speeds = {S(0), S(-1)};
+  S horizon = 1;  // [s] a power of two: scales the motion without rounding
+  std::int64_t impacts = 0;
+  while (speeds.a < S(0) || speeds.b < speeds.a) {
+    const bool at_wall = speeds.a < S(0);
+    Toi<S> toi;
+    for (;; horizon *= 2) {
+      light.displacement.x() = speeds.a * horizon;
+      heavy.displacement.x() = speeds.b * horizon;
+      toi = at_wall ? time_of_impact(light, wall) : time_of_impact(light, heavy);
+      if (toi.status != ToiStatus::apart) break;
+    }
+    light.shape.center.x() += light.displacement.x() * toi.time;
+    heavy.shape.center.x() += heavy.displacement.x() * toi.time;
+    if (at_wall) {
+      speeds.a = -speeds.a;
+    } else {
+      speeds = after_impact(speeds, S(1), mass, S(1));
+    }
+    ++impacts;
+    if (toi.time < S(1) / S(8)) horizon = std::max(S(horizon / 4), std::numeric_limits<S>::epsilon());
+  }
+  const auto place_light = double{light.shape.center.x()} - 0.5, place_heavy = double{heavy.shape.center.x()} - 1.5;
+  return {impacts, std::abs(place_heavy * double{speeds.a} - place_light * double{speeds.b})};
+}
+template BlockCount count_block_impacts<float>(int);
+template BlockCount count_block_impacts<double>(int);
+
+std::vector<BounceScenario> digit_scenarios(int most) {
+  std::vector<BounceScenario> scenarios;
+  for (int digits = 0; digits <= std::min(most, 5); ++digits) scenarios.push_back(digits_of_pi<float>(digits, "float"));
+  for (int digits = 0; digits <= most; ++digits) scenarios.push_back(digits_of_pi<double>(digits, "double"));
+  return scenarios;
+}
+
+}  // namespace thinwall

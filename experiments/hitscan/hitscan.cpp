@@ -1,0 +1,545 @@
+/// A ray stands for a bullet: how many hits does it miss, how many are false, and how far off is it, at what range and speed?
+/// See docs/hitscan.md.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/hitscan/theory.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Cell = HitscanCell;
+using Row = HitscanRow;
+using Rows = std::vector<Row>;
+using Tally = HitscanTally;
+using Spread = HitscanSpread;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string_view rule_name(const Row& row) { return row.rule.name; }
+bool is_timed(const Row& row) { return row.tally.lateness.count > 0; }
+std::int64_t missed(const Row& row) { return row.tally.missed; }
+std::int64_t touching(const Row& row) { return row.tally.touching; }
+std::int64_t false_hits(const Row& row) { return row.tally.false_hits; }
+std::int64_t reported(const Row& row) { return row.tally.reported(); }
+
+std::optional<double> quotient(double part, double whole) {
+  return whole > 0 ? std::optional(part / whole) : std::nullopt;
+}
+std::optional<double> quotient(std::int64_t part, std::int64_t whole) {
+  return quotient(static_cast<double>(part), static_cast<double>(whole));
+}
+std::optional<double> missed_share(const Row& row) { return quotient(missed(row), touching(row)); }
+std::optional<double> missed_share_theory(const Row& row) { return quotient(row.expected.missed, row.expected.touch); }
+std::optional<double> false_share_theory(const Row& row) {
+  return quotient(row.expected.false_hits, row.expected.reported);
+}
+
+double mean_path_error(const Row& row) { return row.tally.path_error.mean(length_unit(row.cell)); }
+double steps_late(const Row& row) { return row.tally.lateness.mean(time_unit(row.cell)) / row.cell.step; }
+double time_of(const Row& row) { return flight_time(row.cell); }
+
+Rows chosen(const Rows& rows, const std::function<bool(const Row&)>& choice) {
+  Rows result;
+  std::ranges::copy_if(rows, std::back_inserter(result), choice);
+  return result;
+}
+Rows of_rule(const Rows& rows, const HitscanRule& rule) {
+  return chosen(rows, [&](const Row& row) { return row.rule.name == rule.name; });
+}
+
+// What the tables show.
+
+Columns<Row> row_columns() {
+  const auto extreme = [](Spread Tally::*spread, double Spread::*end) {
+    return [=](const Row& r) { return r.tally.*spread.*end; };
+  };
+  const auto steps = [](double Spread::*end) {
+    return [=](const Row& r) { return r.tally.lateness.*end / r.cell.step; };
+  };
+  return columns_of<Row>(
+             text("rule", "How a hit is found.", rule_name),
+             text("shot", "Which of the known shots it is; empty for the others.",
+                  [](const Row& r) { return known_name(r.cell); }),
+             hitscan_factors().columns(&Row::cell), value("flight_time", "s", "From the muzzle to the range.", time_of),
+             value("deflection", "m", "Of the arc from the line of fire, at the range, by gravity and wind.",
+                   [](const Row& r) { return deflection(r.cell); }),
+             fields(&Row::tally, {"shots", "touching"}),
+             value("touching_theory", "1", "Expected number of them.",
+                   [](const Row& r) { return r.expected.touch * static_cast<double>(r.tally.shots); }),
+             fields(&Row::tally, {"missed"}),
+             share("missed_share", "missed / touching; missing if nothing touches.", missed, touching, "missed_"),
+             value("missed_theory", "1", "The share by theory.", missed_share_theory),
+             value("reported", "1", "Hits that the rule reports.", reported), fields(&Row::tally, {"false_hits"}),
+             share("false_share", "false_hits / reported; missing if nothing is reported.", false_hits, reported,
+                   "false_"),
+             value("false_theory", "1", "The share by theory.", false_share_theory),
+             value("path_error_mean", "m", "From the rule's path to the arc, where they cross the plane of the target.",
+                   mean_path_error),
+             value("path_error_theory", "m", "The same by theory.",
+                   [](const Row& r) { return r.expected.path_error.mean; }),
+             value("path_error_max", "m", "The largest.", extreme(&Tally::path_error, &Spread::most)),
+             value("path_error_bound", "m", "The largest possible, by theory.",
+                   [](const Row& r) { return r.expected.path_error_most; }),
+             where(
+                 is_timed,
+                 columns_of<Row>(
+                     value(
+                         "point_error_mean", "m",
+                         "From the reported point on the target to the true one, of the true hits it reports; missing if "
+                         "there are none.",
+                         [](const Row& r) { return r.tally.point_error.mean(length_unit(r.cell)); }),
+                     value("point_error_max", "m", "The largest.", extreme(&Tally::point_error, &Spread::most)),
+                     value("lateness_mean", "step", "From first contact to the report, of the same hits; < 0 is early.",
+                           steps_late))),
+             value("lateness_theory", "step", "The same by theory, of next_frame.",
+                   [](const Row& r) -> std::optional<double> {
+                     if (!r.expected.lateness) return std::nullopt;
+                     return r.expected.lateness->mean / r.cell.step;
+                   }),
+             where(is_timed,
+                   columns_of<Row>(value("lateness_min", "step", "The earliest report.", steps(&Spread::least)),
+                                   value("lateness_max", "step", "The latest.", steps(&Spread::most)))))
+      .without({"aim"});
+}
+
+/// A rule over all of its cells.
+struct Total {
+  std::string_view rule;
+  std::int64_t shots = 0, touching = 0, missed = 0, reported = 0, false_hits = 0;
+  double missed_theory = 0, false_theory = 0;        ///< expected numbers
+  double latest = no_most, earliest = no_least;      ///< [step] the reports of true hits; < 0 is early
+  double late_steps = 0;                             ///< [step] sum over the timed
+  std::int64_t timed = 0;                            ///< true hits that are reported
+  double path_error_most = 0, point_error_most = 0;  ///< [m] at the range and on the target, of all cells
+};
+
+std::vector<Total> totals_of(const Rows& rows) {
+  std::vector<Total> totals;
+  for (const Group<Row>& group : group_by(rows, rule_name)) {
+    Total& total = totals.emplace_back();
+    total.rule = rule_name(*group[0]);
+    for (const Row* row : group) {
+      const Tally& t = row->tally;
+      const double shots = static_cast<double>(t.shots), step = row->cell.step;
+      total.shots += t.shots;
+      total.touching += t.touching;
+      total.missed += t.missed;
+      total.reported += t.reported();
+      total.false_hits += t.false_hits;
+      total.missed_theory += row->expected.missed * shots;
+      total.false_theory += row->expected.false_hits * shots;
+      total.path_error_most = std::max(total.path_error_most, t.path_error.most);
+      if (!is_timed(*row)) continue;
+      total.latest = std::max(total.latest, t.lateness.most / step);
+      total.earliest = std::min(total.earliest, t.lateness.least / step);
+      total.timed += t.lateness.count;
+      total.late_steps += steps_late(*row) * static_cast<double>(t.lateness.count);
+      total.point_error_most = std::max(total.point_error_most, t.point_error.most);
+    }
+  }
+  return totals;
+}
+
+double mean_lateness(const Total& total) { return total.late_steps / static_cast<double>(total.timed); }
+
+Table rules_table(const std::vector<Total>& totals) {
+  using T = Total;
+  const auto timed = [](const T& t) { return t.timed > 0; };
+  const auto columns = columns_of<T>(
+      text("rule", "How a hit is found.", &T::rule), value("shots", "1", "Shots.", &T::shots),
+      value("touching", "1", "True hits.", &T::touching), value("missed", "1", "Of those, not seen.", &T::missed),
+      value("missed_expected", "1", "By theory.", &T::missed_theory),
+      value("reported", "1", "Hits it reports.", &T::reported),
+      value("false_hits", "1", "Of those, shots whose bullet does not touch.", &T::false_hits),
+      value("false_expected", "1", "By theory.", &T::false_theory),
+      where(timed, columns_of<T>(value("lateness_mean", "step",
+                                       "From contact to the report, of the true hits it reports.", mean_lateness),
+                                 value("lateness_min", "step", "The earliest of all cells.", &T::earliest),
+                                 value("lateness_max", "step", "The latest of all cells.", &T::latest))),
+      value("path_error_max", "m", "Largest distance from the arc at the range, of all cells.", &T::path_error_most),
+      where(timed, value("point_error_max", "m", "Largest distance from the true point on the target, of all cells.",
+                         &T::point_error_most)));
+  return in_report(
+      table("rules", "Each rule over all of its cells, every cell with the same number of shots.", columns, totals));
+}
+
+/// How far hitscan is good: by speed and air, the range at which it misses a share of the hits.
+Table reach_table(const std::vector<Cell>& cells) {
+  const auto bullet = [](const Cell& c) { return std::array{c.speed, c.drag, c.wind, c.gravity, c.target}; };
+  std::vector<Cell> bullets;
+  for (const Group<Cell>& group : group_by(cells, bullet)) bullets.push_back(*group[0]);
+  const auto range = [](double share) { return [=](const Cell& c) { return range_of_missed(c, share); }; };
+  const auto time = [](double share) {
+    return [=](const Cell& c) -> std::optional<double> {
+      const auto found = range_of_missed(c, share);
+      return found ? std::optional(time_to(arc_of<double>(c), *found)) : std::nullopt;
+    };
+  };
+  const auto columns = columns_of<Cell>(
+      value("speed", "m/s", "At the muzzle.", &Cell::speed),
+      value("drag", "1/s", "Share of its speed, as seen from the air, that the bullet loses a second.", &Cell::drag),
+      value("wind", "m/s", "Across the line of fire.", &Cell::wind),
+      value("gravity", "m/s^2", "Downward.", &Cell::gravity),
+      value("target", "m", "Radius of the target.", &Cell::target),
+      value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
+      value("time_5_percent", "s", "Flight time to there.", time(0.05)),
+      value("range_50_percent", "m", "Range at which half of the hits are missed.", range(0.5)),
+      value("time_50_percent", "s", "Flight time to there.", time(0.5)));
+  return in_report(
+      table("reach",
+            "How far hitscan is good: the range at which the ray misses a share of the hits of a bullet without "
+            "radius, in the limit of flat fire. Missing where the bullet slows to a tenth of its speed before.",
+            columns, bullets));
+}
+
+Table counts_test_table(const std::vector<SelfTest>& tests) {
+  Table table = self_test_table(tests);
+  table.description = "Counts of independent shots against theory, over all cells of a rule and event at once.";
+  for (Column& column : table.columns) {
+    if (column.name == "method") column = {"rule", ColumnType::text, "", "How a hit is found."};
+    if (column.name == "scalar") column = {"event", ColumnType::text, "", "What is counted."};
+    if (column.name == "judged_cells") column.description = "Cells with at least 5 expected events and 5 without.";
+  }
+  return table;
+}
+
+Table moments_table(const std::vector<HitscanMomentTest>& tests) {
+  using T = HitscanMomentTest;
+  const auto columns = columns_of<T>(
+      text("rule", "How a hit is found.", &T::rule), text("quantity", "What is measured.", &T::quantity),
+      value("cells", "1", "Cells in which it is.", &T::cells),
+      value("out_of_bounds", "1", "Of those, cells with a shot beyond what is possible; must be 0.", &T::out_of_bounds),
+      residual_columns("Cells whose mean is held against theory.", "Sum of squared standard residuals of the means.",
+                       &T::means),
+      value("passed", "", "All of the above hold.", &T::passed));
+  return in_report(
+      table("moments", "Path errors and lateness against theory, over all cells of a rule at once.", columns, tests));
+}
+
+// What the pictures show.
+
+using Read = std::function<double(const Row&)>;
+
+double off(const Row& row) { return deflection(row.cell) / row.cell.target; }
+double speed_there(const Row& row) {
+  const auto there = at_distance(arc_of<double>(row.cell), row.cell.range);
+  return std::hypot(there.vx, there.vs);
+}
+
+/// What is drawn of a row, with its bars.
+Plot drawn(const Rows& rows) {
+  const auto is_judged = [](const Row& r) { return can_be_judged(r.tally.shots, r.expected.missed); };
+  const auto late_bar = [](double sign) {
+    return [=](const Row& r) -> std::optional<double> {
+      if (!r.expected.lateness) return std::nullopt;
+      const double sigma = r.expected.lateness->sigma / std::sqrt(static_cast<double>(r.tally.lateness.count));
+      return steps_late(r) + sign * 1.96 * sigma / r.cell.step;
+    };
+  };
+  const auto columns = columns_of<Row>(
+      text("rule", "", rule_name),
+      text("bullet", "", [](const Row& r) { return fmt::format("bullet radius {:g} mm", 1e3 * r.cell.radius); }),
+      value("off", "", "", off), value("time", "", "", time_of), value("speed", "", "", speed_there),
+      value("path_error", "", "", mean_path_error), share("missed", "", missed, touching, "missed_"),
+      share("false", "", false_hits, reported, "false_"),
+      where(is_judged,
+            value("residual", "", "",
+                  [](const Row& r) { return standard_residual(missed(r), r.tally.shots, r.expected.missed); })),
+      where(is_timed,
+            columns_of<Row>(ValueColumn{"late", "", "", steps_late, "late_lower", "late_upper"},
+                            value("late_lower", "", "", late_bar(-1)), value("late_upper", "", "", late_bar(1)),
+                            value("early", "", "", [](const Row& r) { return -steps_late(r); }))));
+  return plot(table("drawn", "", columns, rows));
+}
+
+std::set<double> radii_of(const Rows& rows) {
+  std::set<double> radii;
+  for (const Row& row : rows) radii.insert(row.cell.radius);
+  return radii;
+}
+
+Series curve(const char* label) {
+  return {.label = label, .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+}
+void add_point(Series& series, double x, double y) {
+  series.x.push_back(x);
+  series.y.push_back(y);
+}
+
+/// Through what theory says of each row, for each radius, with gaps.
+Series theory_through(Rows rows, const Read& x, const Read& y) {
+  Series series = curve("theory");
+  std::ranges::stable_sort(rows, {}, x);
+  for (const double radius : radii_of(rows)) {
+    for (const Row& row : rows) {
+      if (row.cell.radius == radius) add_point(series, x(row), y(row));
+    }
+    add_point(series, series.x.back(), nan);
+  }
+  return series;
+}
+
+/// The lens of flat fire over the deflection, for each radius.
+Series flat_curves(const Rows& rows, double (*share)(double target, double radius, double deflection)) {
+  Series series = curve("theory, flat fire");
+  const auto [least, most] = std::ranges::minmax(rows, {}, off);
+  const double from = off(least), to = off(most), target = rows.front().cell.target;
+  constexpr int points = 400;
+  for (const double radius : radii_of(rows)) {
+    for (int i = 0; i <= points; ++i) {
+      const double x = from * std::pow(to / from, static_cast<double>(i) / points);
+      add_point(series, x, share(target, radius, x * target));
+    }
+    add_point(series, to, nan);
+  }
+  return series;
+}
+
+/// Of hitscan, all with some deflection.
+Figure missed_figure(const Rows& rays) {
+  const auto over_deflection = [&](const char* y, const char* label, double height) -> Panel {
+    return drawn(rays)
+        .x("off", Axis::log, "deflection at the range / radius of the target [1]")
+        .y(y, Axis::linear, label)
+        .by("bullet")
+        .height(height);
+  };
+  Panel missed = over_deflection("missed", "true hits missed [1]", 1.3);
+  Panel wrong = over_deflection("false", "hits that are false [1]", 1.3);
+  missed.series.push_back(flat_curves(rays, flat_missed));
+  wrong.series.push_back(flat_curves(rays, flat_false));
+  return {.name = "missed",
+          .title = "What the ray of an instant bullet misses, and hits falsely",
+          .caption =
+              "Above, the share of true hits that hitscan does not see, in the middle, the share of its hits that "
+              "are false, with 95 % Wilson intervals, against how far gravity and wind take the bullet from the "
+              "line of fire. The curves are the lens that two discs share. Below, the residuals against the full "
+              "theory.",
+          .panels = {missed, wrong, over_deflection("residual", "residual of the misses [standard errors]", 1)}};
+}
+
+/// Of every rule, one radius and air.
+Figure path_error_figure(const Rows& rows) {
+  const Rows ray = of_rule(rows, hitscan_ray), frames = of_rule(rows, next_frame), steps = of_rule(rows, swept_steps);
+  Panel panel = drawn(chosen(rows, [](const Row& r) { return r.rule.name != hitscan_ball.name; }))
+                    .x("time", Axis::log, "flight time [s]")
+                    .y("path_error", Axis::log, "mean distance from the arc [m]")
+                    .by("rule");
+  for (const Rows* of_one : {&ray, &frames, &steps}) {
+    if (!of_one->empty())
+      panel.series.push_back(theory_through(*of_one, time_of, [](const Row& r) { return r.expected.path_error.mean; }));
+  }
+  return {.name = "path_error",
+          .title = "How far each rule's path is from the arc at the range",
+          .caption =
+              "Mean distance from the arc where the path crosses the plane of the target, against the flight "
+              "time, and the theory. The ray is off by the whole fall; the rules that go step by step by that of "
+              "a step, or less in a first step that reaches the target.",
+          .panels = {panel}};
+}
+
+/// Without panels if no rule has a time.
+Figure lateness_figure(const Rows& rows) {
+  Figure figure = {.name = "lateness",
+                   .title = "When a hit is reported",
+                   .caption =
+                       "Above, the mean time from first contact to the report of next_frame, with 95 % "
+                       "intervals, and the theory: half a step, and the time from where the ball touches to "
+                       "where its center does; flights of a step or more. Below, how much too early hitscan "
+                       "reports: the whole flight, until it hits nothing the bullet hits.",
+                   .panels = {}};
+  const Rows framed =
+      chosen(of_rule(rows, next_frame), [](const Row& r) { return is_timed(r) && flight_time(r.cell) >= r.cell.step; });
+  if (!framed.empty()) {
+    Panel panel = drawn(framed)
+                      .x("speed", Axis::log, "speed at the target [m/s]")
+                      .y("late", Axis::linear, "mean lateness of next_frame [steps]")
+                      .by("bullet");
+    panel.series.push_back(
+        theory_through(framed, speed_there, [](const Row& r) { return r.expected.lateness->mean / r.cell.step; }));
+    figure.panels.push_back(std::move(panel));
+  }
+  const Rows instant = chosen(of_rule(rows, hitscan_ray), is_timed);
+  if (!instant.empty()) {
+    Panel panel = drawn(instant)
+                      .x("time", Axis::log, "flight time [s]")
+                      .y("early", Axis::log, "hitscan is early by [steps]")
+                      .by("bullet");
+    const double radius = *radii_of(instant).begin();
+    panel.series.push_back(theory_through(chosen(instant, [&](const Row& r) { return r.cell.radius == radius; }),
+                                          time_of, [](const Row& r) { return time_of(r) / r.cell.step; }));
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+/// Those whose rule was asked. Of the known shots none, of several targets and steps the first.
+std::vector<Figure> figures_of(const Rows& rows) {
+  const Rows asked = chosen(rows, [](const Row& r) { return !is_known(r.cell); });
+  if (asked.empty()) return {};
+  const Cell& one = asked.front().cell;
+  const Rows alike =
+      chosen(asked, [&](const Row& r) { return r.cell.target == one.target && r.cell.step == one.step; });
+  const Rows bent = chosen(alike, [](const Row& r) { return deflection(r.cell) > 0; });
+  const Rows rays = of_rule(bent, hitscan_ray);
+  const Rows of_one_kind = chosen(bent, [&](const Row& r) {
+    return r.cell.drag == one.drag && r.cell.wind == one.wind && r.cell.radius == one.radius;
+  });
+  std::vector<Figure> figures;
+  if (!rays.empty()) figures.push_back(missed_figure(rays));
+  if (!of_one_kind.empty()) figures.push_back(path_error_figure(of_one_kind));
+  if (Figure lateness = lateness_figure(alike); !lateness.panels.empty()) figures.push_back(std::move(lateness));
+  return figures;
+}
+
+// What it says.
+
+std::string percent(const std::optional<double>& x) { return x ? fmt::format("{:.1f} %", 100 * *x) : "-"; }
+std::string meters(double x) { return rounded_text(x, 3) + " m"; }
+
+std::string known_answer(const Rows& rows) {
+  std::string text;
+  for (const Row& row : of_rule(rows, hitscan_ray)) {
+    if (!is_known(row.cell)) continue;
+    text += fmt::format("{}{} with a {} (theory {}, the arc {} off the line of fire)",
+                        text.empty() ? "Of the true hits the ray misses " : ", ", percent(missed_share(row)),
+                        known_name(row.cell), percent(missed_share_theory(row)), meters(deflection(row.cell)));
+  }
+  return text.empty() ? text : text + ". ";
+}
+
+/// From when on the ray is no longer good, and what its lack of a radius costs: of the settings' cells, those of the thinnest and the
+/// thickest bullet.
+std::string ray_answer(const Rows& rows) {
+  const Rows rays =
+      chosen(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
+  if (rays.empty()) return "";
+  const std::set<double> radii = radii_of(rays);
+  const double thin = *radii.begin(), thick = *radii.rbegin();
+  double good = 0, bad = std::numeric_limits<double>::infinity(), least = 1;
+  for (const Row& row : rays) {
+    const double share = *missed_share(row);
+    if (row.cell.radius == thin && share < 0.05) good = std::max(good, flight_time(row.cell));
+    if (row.cell.radius == thin && share > 0.5) bad = std::min(bad, flight_time(row.cell));
+    if (row.cell.radius == thick) least = std::min(least, share);
+  }
+  std::string text;
+  if (0 < good && good < bad) {
+    text += fmt::format(
+        "The flight time decides: of bullets of radius {:g} mm the ray misses less than 5 % in flights of up to {} s",
+        1e3 * thin, rounded_text(good, 2));
+    if (std::isfinite(bad)) text += fmt::format(" and more than half from {} s on", rounded_text(bad, 2));
+    text += ". ";
+  }
+  if (thick > 0) {
+    text += fmt::format("It has no radius: of the hits of a bullet of {:g} mm it misses {} and more. ", 1e3 * thick,
+                        percent(least));
+  }
+  return text;
+}
+
+std::string total_answer(const Total& t) {
+  if (t.rule == next_frame.name && t.timed > 0) {
+    return fmt::format(
+        "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; it "
+        "misses {} of the true hits, and {} of its own are false. ",
+        mean_lateness(t), t.latest, percent(quotient(t.missed, t.touching)),
+        percent(quotient(t.false_hits, t.reported)));
+  }
+  if (t.rule == swept_steps.name) {
+    return fmt::format(
+        "The ball swept along each step is wrong on {} of {} shots and at most {} off the arc at the range.",
+        grouped_text(t.missed + t.false_hits), grouped_text(t.shots), meters(t.path_error_most));
+  }
+  return "";
+}
+
+std::string answer_of(const Rows& rows, const std::vector<Total>& totals) {
+  std::string text = known_answer(rows) + ray_answer(rows);
+  for (const Total& total : totals) text += total_answer(total);
+  if (!text.empty()) return text;
+  const Total& first = totals.front();
+  return fmt::format("{} misses {} of {} true hits and makes {} false ones.", first.rule, grouped_text(first.missed),
+                     grouped_text(first.touching), grouped_text(first.false_hits));
+}
+
+Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
+  const std::vector<Total> totals = totals_of(rows);
+  const std::vector<SelfTest> counts = self_test(counts_of(rows));
+  const std::vector<HitscanMomentTest> moments = moment_tests(rows);
+  const bool moments_pass = std::ranges::all_of(moments, &HitscanMomentTest::passed);
+  const auto columns = row_columns();
+  const Table all =
+      table("cells", "Every cell at every rule: what it misses, what it hits falsely, how far off and how late it is.",
+            columns, rows);
+  const Table known = in_report(
+      table("known_shots",
+            "Shots whose numbers a reader knows, at every rule; cells.csv holds all that was measured of them.",
+            columns.without({"drag", "flight_time", "deflection", "touching", "touching_theory", "missed", "reported",
+                             "false_hits", "path_error_max", "point_error_mean", "path_error_bound", "point_error_max",
+                             "lateness_min", "lateness_max"}),
+            chosen(rows, [](const Row& r) { return is_known(r.cell); })));
+  const Table rules = rules_table(totals);
+  return {.answer = answer_of(rows, totals),
+          .summary = terminal(known, {"shot", "rule", "missed_share", "missed_theory", "false_share", "false_theory",
+                                      "path_error_mean", "lateness_mean"}) +
+                     "\n" +
+                     terminal(rules, {"rule", "touching", "missed", "missed_expected", "reported", "false_hits",
+                                      "false_expected", "lateness_mean", "path_error_max"}) +
+                     fmt::format("\nSelf-test: counts {}, errors {}.\n", all_passed(counts) ? "passed" : "FAILED",
+                                 moments_pass ? "passed" : "FAILED"),
+          .tables = {known, reach_table(cells), rules, counts_test_table(counts), moments_table(moments), all},
+          .figures = figures_of(rows),
+          .sections = {{"Self-test", self_test_text(counts)}},
+          .self_test_passed = all_passed(counts) && moments_pass};
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  std::vector<std::string_view> names;
+  std::ranges::transform(hitscan_rules, std::back_inserter(names), &HitscanRule::name);
+  const std::vector<std::string> asked = settings.choices_or_all("rule", names);
+  std::vector<HitscanRule> rules;
+  std::ranges::copy_if(hitscan_rules, std::back_inserter(rules),
+                       [&](const HitscanRule& rule) { return std::ranges::find(asked, rule.name) != asked.end(); });
+  const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
+  const std::vector<Cell> cells = make_hitscan_cells(settings);
+  std::vector<Task<std::vector<Tally>>> tasks;
+  for (const Cell& cell : cells) {
+    tasks.push_back({hitscan_factors().key(cell), shots,
+                     [rules, cell, shots, seed = options.seed] { return shoot(rules, cell, seed, shots); }});
+  }
+  const auto finish = [cells, rules](const Done<std::vector<Tally>>& done) {
+    return outcome_of(cells, hitscan_rows(cells, rules, done.results));
+  };
+  return make_run(finish, std::move(tasks));
+}
+
+}  // namespace
+
+Experiment hitscan_experiment() {
+  return {
+      "hitscan",
+      "A ray stands for a bullet: how many hits does it miss, how many are false, and how far off is it, at what range "
+      "and speed?",
+      embedded_toml("hitscan"), configure};
+}
+
+}  // namespace thinwall

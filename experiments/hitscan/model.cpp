@@ -1,0 +1,323 @@
+#include <thinwall/experiments/hitscan/model.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <thinwall/discrete/queries.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+namespace thinwall {
+
+namespace {
+
+constexpr double least_speed_left = 0.1;     // [1] of the muzzle's: with less the bullet does not arrive
+constexpr double most_bend = 0.125;          // [1] the oracle asks for one closest approach: docs/hitscan.md
+constexpr double least_path = 0.01;          // [reach] a step
+constexpr double least_reach = 1e-6;         // [range] the oracle subtracts distances along the range
+constexpr double most_drag_in_a_step = 0.5;  // [1] drag * step: a ray of a step is at most two steps long
+
+bool arrives(const HitscanCell& c) { return c.drag * (c.range + reach(c)) <= (1 - least_speed_left) * c.speed; }
+
+void check(const Settings& settings, const HitscanCell& c) {
+  if (!(c.range > 2 * reach(c))) {
+    settings.complain("range", fmt::format("more than 2 * (target + radius); {} is not, at target {}, radius {}",
+                                           c.range, c.target, c.radius));
+  }
+  if (reach(c) < least_reach * c.range) {
+    settings.complain(
+        "target", fmt::format("such that target + radius is at least {} of the range; at range {}, radius {} {} is not",
+                              least_reach, c.range, c.radius, c.target));
+  }
+  if (c.drag * c.step > most_drag_in_a_step) {
+    settings.complain("step",
+                      fmt::format("drag * step at most {}; drag {}, step {}", most_drag_in_a_step, c.drag, c.step));
+  }
+  const auto arc = arc_of<double>(c);
+  const auto there = at_distance(arc, c.range + reach(c));
+  if (reach(c) * arc.pull > most_bend * there.vx * there.vx) {
+    settings.complain("speed",
+                      fmt::format("fast enough to fly nearly straight past a target: (target + radius) * (gravity and "
+                                  "wind) at most {} of the squared speed there; not so at speed {}, range {}",
+                                  most_bend, c.speed, c.range));
+  }
+  if (there.vx * c.step < least_path * reach(c)) {
+    settings.complain(
+        "step", fmt::format("a path of at least {} of target + radius a step; not so at speed {}, step {}", least_path,
+                            c.speed, c.step));
+  }
+}
+
+using Real = long double;
+
+/// Where a function that is negative at the one end and positive at the other is zero.
+template <class Function> Real root(const Function& f, const Real& lower, const Real& upper) {
+  const boost::math::tools::eps_tolerance<Real> tolerance(std::numeric_limits<Real>::digits - 2);
+  std::uintmax_t most = 200;
+  const auto bracket = boost::math::tools::toms748_solve(f, lower, upper, tolerance, most);
+  return bracket.first + (bracket.second - bracket.first) / 2;
+}
+
+/// The arc, seen from the target's center: in its plane, and how far beside that plane the center is.
+struct ArcFromTarget {
+  Arc<Real> arc;
+  Real range, along, beside_squared, reach;
+
+  /// Of the distance from the target's center: its square less that of contact.
+  Real excess(const Real& x) const {
+    const Real s = at_distance(arc, x).s - along, ahead = x - range;
+    return ahead * ahead + s * s + beside_squared - reach * reach;
+  }
+  /// The sign of its slope.
+  Real slope(const Real& x) const {
+    const auto p = at_distance(arc, x);
+    return (x - range) + (p.s - along) * p.vs / p.vx;
+  }
+  bool passes_beside() const {
+    const Real low = at_distance(arc, Real(range - reach)).s, high = at_distance(arc, Real(range + reach)).s;
+    return beside_squared > reach * reach || along < low - reach || along > high + reach;
+  }
+};
+
+/// A straight bit of the way a rule takes the bullet to fly. A line takes no time.
+struct FlightPiece {
+  Vec3<double> start, displacement;  ///< [m]
+  double from, until;                ///< [s] since firing
+};
+
+/// Those that may come near the target.
+std::vector<FlightPiece> flight_pieces(FlightPath path, const HitscanCell& c, double phase) {
+  if (path == FlightPath::line) return {{{0, 0, 0}, {2 * c.range, 0, 0}, 0, 0}};  // past the target, wherever it is hit
+  const Arc<double> arc = arc_of<double>(c);
+  const Vec3<double> ahead(1, 0, 0), pull = pull_direction(c);
+  const std::vector<double> frames = frames_near_target(c, phase);
+  std::vector<FlightPiece> pieces;
+  for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
+    const double from = frames[i], until = frames[i + 1];
+    const auto here = after(arc, from);
+    const Vec3<double> start = ahead * here.x + pull * here.s;
+    if (path == FlightPath::tangents) {
+      const Vec3<double> velocity = ahead * here.vx + pull * here.vs;
+      pieces.push_back({start, velocity * (until - from), from, until});
+    } else {
+      const auto next = after(arc, until);
+      const Vec3<double> end = ahead * next.x + pull * next.s;
+      pieces.push_back({start, end - start, from, until});
+    }
+  }
+  return pieces;
+}
+
+struct PieceHit {
+  double part;  ///< [1] of the piece
+  Vec3<double> point;
+};
+
+std::optional<PieceHit> hit_on(const FlightPiece& piece, const HitscanRule& rule, const HitscanCell& c,
+                               const Sphere<double>& target) {
+  if (rule.has_radius) {
+    const auto toi = time_of_impact(Moving{Sphere{piece.start, c.radius}, piece.displacement}, at_rest(target));
+    if (toi.status != ToiStatus::hit && toi.status != ToiStatus::overlapping) return std::nullopt;
+    return PieceHit{toi.time, toi.point};
+  }
+  const auto hit = raycast(Ray<double>{piece.start, piece.displacement, 1}, target);
+  if (!hit) return std::nullopt;
+  return PieceHit{hit->t, hit->point};
+}
+
+double report_time(ReportTime report, const FlightPiece& piece, double part) {
+  switch (report) {
+    case ReportTime::firing: return 0;
+    case ReportTime::end_of_step: return piece.until;
+    case ReportTime::in_step: break;
+  }
+  return piece.from + part * (piece.until - piece.from);
+}
+
+void note(const HitscanAnswer& answer, const TrueImpact& truth, const HitscanCell& c, const Vec3<double>& center,
+          const Vec3<double>& arc_at_range, HitscanTally& tally) {
+  ++tally.shots;
+  tally.touching += truth.touches ? 1 : 0;
+  tally.missed += truth.touches && !answer.hit ? 1 : 0;
+  tally.false_hits += !truth.touches && answer.hit ? 1 : 0;
+  tally.path_error.add((answer.at_range - arc_at_range).norm(), length_unit(c));
+  if (!truth.touches || !answer.hit) return;
+  tally.lateness.add(answer.time - truth.time, time_unit(c));
+  tally.point_error.add((answer.point - contact_point(c, truth, center)).norm(), length_unit(c));
+}
+
+}  // namespace
+
+std::string_view known_name(const HitscanCell& c) {
+  const auto known = std::ranges::find(known_shots, c, &KnownShot::cell);
+  return known == known_shots.end() ? std::string_view() : known->name;
+}
+
+const Factors<HitscanCell>& hitscan_factors() {
+  const auto positive = [](double upper, std::string_view unit) {
+    return Range{.lower = 0, .upper = upper, .lower_open = true, .unit = unit};
+  };
+  using C = HitscanCell;
+  static const Factors<C> all =
+      factors<C>(
+          numbers("range", &C::range, positive(1e6, "m"), "From the muzzle to the plane of the target's center."),
+          numbers("speed", &C::speed, positive(1e6, "m/s"), "At the muzzle."),
+          numbers("radius", &C::radius, {.lower = 0, .upper = 1e3, .unit = "m"}, "Of the bullet."),
+          numbers("wind", &C::wind, {.lower = 0, .upper = 1e3, .unit = "m/s"},
+                  "Across the line of fire; 0 where there is no drag."),
+          numbers("drag", &C::drag, {.lower = 0, .upper = 1e3, .unit = "1/s"},
+                  "Share of its speed, as seen from the air, that the bullet loses a second."),
+          number("gravity", &C::gravity, {.lower = 0, .upper = 1e3, .unit = "m/s^2"}, "Downward."),
+          numbers("step", &C::step, positive(1e3, "s"), "Time step of the frames."),
+          numbers("target", &C::target, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Radius of the target."),
+          number("aim", &C::aim, {.lower = 1.1, .upper = 100},
+                 "Size of the discs that the target's center is drawn from."))
+          .first_fastest();
+  return all;
+}
+
+RandomStream random_stream(const HitscanCell& c, std::uint64_t seed) {
+  return {seed, stream_of(std::array{c.range, c.speed, c.radius, c.wind, c.drag, c.step, c.target, c.gravity, c.aim})};
+}
+
+double reach(const HitscanCell& c) { return c.target + c.radius; }
+
+Vec3<double> pull_direction(const HitscanCell& c) {
+  const double pull = arc_of<double>(c).pull;
+  if (pull == 0) return {0, -1, 0};
+  return {0, -c.gravity / pull, c.drag * c.wind / pull};
+}
+
+double deflection(const HitscanCell& c) { return at_distance(arc_of<double>(c), c.range).s; }
+
+double flight_time(const HitscanCell& c) { return time_to(arc_of<double>(c), c.range); }
+
+double disc_radius(const HitscanCell& c) {
+  const auto there = at_distance(arc_of<double>(c), c.range);
+  return c.aim * reach(c) * std::hypot(1.0, there.vs / there.vx);  // a ball's shadow along a steep arc is an ellipse
+}
+
+HitscanWindow contact_window(const HitscanCell& c) {
+  const auto arc = arc_of<double>(c);
+  return {time_to(arc, c.range - reach(c)), time_to(arc, c.range + reach(c))};
+}
+
+std::vector<double> frames_near_target(const HitscanCell& c, double phase) {
+  const HitscanWindow window = contact_window(c);
+  double frame = std::max(0.0, std::floor(window.from / c.step + phase) - 1);
+  std::vector<double> times;
+  do {
+    times.push_back(frame > 0 ? (frame - phase) * c.step : 0);
+    frame += 1;
+  } while (times.back() < window.until);
+  return times;
+}
+
+std::vector<HitscanCell> make_hitscan_cells(const Settings& settings) {
+  bool any = false;
+  const auto fired = hitscan_factors().cells(settings, 1, {}, [&](HitscanCell& c) {
+    if (c.drag == 0) c.wind = 0;  // without drag a wind does nothing
+    if (!arrives(c)) return false;
+    any = true;
+    if (is_known(c)) return false;
+    check(settings, c);
+    return true;
+  });
+  if (!any)
+    settings.complain("range", "a range that some bullet reaches with a tenth of its speed: lower it, or the drag");
+  std::vector<HitscanCell> all;
+  for (const KnownShot& known : known_shots) all.push_back(known.cell);
+  all.insert(all.end(), fired.begin(), fired.end());
+  return all;
+}
+
+Placement random_placement(const HitscanCell& c, const RandomStream& stream, std::uint64_t trial) {
+  const double disc = disc_radius(c);
+  const Vec3<double> on_arc = pull_direction(c) * deflection(c);
+  for (std::uint64_t draw = 0;; ++draw) {
+    const RandomWords words = random_words(stream, trial, draw);
+    const double y = (2 * uniform(words[1]) - 1) * disc, z = (2 * uniform(words[2]) - 1) * disc;
+    if (y * y + z * z > disc * disc) continue;
+    const bool around_arc = uniform(words[3]) < 0.5;
+    const Vec3<double> across = Vec3<double>(0, y, z) + (around_arc ? on_arc : Vec3<double>(0, 0, 0));
+    if (around_arc && across.squaredNorm() <= disc * disc) continue;  // what both discs hold comes from the first alone
+    return {{across + Vec3<double>(c.range, 0, 0), c.target}, uniform(words[0])};
+  }
+}
+
+TrueImpact true_impact(const HitscanCell& c, const Vec3<double>& target_center) {
+  const Vec3<Real> pull = pull_direction(c).cast<Real>(), center(0, target_center[1], target_center[2]);
+  const Real along = center.dot(pull), reach = Real(c.target) + Real(c.radius);
+  const ArcFromTarget seen = {arc_of<Real>(c), target_center[0], along, (center - pull * along).squaredNorm(), reach};
+  if (seen.passes_beside()) return {false};
+  const Real first = seen.range - reach, last = seen.range + reach;
+  Real closest = seen.slope(first) >= 0 ? first : last;
+  if (seen.slope(first) < 0 && seen.slope(last) > 0) {
+    closest = root([&](const Real& x) { return seen.slope(x); }, first, last);
+  }
+  if (seen.excess(closest) > 0) return {false};
+  const Real entry =
+      seen.excess(first) <= 0 ? first : root([&](const Real& x) { return seen.excess(x); }, first, closest);
+  const Real s = at_distance(seen.arc, entry).s;
+  const Vec3<Real> bullet = Vec3<Real>(entry, 0, 0) + pull * s;
+  return {true, static_cast<double>(time_to(seen.arc, entry)), bullet.cast<double>()};
+}
+
+Vec3<double> contact_point(const HitscanCell& c, const TrueImpact& truth, const Vec3<double>& target_center) {
+  return target_center + (truth.bullet - target_center) * (c.target / reach(c));
+}
+
+HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Placement& placement) {
+  HitscanAnswer answer;
+  bool crossed = false;
+  for (const FlightPiece& piece : flight_pieces(rule.path, c, placement.phase)) {
+    if (!crossed && piece.start[0] + piece.displacement[0] >= c.range) {
+      crossed = true;
+      answer.at_range = piece.start + piece.displacement * ((c.range - piece.start[0]) / piece.displacement[0]);
+    }
+    if (answer.hit) continue;
+    const auto hit = hit_on(piece, rule, c, placement.target);
+    if (!hit) continue;
+    answer.hit = true;
+    answer.time = report_time(rule.report, piece, hit->part);
+    answer.point = hit->point;
+  }
+  return answer;
+}
+
+constexpr int sum_bits = 30;
+
+void HitscanSpread::add(double x, double unit) {
+  ++count;
+  sum += std::llround(std::ldexp(x / unit, sum_bits));
+  least = std::min(least, x);
+  most = std::max(most, x);
+}
+
+double HitscanSpread::mean(double unit) const {
+  return std::ldexp(static_cast<double>(sum), -sum_bits) * unit / static_cast<double>(count);
+}
+
+double time_unit(const HitscanCell& c) { return contact_window(c).until + c.step; }
+double length_unit(const HitscanCell& c) { return deflection(c) + reach(c); }
+
+std::vector<HitscanTally> shoot(std::span<const HitscanRule> rules, const HitscanCell& c, std::uint64_t seed,
+                                std::int64_t shots) {
+  const RandomStream stream = random_stream(c, seed);
+  const Vec3<double> arc_at_range = Vec3<double>(c.range, 0, 0) + pull_direction(c) * deflection(c);
+  std::vector<HitscanTally> tallies(rules.size());
+  for (std::int64_t i = 0; i < shots; ++i) {
+    const Placement placement = random_placement(c, stream, static_cast<std::uint64_t>(i));
+    const TrueImpact truth = true_impact(c, placement.target.center);
+    for (std::size_t k = 0; k < rules.size(); ++k) {
+      note(answer_of(rules[k], c, placement), truth, c, placement.target.center, arc_at_range, tallies[k]);
+    }
+  }
+  return tallies;
+}
+
+}  // namespace thinwall
