@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include <thinwall/experiments/accuracy/pairs.hpp>
+#include <thinwall/experiments/accuracy/model.hpp>
 
 namespace thinwall {
 namespace {
