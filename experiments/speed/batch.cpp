@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/speed/report.hpp>
+#include <thinwall/experiments/speed/batch.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 
 namespace thinwall {
@@ -31,7 +31,7 @@ std::vector<BatchRow> batch_rows(const std::vector<TimedWay>& all) {
 template <class Part> std::vector<std::string> distinct(const std::vector<BatchRow>& rows, Part part) {
   std::vector<std::string> names;
   for (const BatchRow& row : rows) {
-    if (std::find(names.begin(), names.end(), row.*part) == names.end()) names.push_back(row.*part);
+    if (std::ranges::find(names, row.*part) == names.end()) names.push_back(row.*part);
   }
   return names;
 }
@@ -46,8 +46,8 @@ std::string way_label(const std::string& how) {
 }
 
 void add_row(Series& series, const BatchRow& row, double at) {
-  const WayTime time = time_of(*row.timed);
-  series.x.push_back(time.median);
+  const Measured time = row.timed->time();
+  series.x.push_back(time.value);
   series.x_lower.push_back(time.interval.lower);
   series.x_upper.push_back(time.interval.upper);
   series.y.push_back(at);
@@ -102,10 +102,10 @@ Figure batch_figure(const std::vector<TimedWay>& all) {
       Series series{.label = way_label(how), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
       for (const BatchRow& row : rows) {
         if (row.where != where || row.how != how) continue;
-        const auto at = static_cast<double>(subjects.end() - std::find(subjects.begin(), subjects.end(), row.what));
+        const auto at = static_cast<double>(subjects.end() - std::ranges::find(subjects, row.what));
         add_row(series, row, at);
         if (row.timed->floor_ns.empty() || how == "row_by_row") continue;
-        if (std::find(floor.y.begin(), floor.y.end(), at) != floor.y.end()) continue;
+        if (std::ranges::find(floor.y, at) != floor.y.end()) continue;
         floor.x.push_back(median(row.timed->floor_ns));
         floor.y.push_back(at);
       }
