@@ -40,7 +40,7 @@ enum class Merge {
   sum,    ///< of whole numbers, of lists of them entry by entry, of records
   least,  ///< the smaller one; of nothing it is infinity
   most,   ///< the larger one; of nothing it is minus infinity
-  kept    ///< the first one: it says what was counted, or stands in one part alone
+  kept    ///< the first that is not empty: it says what was counted, or stands in one part alone
 };
 
 template <class T, class V> struct Field {
@@ -99,8 +99,9 @@ template <Record T> T& operator+=(T& into, const T& more);
 namespace detail {
 
 template <class V> void merge(Merge how, V& into, const V& more) {
-  if (how == Merge::kept) return;
-  if constexpr (Record<V>) {
+  if (how == Merge::kept) {
+    if (into == V{}) into = more;
+  } else if constexpr (Record<V>) {
     into += more;
   } else if constexpr (requires { into.begin(); } && !std::same_as<V, std::string>) {
     if constexpr (requires { into.resize(more.size()); }) {
