@@ -16,6 +16,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/rounds.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/text/escape.hpp>
@@ -39,21 +40,12 @@ struct Crowd {
   BounceScenario scenario;
 };
 
-/// One ball that bounces on and on, after some bounces.
+/// Balls that bounce on and on, after some bounces.
 struct LongRow {
   std::string policy;
   Cell cell;
   LongRunPoint at;
   double random_mean, random_sigma;  ///< [1] the mean and the deviation, if every phase were random
-};
-
-/// The one that begins with the drop itself.
-struct DroppedRow {
-  std::string policy;
-  Cell cell;
-  std::int64_t bounces;  ///< that it lasted
-  double energy;         ///< [1] at its end, over the first
-  double random_mean;    ///< [1] the same, if every phase were random
 };
 
 /// A policy at a step, timed: whole bounces without loss at evenly spaced phases, and nothing else.
@@ -75,13 +67,12 @@ struct Timed {
 struct WorkRow {
   std::string policy;
   Cell cell;
-  Tally errors;        ///< [g h / V] no chance in it
-  double nanoseconds;  ///< a bounce, from apex to apex: median over the rounds
-  Interval interval;   ///< its 95 % bootstrap interval
+  Tally errors;          ///< [g h / V] no chance in it
+  Measured nanoseconds;  ///< a bounce, from apex to apex: median over the rounds
 
   double mean_error() const { return errors.mean * delta(cell); }  ///< [1] of the energy, a bounce
   double rms_error() const { return errors.rms() * delta(cell); }  ///< [1] the same, root of the mean square
-  double nanoseconds_per_step() const { return nanoseconds * delta(cell) / 2; }
+  double nanoseconds_per_step() const { return nanoseconds.value * delta(cell) / 2; }
 };
 
 struct Results {
@@ -89,7 +80,7 @@ struct Results {
   std::vector<BounceTest> tests;
   std::vector<Crowd> crowds;
   std::vector<LongRow> long_rows;
-  std::vector<DroppedRow> dropped;
+  std::vector<LongRow> dropped;  ///< the one ball that begins with the drop itself
   std::vector<WorkRow> work;
 
   std::int64_t crowds_passed() const {
@@ -131,10 +122,12 @@ Columns<Row> row_columns() {
       policy_column(), step_column(), delta_column(),
       value("restitution", "1", "Speed after over speed before.", [](const Row& r) { return r.cell.restitution; }),
       fields(&Row::tally, {"bounces"}),
-      ValueColumn{"mean", unit, "Mean change of the flight's energy, beyond that of the restitution.",
-                  [](const Row& r) { return r.tally.mean; }, "mean_lower", "mean_upper"},
-      value("mean_lower", unit, "Lower end of its 95 % interval.", [](const Row& r) { return mean_interval(r).lower; }),
-      value("mean_upper", unit, "Upper end of its 95 % interval.", [](const Row& r) { return mean_interval(r).upper; }),
+      measured(
+          "mean", unit, "Mean change of the flight's energy, beyond that of the restitution.",
+          [](const Row& r) {
+            return Measured{r.tally.mean, mean_interval(r)};
+          },
+          "mean_"),
       value("theory", unit, "The same by theory.", [](const Row& r) { return r.theory.mean(); }),
       value("first_order", unit, "The theory for short steps.",
             [](const Row& r) { return bounce_theory(r.policy, 0, r.cell.restitution).mean(); }),
@@ -148,7 +141,21 @@ Columns<Row> row_columns() {
 
 Table test_table(const std::vector<BounceTest>& tests) {
   using T = BounceTest;
-  const auto whole = [](double x) { return static_cast<std::int64_t>(x); };
+  const auto bound = [](double Interval::*end) {
+    return [end](const T& t) -> std::optional<std::int64_t> {
+      if (t.means.judged == 0) return std::nullopt;
+      return static_cast<std::int64_t>(*t.covered_allowed().*end);
+    };
+  };
+  const auto residuals = [](const std::string& prefix, const char* what, ResidualTest T::*test) {
+    return where(
+        [=](const T& t) { return (t.*test).judged > 0; },
+        columns_of<T>(
+            value(prefix + "_chi_square", "1", what, [=](const T& t) { return (t.*test).chi_square; }),
+            value(prefix + "_lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
+                  [=](const T& t) { return (t.*test).allowed()->lower; }),
+            value(prefix + "_upper", "1", "Most allowed.", [=](const T& t) { return (t.*test).allowed()->upper; })));
+  };
   const auto columns = columns_of<T>(
       policy_column(),
       value("certain_cells", "1", "Cells in which phases do not matter: every bounce must give what theory says.",
@@ -157,26 +164,13 @@ Table test_table(const std::vector<BounceTest>& tests) {
       value("judged_cells", "1", "Cells of at least 30 bounces in which they do.",
             [](const T& t) { return t.means.judged; }),
       value("covered", "1", "Of those, cells whose 95 % interval holds the mean by theory.", &T::covered),
-      where([](const T& t) { return t.means.judged > 0; },
-            columns_of<T>(
-                value("covered_lower", "1", "Least allowed: central 99.9 % of Binomial(judged_cells, 0.95).",
-                      [=](const T& t) { return whole(t.covered_allowed()->lower); }),
-                value("covered_upper", "1", "Most allowed.",
-                      [=](const T& t) { return whole(t.covered_allowed()->upper); }),
-                value("mean_chi_square", "1", "Sum of squared residuals of the means.",
-                      [](const T& t) { return t.means.chi_square; }),
-                value("mean_lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
-                      [](const T& t) { return t.means.allowed()->lower; }),
-                value("mean_upper", "1", "Most allowed.", [](const T& t) { return t.means.allowed()->upper; }))),
+      value("covered_lower", "1", "Least allowed: central 99.9 % of Binomial(judged_cells, 0.95).",
+            bound(&Interval::lower)),
+      value("covered_upper", "1", "Most allowed.", bound(&Interval::upper)),
+      residuals("mean", "Sum of squared residuals of the means.", &T::means),
       value("spread_cells", "1", "Cells of at least 100 bounces, whose variance is judged too.",
             [](const T& t) { return t.variances.judged; }),
-      where([](const T& t) { return t.variances.judged > 0; },
-            columns_of<T>(
-                value("spread_chi_square", "1", "Sum of squared residuals of the variances.",
-                      [](const T& t) { return t.variances.chi_square; }),
-                value("spread_lower", "1", "Least allowed, in the same way.",
-                      [](const T& t) { return t.variances.allowed()->lower; }),
-                value("spread_upper", "1", "Most allowed.", [](const T& t) { return t.variances.allowed()->upper; }))),
+      residuals("spread", "Sum of squared residuals of the variances.", &T::variances),
       value("other_cells", "1", "Cells with too few bounces to judge.", &T::other_cells),
       value("passed", "", "All of the above hold.", &T::passed));
   return in_report(table(
@@ -198,11 +192,12 @@ Columns<LongRow> long_columns() {
                        value("random_sigma", "1", "The same at random phases, to first order.", &R::random_sigma));
 }
 
-Table dropped_table(const std::vector<DroppedRow>& rows) {
-  using R = DroppedRow;
+Table dropped_table(const std::vector<LongRow>& rows) {
+  using R = LongRow;
   const auto columns =
-      columns_of<R>(policy_column(), step_column(), value("bounces", "1", "Bounces that the run lasted.", &R::bounces),
-                    value("energy", "1", "Energy after the last of them over that of the first flight.", &R::energy),
+      columns_of<R>(policy_column(), step_column(), fields(&R::at, {"bounces"}),
+                    value("energy", "1", "Energy after the last bounce over that of the first flight.",
+                          [](const R& r) { return r.at.mean; }),
                     value("random_mean", "1", "Its mean at random phases, to first order.", &R::random_mean));
   return in_report(table(
       "dropped", "The same for one run that begins with the drop itself: its phase may lock where nothing is lost.",
@@ -226,13 +221,10 @@ Table even_phases_table(const std::vector<WorkRow>& work) {
 
 Columns<WorkRow> timing_columns() {
   using R = WorkRow;
-  return columns_of<R>(
-      policy_column(), step_column(), error_columns(),
-      ValueColumn{"nanoseconds", "ns", "A bounce; median over the rounds.", &R::nanoseconds, "lower", "upper"},
-      value("lower", "ns", "Lower end of its 95 % bootstrap interval.", [](const R& w) { return w.interval.lower; }),
-      value("upper", "ns", "Upper end of it.", [](const R& w) { return w.interval.upper; }),
-      value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
-            &R::nanoseconds_per_step));
+  return columns_of<R>(policy_column(), step_column(), error_columns(),
+                       measured("nanoseconds", "ns", "A bounce; median over the rounds.", &R::nanoseconds),
+                       value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
+                             &R::nanoseconds_per_step));
 }
 
 // What the pictures show.
@@ -300,10 +292,10 @@ Figure work_figure(const std::vector<WorkRow>& work) {
     for (const Group<WorkRow>& group : group_by(work, &WorkRow::policy)) {
       Series points = series_of(group[0]->policy, Mark::points), line = series_of(group[0]->policy, Mark::line);
       for (const WorkRow* w : group) {
-        points.x.push_back(w->nanoseconds);
+        points.x.push_back(w->nanoseconds.value);
         points.y.push_back(std::max(least_error, mean ? std::abs(w->mean_error()) : w->rms_error()));
-        points.x_lower.push_back(w->interval.lower);
-        points.x_upper.push_back(w->interval.upper);
+        points.x_lower.push_back(w->nanoseconds.interval.lower);
+        points.x_upper.push_back(w->nanoseconds.interval.upper);
       }
       points.lower = points.upper = line.y = points.y;
       line.x = points.x;
@@ -391,7 +383,8 @@ std::string cost_sentence(const std::vector<WorkRow>& work) {
   return fmt::format(
       "The exact arc is off by {:.1e} (rms) at its coarsest step, in {:.0f} ns a bounce; the nearest of the others, {} "
       "at {:.3g} s, by {:.1e} in {:.0f} ns. ",
-      arc->rms_error(), arc->nanoseconds, best->policy, best->cell.step, best->rms_error(), best->nanoseconds);
+      arc->rms_error(), arc->nanoseconds.value, best->policy, best->cell.step, best->rms_error(),
+      best->nanoseconds.value);
 }
 
 std::string answer_of(const Results& results) {
@@ -528,9 +521,7 @@ std::vector<WorkRow> work_of(const std::vector<Timed>& timed, const Done<Tally>&
     std::vector<double> rounds;
     for (std::size_t k = i; k < done.seconds.size(); k += timed.size())
       rounds.push_back(1e9 * done.seconds[k] / static_cast<double>(timed[i].bounces()));
-    const std::array<double, 1> place = {static_cast<double>(i)};
-    work.push_back({timed[i].policy.name, timed[i].cell, done.results[i], median(rounds),
-                    bootstrap_median(rounds, {0, stream_of(place)})});
+    work.push_back({timed[i].policy.name, timed[i].cell, done.results[i], median_of_rounds(rounds)});
   }
   return work;
 }
@@ -579,18 +570,16 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
     }
     results.rows = bounce_rows(cells, policies, tallies.results);
     results.tests = bounce_tests(results.rows);
-    const double d = delta(long_cell);
     for (std::size_t i = 0; i < policies.size(); ++i) {
       const BouncePolicy& policy = policies[i];
-      const double sigma = bounce_theory(policy.name, 0, 1).sigma();
-      for (const LongRunPoint& at : long_runs.results[i]) {
-        const auto n = static_cast<double>(at.bounces);
-        results.long_rows.push_back({policy.name, long_cell, at, random_phase_mean(policy.drift, d, n),
-                                     random_phase_sigma(policy.drift, sigma, d, n)});
-      }
-      const std::vector<double> dropped = policy.energies(long_cell, 0, run_bounces);
-      results.dropped.push_back({policy.name, long_cell, std::ssize(dropped), dropped.empty() ? 0 : dropped.back(),
-                                 random_phase_mean(policy.drift, d, static_cast<double>(dropped.size()))});
+      const auto row = [&](const LongRunPoint& at) -> LongRow {
+        const double sigma = bounce_theory(policy.name, 0, 1).sigma(), n = static_cast<double>(at.bounces);
+        return {policy.name, long_cell, at, random_phase_mean(policy.drift, delta(long_cell), n),
+                random_phase_sigma(policy.drift, sigma, delta(long_cell), n)};
+      };
+      std::ranges::transform(long_runs.results[i], std::back_inserter(results.long_rows), row);
+      const std::vector<double> energies = policy.energies(long_cell, 0, run_bounces);
+      results.dropped.push_back(row({std::ssize(energies), 1, energies.empty() ? 0 : energies.back(), 0}));
     }
     results.work = work_of(timed, times);
     return outcome_of(results, policies, long_cell);

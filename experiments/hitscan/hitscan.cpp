@@ -34,11 +34,13 @@ using Spread = HitscanSpread;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view rule_name(const Row& row) { return row.rule.name; }
-bool is_timed(const Row& row) { return row.tally.lateness.count > 0; }
-std::int64_t missed(const Row& row) { return row.tally.missed; }
-std::int64_t touching(const Row& row) { return row.tally.touching; }
-std::int64_t false_hits(const Row& row) { return row.tally.false_hits; }
-std::int64_t reported(const Row& row) { return row.tally.reported(); }
+
+// Of a row, or of a total.
+constexpr auto is_timed = [](const auto& row) { return row.tally.lateness.count > 0; };
+constexpr auto missed = [](const auto& row) { return row.tally.missed; };
+constexpr auto touching = [](const auto& row) { return row.tally.touching; };
+constexpr auto false_hits = [](const auto& row) { return row.tally.false_hits; };
+constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 
 std::optional<double> quotient(double part, double whole) {
   return whole > 0 ? std::optional(part / whole) : std::nullopt;
@@ -123,12 +125,12 @@ Columns<Row> row_columns() {
 /// A rule over all of its cells.
 struct Total {
   std::string_view rule;
-  std::int64_t shots = 0, touching = 0, missed = 0, reported = 0, false_hits = 0;
-  double missed_theory = 0, false_theory = 0;        ///< expected numbers
-  double latest = no_most, earliest = no_least;      ///< [step] the reports of true hits; < 0 is early
-  double late_steps = 0;                             ///< [step] sum over the timed
-  std::int64_t timed = 0;                            ///< true hits that are reported
-  double path_error_most = 0, point_error_most = 0;  ///< [m] at the range and on the target, of all cells
+  Tally tally;
+  double missed_theory = 0, false_theory = 0;    ///< expected numbers
+  double latest = no_most, earliest = no_least;  ///< [step] the reports of true hits; < 0 is early
+  double late_steps = 0;                         ///< [step] sum over them
+
+  double lateness() const { return late_steps / static_cast<double>(tally.lateness.count); }  ///< [step] mean
 };
 
 std::vector<Total> totals_of(const Rows& rows) {
@@ -136,47 +138,35 @@ std::vector<Total> totals_of(const Rows& rows) {
   for (const Group<Row>& group : group_by(rows, rule_name)) {
     Total& total = totals.emplace_back();
     total.rule = rule_name(*group[0]);
+    total.tally = total_of(group, &Row::tally);
     for (const Row* row : group) {
       const Tally& t = row->tally;
-      const double shots = static_cast<double>(t.shots), step = row->cell.step;
-      total.shots += t.shots;
-      total.touching += t.touching;
-      total.missed += t.missed;
-      total.reported += t.reported();
-      total.false_hits += t.false_hits;
-      total.missed_theory += row->expected.missed * shots;
-      total.false_theory += row->expected.false_hits * shots;
-      total.path_error_most = std::max(total.path_error_most, t.path_error.most);
+      total.missed_theory += row->expected.missed * static_cast<double>(t.shots);
+      total.false_theory += row->expected.false_hits * static_cast<double>(t.shots);
       if (!is_timed(*row)) continue;
-      total.latest = std::max(total.latest, t.lateness.most / step);
-      total.earliest = std::min(total.earliest, t.lateness.least / step);
-      total.timed += t.lateness.count;
+      total.latest = std::max(total.latest, t.lateness.most / row->cell.step);
+      total.earliest = std::min(total.earliest, t.lateness.least / row->cell.step);
       total.late_steps += steps_late(*row) * static_cast<double>(t.lateness.count);
-      total.point_error_most = std::max(total.point_error_most, t.point_error.most);
     }
   }
   return totals;
 }
 
-double mean_lateness(const Total& total) { return total.late_steps / static_cast<double>(total.timed); }
-
 Table rules_table(const std::vector<Total>& totals) {
   using T = Total;
-  const auto timed = [](const T& t) { return t.timed > 0; };
   const auto columns = columns_of<T>(
-      text("rule", "How a hit is found.", &T::rule), value("shots", "1", "Shots.", &T::shots),
-      value("touching", "1", "True hits.", &T::touching), value("missed", "1", "Of those, not seen.", &T::missed),
+      text("rule", "How a hit is found.", &T::rule), fields(&T::tally, {"shots", "touching", "missed"}),
       value("missed_expected", "1", "By theory.", &T::missed_theory),
-      value("reported", "1", "Hits it reports.", &T::reported),
-      value("false_hits", "1", "Of those, shots whose bullet does not touch.", &T::false_hits),
+      value("reported", "1", "Hits that the rule reports.", reported), fields(&T::tally, {"false_hits"}),
       value("false_expected", "1", "By theory.", &T::false_theory),
-      where(timed, columns_of<T>(value("lateness_mean", "step",
-                                       "From contact to the report, of the true hits it reports.", mean_lateness),
-                                 value("lateness_min", "step", "The earliest of all cells.", &T::earliest),
-                                 value("lateness_max", "step", "The latest of all cells.", &T::latest))),
-      value("path_error_max", "m", "Largest distance from the arc at the range, of all cells.", &T::path_error_most),
-      where(timed, value("point_error_max", "m", "Largest distance from the true point on the target, of all cells.",
-                         &T::point_error_most)));
+      where(is_timed, columns_of<T>(value("lateness_mean", "step",
+                                          "From contact to the report, of the true hits it reports.", &T::lateness),
+                                    value("lateness_min", "step", "The earliest of all cells.", &T::earliest),
+                                    value("lateness_max", "step", "The latest of all cells.", &T::latest))),
+      value("path_error_max", "m", "Largest distance from the arc at the range, of all cells.",
+            [](const T& t) { return t.tally.path_error.most; }),
+      where(is_timed, value("point_error_max", "m", "Largest distance from the true point on the target, of all cells.",
+                            [](const T& t) { return t.tally.point_error.most; })));
   return in_report(
       table("rules", "Each rule over all of its cells, every cell with the same number of shots.", columns, totals));
 }
@@ -322,9 +312,9 @@ Figure missed_figure(const Rows& rays) {
         .by("bullet")
         .height(height);
   };
-  Panel missed = over_deflection("missed", "true hits missed [1]", 1.3);
+  Panel unseen = over_deflection("missed", "true hits missed [1]", 1.3);
   Panel wrong = over_deflection("false", "hits that are false [1]", 1.3);
-  missed.series.push_back(flat_curves(rays, flat_missed));
+  unseen.series.push_back(flat_curves(rays, flat_missed));
   wrong.series.push_back(flat_curves(rays, flat_false));
   return {.name = "missed",
           .title = "What the ray of an instant bullet misses, and hits falsely",
@@ -333,7 +323,7 @@ Figure missed_figure(const Rows& rays) {
               "are false, with 95 % Wilson intervals, against how far gravity and wind take the bullet from the "
               "line of fire. The curves are the lens that two discs share. Below, the residuals against the full "
               "theory.",
-          .panels = {missed, wrong, over_deflection("residual", "residual of the misses [standard errors]", 1)}};
+          .panels = {unseen, wrong, over_deflection("residual", "residual of the misses [standard errors]", 1)}};
 }
 
 /// Of every rule, one radius and air.
@@ -457,17 +447,17 @@ std::string ray_answer(const Rows& rows) {
 }
 
 std::string total_answer(const Total& t) {
-  if (t.rule == next_frame.name && t.timed > 0) {
+  if (t.rule == next_frame.name && is_timed(t)) {
     return fmt::format(
         "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; it "
         "misses {} of the true hits, and {} of its own are false. ",
-        mean_lateness(t), t.latest, percent(quotient(t.missed, t.touching)),
-        percent(quotient(t.false_hits, t.reported)));
+        t.lateness(), t.latest, percent(quotient(missed(t), touching(t))),
+        percent(quotient(false_hits(t), reported(t))));
   }
   if (t.rule == swept_steps.name) {
     return fmt::format(
         "The ball swept along each step is wrong on {} of {} shots and at most {} off the arc at the range.",
-        grouped_text(t.missed + t.false_hits), grouped_text(t.shots), meters(t.path_error_most));
+        grouped_text(missed(t) + false_hits(t)), grouped_text(t.tally.shots), meters(t.tally.path_error.most));
   }
   return "";
 }
@@ -477,8 +467,8 @@ std::string answer_of(const Rows& rows, const std::vector<Total>& totals) {
   for (const Total& total : totals) text += total_answer(total);
   if (!text.empty()) return text;
   const Total& first = totals.front();
-  return fmt::format("{} misses {} of {} true hits and makes {} false ones.", first.rule, grouped_text(first.missed),
-                     grouped_text(first.touching), grouped_text(first.false_hits));
+  return fmt::format("{} misses {} of {} true hits and makes {} false ones.", first.rule, grouped_text(missed(first)),
+                     grouped_text(touching(first)), grouped_text(false_hits(first)));
 }
 
 Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {

@@ -130,7 +130,7 @@ HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Pla
 
 // What is counted.
 
-/// A sum and the extremes of a quantity. The sum is kept in 2^-30 of a unit that the cell sets: of different cells it does not add up.
+/// A sum and the extremes of a quantity. The sum is kept in 2^-30 of a unit that the cell sets: it does not add up over cells.
 struct HitscanSpread {
   std::int64_t count = 0, sum = 0;
   double least = no_least, most = no_most;  ///< in its own unit
@@ -139,10 +139,9 @@ struct HitscanSpread {
   double mean(double unit) const;   ///< requires count > 0
   static constexpr auto fields() {
     using S = HitscanSpread;
-    return record(thinwall::sum("count", &S::count, "1", "How many."),
-                  thinwall::sum("sum", &S::sum, "1", "In 2^-30 of the cell's unit."),
-                  thinwall::least("least", &S::least, "1", "The least."),
-                  thinwall::most("most", &S::most, "1", "The largest."));
+    return record(
+        thinwall::sum("count", &S::count, "1", "How many."), kept("sum", &S::sum, "1", "In 2^-30 of the cell's unit."),
+        thinwall::least("least", &S::least, "1", "The least."), thinwall::most("most", &S::most, "1", "The largest."));
   }
   bool operator==(const HitscanSpread&) const = default;
 };
