@@ -294,7 +294,7 @@ TEST(ExtremesConfig, answers_any_choice_in_three_sentences) {
     EXPECT_FALSE(outcome.summary.empty()) << text;
     std::size_t sentences = 0;
     for (std::size_t i = 0; i < answer.size(); ++i)
-      sentences += answer[i] == '.' && (i + 1 == answer.size() || answer[i + 1] == ' ') ? 1 : 0;
+      sentences += answer[i] == '.' && (i + 1 == answer.size() || answer[i + 1] == ' ') ? 1U : 0U;
     EXPECT_TRUE(1 <= sentences && sentences <= 3) << answer;
     EXPECT_FALSE(std::regex_search(answer, std::regex("[0-9]e[-+]?[0-9]"))) << answer;
   }

@@ -22,7 +22,7 @@ namespace thinwall {
 
 namespace {
 
-/// One query, and what it is meant to be before it is rounded.
+/// One query, as drawn or as a precision has it, and what it is meant to be before it is rounded.
 template <class A, class B> struct ExtremeQuery {
   Moving<A> a;
   Moving<B> b;
@@ -190,15 +190,8 @@ Toi<typename A::Scalar> kernel_of(const Method& method, const Moving<A>& a, cons
   }
 }
 
-/// A query as a precision has it.
-template <class A, class B> struct RoundedQuery {
-  Moving<A> a;
-  Moving<B> b;
-  bool meant_to_touch;
-};
-
 template <class A, class B, class S> auto rounded_queries(const ExtremeInquiry& inquiry, std::int64_t count) {
-  using Query = RoundedQuery<decltype(cast<S>(A{})), decltype(cast<S>(B{}))>;
+  using Query = ExtremeQuery<decltype(cast<S>(A{})), decltype(cast<S>(B{}))>;
   const std::array<double, 4> factors = {double{A::rank}, double{B::rank}, static_cast<double>(inquiry.place.axis),
                                          inquiry.place.value};
   const RandomStream stream = {inquiry.seed, stream_of(factors)};

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/work_precision/heat.hpp>
+#include <thinwall/experiments/work_precision/model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +94,11 @@ std::vector<const Racer*> fine_and_faster(const Heat& heat) {
     if (slowdown(racer, *exact).interval.upper < 1) faster.push_back(&racer);
   }
   return faster;
+}
+
+bool keeps_contract(const Heat& heat) {
+  const Racer* exact = closed_form_of(heat);
+  return exact == nullptr || (exact->is_sound() && exact->forward <= 4);
 }
 
 }  // namespace thinwall
