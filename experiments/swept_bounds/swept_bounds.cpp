@@ -293,8 +293,8 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<SweepCost>& c
   const Table shapes = shapes_table(totals);
   Outcome outcome = {
       .answer = answer_of(rows, totals, view),
-      .summary = terminal(diagonal, {"shape", "bound", "shots", "reported", "false_hits", "false_fraction",
-                                     "false_theory", "empty", "missed"}) +
+      .summary = terminal(diagonal, {"shape", "bound", "shots", "reported", "false_fraction", "false_theory", "empty",
+                                     "missed"}) +
                  "\n" + terminal(shapes, {"shape", "bound", "cells", "touched", "missed", "false_least", "false_most"}),
       .tables = {diagonal, shapes, counts_test_table(tests),
                  table("cells", "Every cell at every bound: balls reported, touched, falsely reported and missed.",
