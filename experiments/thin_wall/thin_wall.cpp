@@ -133,7 +133,6 @@ struct Total {
   Tally tally = {};                           ///< without lateness, whose unit is each cell's own
   Foretold unseen = {}, through = {};         ///< tunneled; the same or pushed out on the wrong side
   std::optional<double> worst_residual = {};  ///< [1] of the cells that can be judged alone, the one farthest from 0
-  double seconds = 0;
 
   bool is_clean() const { return tally.tunneled + tally.undecided == 0; }
   double upper() const { return clopper_pearson(0, tally.shots).upper; }
@@ -153,7 +152,6 @@ std::vector<Total> totals_of(const std::vector<Row>& rows) {
       total.tally += tally;
       total.unseen.add(*row, row->theory.probability, row->tally.tunneled);
       total.through.add(*row, row->theory.through, row->tally.went_through());
-      total.seconds += row->seconds;
       if (is_judged(*row) && std::abs(*residual(*row)) >= std::abs(total.worst_residual.value_or(0)))
         total.worst_residual = residual(*row);
     }
@@ -489,7 +487,7 @@ void add_bounce(const std::vector<Row>& rows, const std::vector<Row>& bullets, c
                {"method", "scalar", "shots", "tunneled", "wrong_side", "through", "through_theory"}) +
       "\n" +
       terminal(bounce_table(of_one_scalar(totals)),
-               {"method", "scalar", "shots", "tunneled", "wrong_side", "theory_through", "theory_expected"}) +
+               {"method", "scalar", "tunneled", "wrong_side", "theory_through", "theory_expected"}) +
       fmt::format("\nSelf-test of the bounce: counts {}, ends {}.\n\n", verdict(all_passed(tests)),
                   verdict(ends_agree(rows))) +
       outcome.summary;
@@ -511,12 +509,11 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTes
   const bool counts_pass = all_passed(counts), stratified_pass = all_pass(stratified),
              lateness_pass = all_pass(lateness);
   std::string summary =
-      terminal(bullet_table(of_one_scalar(bullets)),
-               {"method", "scalar", "shots", "probability", "theory", "lateness_mean", "lateness_mean_theory",
-                "lateness_max", "lateness_max_theory"}) +
+      terminal(bullet_table(of_one_scalar(bullets)), {"method", "scalar", "probability", "theory", "lateness_mean",
+                                                      "lateness_mean_theory", "lateness_max", "lateness_max_theory"}) +
       "\n" +
-      terminal(methods_table(of_one_scalar(totals)), {"method", "scalar", "cells", "shots", "tunneled", "clean_cells",
-                                                      "theory_tunneled", "theory_expected", "worst_residual"}) +
+      terminal(methods_table(of_one_scalar(totals)),
+               {"method", "scalar", "shots", "tunneled", "theory_tunneled", "theory_expected", "worst_residual"}) +
       "\n" + scalars_text(rows);
   for (const Total& t : of_one_scalar(totals)) {
     if (t.is_clean())

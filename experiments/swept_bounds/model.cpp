@@ -1,12 +1,29 @@
-#include <thinwall/experiments/swept_bounds/obstacles.hpp>
+#include <thinwall/experiments/swept_bounds/model.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
 
 namespace thinwall {
 
 namespace {
+
+/// Exact at the ends, where a sine or cosine would not be.
+double cosine(double deg) { return deg == 90 ? 0 : std::cos(deg * (std::numbers::pi / 180)); }
+double sine(double deg) { return deg == 90 ? 1 : std::sin(deg * (std::numbers::pi / 180)); }
+
+/// Of the settings' values the one nearest to `wanted`.
+double nearest(const Settings& settings, std::string_view factor, double wanted) {
+  return std::ranges::min(settings.numbers(factor, {}), {}, [&](double x) { return std::abs(x - wanted); });
+}
+
+void check(const Settings& settings, const Sweep& s) {
+  if (least_path <= path_in_widths(s) && path_in_widths(s) <= longest_path) return;
+  settings.complain("speed", fmt::format("a path of {} to {} widths a step; speed {}, step {}, width {} make {}",
+                                         least_path, longest_path, s.speed, s.step, s.width, path_in_widths(s)));
+}
 
 using Real = long double;
 
@@ -93,6 +110,77 @@ Vec3<double> outward_direction(const Vec3<double>& corner, const Mat3<double>& a
 }
 
 }  // namespace
+
+const Factors<Sweep>& sweep_factors() {
+  static const Factors<Sweep> all = factors(
+      choices("shape", &Sweep::form, swept_form_names, "What moves."),
+      numbers("speed", &Sweep::speed, {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"}, "Of the shape."),
+      number("step", &Sweep::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}, "Time step."),
+      number("width", &Sweep::width, {.lower = 1e-9, .upper = 1e3, .unit = "m"},  // its cube is a double
+             "Diameter of the sphere, longest edge of a box."),
+      numbers("angle_deg", &Sweep::angle_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+              "Between the motion and x, the axis of plate and rod."),
+      numbers("turn_deg", &Sweep::turn_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+              "Where to the motion leans: 0 towards y, 90 towards z."),
+      numbers("obstacle", &Sweep::obstacle, {.lower = 0, .upper = 1000, .unit = "widths"},
+              "Diameter of the balls at rest."));
+  return all;
+}
+
+SweepPlan make_sweeps(const Settings& settings, std::size_t each) {
+  std::vector<Sweep> cells = sweep_factors().cells(settings, each, {}, [&](Sweep& s) {
+    if (s.angle_deg == 0) s.turn_deg = 0;
+    check(settings, s);
+    return true;
+  });
+  std::ranges::stable_sort(cells, {}, &Sweep::form);
+  Sweep view = diagonals[1];
+  view.speed = nearest(settings, "speed", view.speed);
+  view.step = cells.front().step;
+  view.width = cells.front().width;
+  view.angle_deg = nearest(settings, "angle_deg", view.angle_deg);
+  view.turn_deg = view.angle_deg == 0 ? 0 : nearest(settings, "turn_deg", view.turn_deg);
+  view.obstacle = nearest(settings, "obstacle", view.obstacle);
+  SweepPlan plan = {.cells = {diagonals.begin(), diagonals.end()}, .view = view, .timed = {}};
+  for (const Sweep& s : cells) {
+    if (!is_diagonal(s)) plan.cells.push_back(s);
+    Sweep timed = view;
+    timed.form = s.form;
+    timed.speed = s.speed;
+    if (plan.timed.empty() || plan.timed.back() != timed) plan.timed.push_back(timed);
+  }
+  return plan;
+}
+
+bool is_diagonal(const Sweep& s) { return std::ranges::find(diagonals, s) != diagonals.end(); }
+
+double path_in_widths(const Sweep& s) { return s.speed * s.step / s.width; }
+
+double ball_radius(const Sweep& s) { return s.obstacle * s.width / 2; }
+
+Vec3<double> half_extents(const Sweep& s) {
+  constexpr double thin = 0.1;
+  const double half = s.width / 2;
+  if (s.form == SweptForm::plate) return {thin * half, half, half};
+  if (s.form == SweptForm::rod) return {half, thin * half, thin * half};
+  return {half, half, half};
+}
+
+Vec3<double> direction(const Sweep& s) {
+  const double across = sine(s.angle_deg);
+  return {cosine(s.angle_deg), across * cosine(s.turn_deg), across * sine(s.turn_deg)};
+}
+
+Vec3<double> path(const Sweep& s) { return direction(s) * (s.speed * s.step); }
+
+Moving<Sphere<double>> moving_ball(const Sweep& s) { return {{Vec3<double>::Zero(), s.width / 2}, path(s)}; }
+
+Moving<Aabb<double>> moving_box(const Sweep& s) { return {{Vec3<double>::Zero(), half_extents(s)}, path(s)}; }
+
+RandomStream random_stream(const Sweep& s, std::uint64_t seed) {
+  return {seed, stream_of(std::array{static_cast<double>(s.form), s.speed, s.step, s.width, s.angle_deg, s.turn_deg,
+                                     s.obstacle})};
+}
 
 Sphere<double> ball_in(const BallRegion& region, const Sweep& s, const RandomStream& stream, std::uint64_t trial) {
   const RandomWords words = random_words(stream, trial, 0);

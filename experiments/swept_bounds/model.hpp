@@ -1,23 +1,22 @@
 #pragma once
-/// One physical condition of the swept bounds: a shape that moves straight through one step, among balls at rest.
+/// A shape that moves straight through one step among balls at rest: the conditions, the balls, and whether the shape truly
+/// touches them. No bound and no query of the library is in here.
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
-#include <thinwall/experiments/random.hpp>
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/swept/moving.hpp>
 
 namespace thinwall {
 
 enum class SweptForm { sphere, cube, plate, rod };
-inline constexpr std::array all_swept_forms = {SweptForm::sphere, SweptForm::cube, SweptForm::plate, SweptForm::rod};
-std::string_view name(SweptForm form);
+inline constexpr std::array<std::string_view, 4> swept_form_names = {"sphere", "cube", "plate", "rod"};
+constexpr std::string_view name(SweptForm form) { return swept_form_names[static_cast<std::size_t>(form)]; }
 
 struct Sweep {
   SweptForm form;
@@ -36,7 +35,7 @@ inline constexpr std::array diagonals = {Sweep{SweptForm::sphere, 10, 1.0 / 60, 
                                          Sweep{SweptForm::cube, 10, 1.0 / 60, 0.04, 45, 0, 1}};
 bool is_diagonal(const Sweep& s);
 
-std::string key(const Sweep& s);  ///< one line, for people and the journal
+const Factors<Sweep>& sweep_factors();
 
 inline constexpr double least_path = 1e-3, longest_path = 1e4;  ///< [widths]
 
@@ -61,6 +60,30 @@ struct SweepPlan {
   Sweep view;                ///< its form does not count
   std::vector<Sweep> timed;  ///< every form and speed in the direction of `view`
 };
-SweepPlan make_sweeps(const Settings& settings);  ///< throws UsageError
+/// `each` units come of a cell. Throws UsageError.
+SweepPlan make_sweeps(const Settings& settings, std::size_t each = 1);
+
+/// A box that balls are drawn from.
+struct BallRegion {
+  Vec3<double> middle;        ///< [m]
+  Mat3<double> axes;          ///< unit columns
+  Vec3<double> half_extents;  ///< [m]
+};
+
+/// Its center is uniform over the region.
+Sphere<double> ball_in(const BallRegion& region, const Sweep& s, const RandomStream& stream, std::uint64_t trial);
+
+/// A ball that just touches the moving shape at some time: in some direction, where the swept volume and the ball reach
+/// farthest, and then a millionth of the way to the middle of the path. Half of the directions are uniform over the
+/// sphere; the others are those in which a bound can be tight: along `axes`, and from the center to a corner. A tight bound
+/// that is too small there misses these balls.
+Sphere<double> grazing_ball(const Sweep& s, const Mat3<double>& axes, const RandomStream& stream, std::uint64_t trial);
+
+/// True if the moving shape touches the ball at some time of the step. The squared distance of the ball's center is convex
+/// in time and its derivative is in straight pieces, so its least value has a formula; in long double.
+bool touches(const Sweep& s, const Vec3<double>& center);
+
+/// [m] The least distance from the center to the moving shape, over the step; 0 inside.
+long double least_distance(const Sweep& s, const Vec3<double>& center);
 
 }  // namespace thinwall
