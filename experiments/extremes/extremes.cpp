@@ -491,7 +491,9 @@ std::string foil_answer(const std::vector<Row>& rows) {
       if (row.tally.far_wrong > 0) first = std::min(first.value_or(row.place.value), row.place.value);
     }
     if (asked)
-      parts.push_back((first ? fmt::format("from {} R apart ", spoken(*first)) : "at no distance ") + in_precision(p));
+      parts.push_back(
+          (first ? fmt::format("from {} R {}", spoken(*first), parts.empty() ? "apart " : "") : "at no distance ") +
+          in_precision(p));
   }
   return parts.empty() ? "" : fmt::format("The textbook's formula gets two balls wrong {}. ", listed(parts));
 }
