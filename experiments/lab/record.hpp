@@ -100,7 +100,9 @@ namespace detail {
 
 template <class V> void merge(Merge how, V& into, const V& more) {
   if (how == Merge::kept) {
-    if (into == V{}) into = more;
+    if constexpr (std::equality_comparable<V>) {
+      if (into == V{}) into = more;
+    }
   } else if constexpr (Record<V>) {
     into += more;
   } else if constexpr (requires { into.begin(); } && !std::same_as<V, std::string>) {
