@@ -180,16 +180,10 @@ Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
                     .x("path", Axis::log, "path of the ball in a step [m]")
                     .y(column, Axis::linear, std::move(y_label))
                     .by("label");
-  if (shares) take_turns(panel.series);
-  std::vector<Series> joined;
-  for (Series& points : panel.series) {
-    if (!shares || !is_zero(points)) {
-      joined.push_back(
-          {.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}});
-    }
-    joined.push_back(std::move(points));
-  }
-  panel.series = std::move(joined);
+  if (!shares) return joined(std::move(panel));
+  take_turns(panel.series);
+  panel = joined(std::move(panel));
+  std::erase_if(panel.series, [](const Series& s) { return s.mark == Mark::line && is_zero(s); });
   return panel;
 }
 
