@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine_list.hpp>
+#include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_BOX2D
 
@@ -66,8 +66,6 @@ std::vector<EngineMode> box2d_modes(const EngineChoices&) {
           box2d_mode("bullet", "the ball's bullet flag is set", true, true)};
 }
 
-constexpr bool has_box2d_engine = true;
-
 }  // namespace
 
 }  // namespace thinwall
@@ -75,14 +73,7 @@ constexpr bool has_box2d_engine = true;
 #else
 
 namespace thinwall {
-
-namespace {
-
-std::vector<EngineMode> box2d_modes(const EngineChoices&) { return {}; }
-constexpr bool has_box2d_engine = false;
-
-}  // namespace
-
+static constexpr std::vector<EngineMode> (*box2d_modes)(const EngineChoices&) = nullptr;
 }  // namespace thinwall
 
 #endif
@@ -93,7 +84,6 @@ Engine box2d_engine() {
   return {.name = "box2d",
           .called = "Box2D",
           .package = "libbox2d-dev",
-          .is_there = has_box2d_engine,
           .made_of =
               "b2World in the plane of motion, 8 velocity and 3 position iterations, a circle and a static polygon, in "
               "float and in meters. Its polygons have a skin of 1 cm.",

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine_list.hpp>
+#include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_BULLET
 
@@ -110,8 +110,6 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
   return modes;
 }
 
-constexpr bool has_bullet_engine = true;
-
 }  // namespace
 
 }  // namespace thinwall
@@ -119,14 +117,7 @@ constexpr bool has_bullet_engine = true;
 #else
 
 namespace thinwall {
-
-namespace {
-
-std::vector<EngineMode> bullet_modes(const EngineChoices&) { return {}; }
-constexpr bool has_bullet_engine = false;
-
-}  // namespace
-
+static constexpr std::vector<EngineMode> (*bullet_modes)(const EngineChoices&) = nullptr;
 }  // namespace thinwall
 
 #endif
@@ -137,7 +128,6 @@ Engine bullet_engine() {
   return {.name = "bullet",
           .called = "Bullet",
           .package = "libbullet-dev",
-          .is_there = has_bullet_engine,
           .made_of =
               "btDiscreteDynamicsWorld with the default collision configuration, the dynamic tree and the sequential "
               "impulse solver, a btSphereShape and a static btBoxShape, in float.",

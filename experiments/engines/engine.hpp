@@ -1,6 +1,6 @@
 #pragma once
 /// A physics engine as this experiment sees it: something that makes a world of one wall and one ball, and steps it.
-/// An engine is one file, which makes an `Engine`, and one line in engine_list.hpp. Its own headers stay in that file.
+/// An engine is one file, which makes an `Engine`, and one line in the list below. Its own headers stay in that file.
 
 #include <cstdint>
 #include <functional>
@@ -53,14 +53,25 @@ struct EngineChoices {
 };
 
 struct Engine {
-  std::string name;       ///< as in the settings: "bullet"
-  std::string called;     ///< by people: "Bullet"
-  std::string package;    ///< the Debian package that brings it; empty for what is always there
-  bool is_there = false;  ///< the program was built with it
-  std::string made_of;    ///< what of it makes a world, for the report; ends with a period
-  std::vector<EngineMode> (*modes)(const EngineChoices&) = nullptr;  ///< none where the engine is not there
+  std::string name;     ///< as in the settings: "bullet"
+  std::string called;   ///< by people: "Bullet"
+  std::string package;  ///< the Debian package that brings it; empty for what is always there
+  std::string made_of;  ///< what of it makes a world, for the report; ends with a period
+  std::vector<EngineMode> (*modes)(const EngineChoices&) = nullptr;  ///< null: the program was built without it
   double most_path = std::numeric_limits<double>::infinity();        ///< [m] it moves nothing further in a step
   std::string why_most_path = {};                                    ///< ... and what in it says so
+
+  bool is_there() const { return modes != nullptr; }
 };
+
+/// An engine is a line here, and a file of its own that defines this function.
+#define THINWALL_ENGINES(line) line(bullet_engine) line(ode_engine) line(box2d_engine) line(own_engine)
+
+#define THINWALL_DECLARE_ENGINE(make) Engine make();
+THINWALL_ENGINES(THINWALL_DECLARE_ENGINE)
+#undef THINWALL_DECLARE_ENGINE
+
+/// Every engine that this experiment knows, in the program or not.
+std::vector<Engine> engine_list();
 
 }  // namespace thinwall

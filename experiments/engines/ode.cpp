@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine_list.hpp>
+#include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_ODE
 
@@ -88,8 +88,6 @@ std::vector<EngineMode> ode_modes(const EngineChoices&) {
            }}};
 }
 
-constexpr bool has_ode_engine = true;
-
 }  // namespace
 
 }  // namespace thinwall
@@ -97,14 +95,7 @@ constexpr bool has_ode_engine = true;
 #else
 
 namespace thinwall {
-
-namespace {
-
-std::vector<EngineMode> ode_modes(const EngineChoices&) { return {}; }
-constexpr bool has_ode_engine = false;
-
-}  // namespace
-
+static constexpr std::vector<EngineMode> (*ode_modes)(const EngineChoices&) = nullptr;
 }  // namespace thinwall
 
 #endif
@@ -116,7 +107,6 @@ Engine ode_engine() {
       .name = "ode",
       .called = "ODE",
       .package = "libode-dev",
-      .is_there = has_ode_engine,
       .made_of =
           "dWorldStep with a dContactBounce joint for each contact (bounce 1, no friction) and the world's own error "
           "reduction, a sphere and a box without a body. It has no continuous detection.",

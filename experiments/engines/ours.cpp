@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine_list.hpp>
+#include <thinwall/experiments/engines/engine.hpp>
 
 #include <fmt/format.h>
 
@@ -70,7 +70,6 @@ Engine own_engine() {
   return {.name = "thinwall",
           .called = "thinwall",
           .package = {},
-          .is_there = true,
           .made_of = "World with each of its time policies, in double.",
           .modes = own_modes};
 }

@@ -141,4 +141,14 @@ Plot::operator Panel() const {
   return panel;
 }
 
+Panel joined(Panel panel) {
+  std::vector<Series> both;
+  for (Series& points : panel.series) {
+    both.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}});
+    both.push_back(std::move(points));
+  }
+  panel.series = std::move(both);
+  return panel;
+}
+
 }  // namespace thinwall

@@ -62,4 +62,7 @@ class Plot {
 
 inline Plot plot(const Table& table) { return Plot(table); }
 
+/// With a line through the points of each series, below them.
+Panel joined(Panel panel);
+
 }  // namespace thinwall

@@ -233,17 +233,6 @@ Plot plot_of(const std::vector<Point>& points, std::string x_label, std::string 
       .height(0.9);
 }
 
-/// With a line through the points of each series.
-Panel joined(Panel panel) {
-  std::vector<Series> both;
-  for (Series& points : panel.series) {
-    both.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}});
-    both.push_back(std::move(points));
-  }
-  panel.series = std::move(both);
-  return panel;
-}
-
 /// The headline: measured and predicted limits of a spring that holds both ways.
 Figure stability_figure(const StiffResults& results) {
   const StiffPlan& plan = results.plan;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace thinwall {
 
@@ -40,14 +41,6 @@ std::optional<Interval> bounce_bounds(double step) {
 
 namespace {
 
-/// A bracket wider than this shows nothing.
-constexpr double wide = 1e-3;
-
-void judge(StiffClaim& claim, bool right) {
-  ++claim.judged;
-  if (!right) ++claim.wrong;
-}
-
 /// [1] Of the incoming speed: what rounding may do to a bounce.
 double slack_of(const StiffPlan& plan, const PenaltyContact& c) {
   // Each of pi / step + 2 poses is off by half an ulp of the reach, a share of the path of a step, which the spring turns
@@ -62,69 +55,31 @@ double late_share(const StiffPlan& plan, const PenaltyContact& c) {
   return std::max(0.0, 1 - reach(plan.approach) / step_path(plan.approach, c));
 }
 
-void judge_limits(const StiffPlan& plan, const std::vector<LimitRow>& rows, std::vector<StiffClaim>& claims) {
-  StiffClaim inside = {"the limit lies in the measured bracket"};
-  StiffClaim narrow = {"the bracket is at most 0.1 % wide"};
-  StiffClaim map = {"a step is stable below the limit and unstable above"};
-  for (const LimitRow& row : rows) {
-    judge(inside, holds_theory(row));
-    judge(narrow, bracket_width(row) <= wide);
-    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+/// `holds` says whether it does in a row, or nothing where the claim does not speak of that.
+template <class Row, class Holds> StiffClaim claim(std::string text, const std::vector<Row>& rows, const Holds& holds) {
+  StiffClaim claim = {std::move(text)};
+  for (const Row& row : rows) {
+    const std::optional<bool> right = holds(row);
+    if (!right) continue;
+    ++claim.judged;
+    if (!*right) ++claim.wrong;
+  }
+  return claim;
+}
+
+/// Steps of the map outside of the brackets.
+StiffClaim map_claim(const StiffPlan& plan, const std::vector<LimitRow>& rows) {
+  StiffClaim sum = {"a step is stable below the limit and unstable above"};
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const StiffClaim at_step = claim("", rows, [&](const LimitRow& row) -> std::optional<bool> {
       const std::string_view verdict = verdict_of(plan, row, i);
-      if (verdict == "undecided") continue;
-      judge(map, (verdict == "stable") == (!row.theory || plan.steps[i] < *row.theory));
-    }
+      if (verdict == "undecided") return std::nullopt;
+      return (verdict == "stable") == (!row.theory || plan.steps[i] < *row.theory);
+    });
+    sum.judged += at_step.judged;
+    sum.wrong += at_step.wrong;
   }
-  claims.insert(claims.end(), {inside, narrow, map});
-}
-
-void judge_energy(const StiffPlan& plan, const std::vector<ContactRow>& rows, std::vector<StiffClaim>& claims) {
-  StiffClaim bounds = {"semi-implicit, undamped: the speed ratio keeps its bounds"};
-  StiffClaim gains = {"explicit, undamped: never slower after than before"};
-  StiffClaim loses = {"implicit, undamped: never faster after than before"};
-  for (const ContactRow& row : rows) {
-    const PenaltyContact& c = row.contact;
-    if (c.damping_ratio != 0 || !is_clean(plan, row)) continue;
-    const double slack = slack_of(plan, c);
-    const auto range = bounce_bounds(c.step);
-    if (c.scheme == Scheme::semi_implicit && range) {
-      judge(bounds, row.tally.slowest >= range->lower - slack && row.tally.fastest <= range->upper + slack);
-    }
-    if (c.scheme == Scheme::explicit_euler) judge(gains, row.tally.slowest >= 1 - slack);
-    if (c.scheme == Scheme::implicit_euler) judge(loses, row.tally.fastest <= 1 + slack);
-  }
-  claims.insert(claims.end(), {bounds, gains, loses});
-}
-
-/// A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
-void judge_splits(const StiffPlan& plan, const std::vector<ContactRow>& rows, std::vector<StiffClaim>& claims) {
-  StiffClaim same = {"explicit and semi-implicit, undamped: splitting the step changes no bounce"};
-  for (const ContactRow& row : rows) {
-    const PenaltyContact& c = row.contact;
-    if (c.detection != Detection::discrete || c.scheme == Scheme::implicit_euler || c.damping_ratio != 0) continue;
-    const ContactRow* split = twin_of(rows, row);
-    if (split == nullptr || !is_clean(plan, row)) continue;
-    const double slack = slack_of(plan, c) * std::max(1.0, row.tally.fastest);
-    judge(same, is_clean(plan, *split) && std::abs(row.tally.slowest - split->tally.slowest) <= slack &&
-                    std::abs(row.tally.fastest - split->tally.fastest) <= slack);
-  }
-  claims.push_back(same);
-}
-
-void judge_escapes(const StiffPlan& plan, const std::vector<ContactRow>& rows, std::vector<StiffClaim>& claims) {
-  StiffClaim late = {"discrete: as many escape as are first seen past the middle, or more"};
-  StiffClaim held = {"implicit, split, stiff enough for continuous time: none escapes"};
-  for (const ContactRow& row : rows) {
-    const PenaltyContact& c = row.contact;
-    const double bounces = static_cast<double>(row.tally.bounces());
-    if (c.detection == Detection::discrete) {
-      judge(late, static_cast<double>(row.tally.escaped) >= std::floor(bounces * late_share(plan, c)) - 1);
-    } else if (c.scheme == Scheme::implicit_euler) {
-      const double depth = plan.approach.speed / frequency(spring_of(plan.approach, c));
-      if (depth < reach(plan.approach)) judge(held, row.tally.escaped == 0);
-    }
-  }
-  claims.insert(claims.end(), {late, held});
+  return sum;
 }
 
 }  // namespace
@@ -163,12 +118,60 @@ const ContactRow* twin_of(const std::vector<ContactRow>& rows, const ContactRow&
 }
 
 std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
-  std::vector<StiffClaim> claims;
-  judge_limits(results.plan, results.limits, claims);
-  judge_energy(results.plan, results.bounces, claims);
-  judge_splits(results.plan, results.bounces, claims);
-  judge_escapes(results.plan, results.bounces, claims);
-  return claims;
+  constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
+  using Maybe = std::optional<bool>;
+  const StiffPlan& plan = results.plan;
+  const std::vector<ContactRow>& bounces = results.bounces;
+  const auto undamped = [&](const ContactRow& row, Scheme scheme) {
+    return row.contact.scheme == scheme && row.contact.damping_ratio == 0 && is_clean(plan, row);
+  };
+  return {
+      claim("the limit lies in the measured bracket", results.limits,
+            [](const LimitRow& row) -> Maybe { return holds_theory(row); }),
+      claim("the bracket is at most 0.1 % wide", results.limits,
+            [](const LimitRow& row) -> Maybe { return bracket_width(row) <= wide; }),
+      map_claim(plan, results.limits),
+      claim("semi-implicit, undamped: the speed ratio keeps its bounds", bounces,
+            [&](const ContactRow& row) -> Maybe {
+              const auto range = bounce_bounds(row.contact.step);
+              if (!range || !undamped(row, Scheme::semi_implicit)) return {};
+              const double slack = slack_of(plan, row.contact);
+              return row.tally.slowest >= range->lower - slack && row.tally.fastest <= range->upper + slack;
+            }),
+      claim("explicit, undamped: never slower after than before", bounces,
+            [&](const ContactRow& row) -> Maybe {
+              if (!undamped(row, Scheme::explicit_euler)) return {};
+              return row.tally.slowest >= 1 - slack_of(plan, row.contact);
+            }),
+      claim("implicit, undamped: never faster after than before", bounces,
+            [&](const ContactRow& row) -> Maybe {
+              if (!undamped(row, Scheme::implicit_euler)) return {};
+              return row.tally.fastest <= 1 + slack_of(plan, row.contact);
+            }),
+      // A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
+      claim("explicit and semi-implicit, undamped: splitting the step changes no bounce", bounces,
+            [&](const ContactRow& row) -> Maybe {
+              const bool is_told = undamped(row, Scheme::explicit_euler) || undamped(row, Scheme::semi_implicit);
+              if (!is_told || row.contact.detection != Detection::discrete) return {};
+              const ContactRow& split = *twin_of(bounces, row);
+              const double slack = slack_of(plan, row.contact) * std::max(1.0, row.tally.fastest);
+              return is_clean(plan, split) && std::abs(row.tally.slowest - split.tally.slowest) <= slack &&
+                     std::abs(row.tally.fastest - split.tally.fastest) <= slack;
+            }),
+      claim("discrete: as many escape as are first seen past the middle, or more", bounces,
+            [&](const ContactRow& row) -> Maybe {
+              if (row.contact.detection != Detection::discrete) return {};
+              const double late = static_cast<double>(row.tally.bounces()) * late_share(plan, row.contact);
+              return static_cast<double>(row.tally.escaped) >= std::floor(late) - 1;
+            }),
+      claim("implicit, split, stiff enough for continuous time: none escapes", bounces,
+            [&](const ContactRow& row) -> Maybe {
+              const PenaltyContact& c = row.contact;
+              const double depth = plan.approach.speed / frequency(spring_of(plan.approach, c));
+              const bool holds = depth < reach(plan.approach);
+              if (c.scheme != Scheme::implicit_euler || c.detection == Detection::discrete || !holds) return {};
+              return row.tally.escaped == 0;
+            })};
 }
 
 bool all_passed(const std::vector<StiffClaim>& claims) { return std::ranges::all_of(claims, &StiffClaim::passed); }

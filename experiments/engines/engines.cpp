@@ -1,0 +1,488 @@
+/// How often do the same fast balls pass a thin wall in whole physics engines, and does theory agree? See docs/engines.md.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/engines/model.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Row = EngineRow;
+using Rows = std::vector<EngineRow>;
+
+std::string label_of(const Row& row) { return row.setup->label(); }
+double wall_of(const Row& row) { return row.cell.wall_size; }
+bool looks_at_poses(const Row& row) { return row.setup->mode.poses_per_step > 0; }
+
+Rows chosen(const Rows& rows, const std::function<bool(const Row&)>& is_it) {
+  Rows some;
+  std::ranges::copy_if(rows, std::back_inserter(some), is_it);
+  return some;
+}
+
+std::vector<double> walls_of(const Rows& rows) {
+  std::vector<double> walls;
+  for (const Group<Row>& group : group_by(rows, wall_of)) walls.push_back(wall_of(*group[0]));
+  return walls;
+}
+
+std::vector<std::string> labels_of(const Rows& rows) {
+  std::vector<std::string> labels;
+  for (const Group<Row>& group : group_by(rows, label_of)) labels.push_back(label_of(*group[0]));
+  return labels;
+}
+
+/// [%] Of the balls that went through, with its 95 % Wilson interval.
+double percent(const Row& row) {
+  return 100.0 * static_cast<double>(row.tally.tunneled) / static_cast<double>(row.tally.shots);
+}
+Interval percent_interval(const Row& row) {
+  const Interval share = wilson(row.tally.tunneled, row.tally.shots);
+  return {100 * share.lower, 100 * share.upper};
+}
+
+/// [ns] A step.
+double time_of(const Row& row) { return median(row.nanoseconds); }
+Interval time_interval(const Row& row) { return bootstrap_median(row.nanoseconds, {1, row.nanoseconds.size()}); }
+
+/// The path that is nearest to a meter: what is told first.
+double told_path(const Rows& rows) {
+  const auto distance = [](const Row& row) { return std::abs(std::log(row.cell.path)); };
+  return std::ranges::min_element(rows, {}, distance)->cell.path;
+}
+
+Rows told_rows(const Rows& rows) {
+  return chosen(rows, [path = told_path(rows)](const Row& row) { return row.cell.path == path; });
+}
+
+/// [m] The longest path of those asked, at the wall, up to and with which no shot was wrong; 0 if that is none.
+double safe_up_to(const Rows& rows, const Row& like) {
+  double safe = 0;
+  for (const Row& row : rows_of(rows, label_of(like), wall_of(like))) {
+    if (row.tally.wrong() > 0) break;
+    safe = row.cell.path;
+  }
+  return safe;
+}
+
+// What the tables show.
+
+Columns<Row> names_and_factors() {
+  return columns_of<Row>(text("engine", "The physics engine.", [](const Row& r) { return r.setup->engine.called; }),
+                         text("mode", "How it is set up.", [](const Row& r) { return r.setup->mode.name; }),
+                         engine_factors().columns(&Row::cell))
+      .without({"step", "radius", "thickness", "angle_deg", "steps"});
+}
+
+Columns<Row> verdict_columns() {
+  return columns_of<Row>(
+      fields(&Row::tally, {"shots", "tunneled"}),
+      ValueColumn{"tunneled_percent", "%", "100 tunneled / shots.", percent, "percent_lower", "percent_upper"},
+      value("percent_lower", "%", "Lower end of its 95 % Wilson interval.",
+            [](const Row& r) { return percent_interval(r).lower; }),
+      value("percent_upper", "%", "Upper end of it.", [](const Row& r) { return percent_interval(r).upper; }),
+      value("theory_percent", "%", "By theory, where only poses are looked at; missing elsewhere.",
+            [](const Row& r) { return r.theory ? std::optional(100 * *r.theory) : std::nullopt; }),
+      text("verdict", "By the oracle: right if every ball was kept in front of the wall.",
+           [](const Row& r) { return r.tally.wrong() == 0 ? "right" : "wrong"; }));
+}
+
+Columns<Row> bounce_columns() {
+  return columns_of<Row>(
+      value("lateness", "steps", "Mean over the turned, from first contact to where the lines of flight meet.",
+            [](const Row& r) { return r.tally.lateness.mean(); }),
+      fields(&Row::tally, {"latest"}),
+      value("energy", "1", "Energy after over energy before, mean over the turned.",
+            [](const Row& r) { return r.tally.energy.mean(); }),
+      fields(&Row::tally, {"least_energy", "most_energy"}));
+}
+
+Table told_table(const Rows& rows) {
+  const auto columns = columns_of<Row>(
+      names_and_factors(), verdict_columns(),
+      value("right_up_to", "m", "Longest path up to which it kept every ball in front; 0 is none of those asked.",
+            [&](const Row& r) { return safe_up_to(rows, r); }),
+      bounce_columns());
+  return in_report(table("engines", fmt::format("Every engine and mode at {} m a step.", told_path(rows)), columns,
+                         told_rows(rows)));
+}
+
+Table cells_table(const Rows& rows) {
+  return table("cells", "Every engine and mode at every path and wall.",
+               columns_of<Row>(names_and_factors(), verdict_columns(),
+                               fields(&Row::tally, {"unseen", "stuck", "lost", "turned"}),
+                               value("held", "1", "Balls in front of the wall that do not.",
+                                     [](const Row& r) { return r.tally.kept_in_front() - r.tally.turned; }),
+                               bounce_columns(),
+                               value("lateness_path", "m", "The mean lateness as a path.",
+                                     [](const Row& r) {
+                                       const auto late = r.tally.lateness.mean();
+                                       return late ? std::optional(*late * r.cell.path) : std::nullopt;
+                                     }),
+                               fields(&Row::tally, {"earliest", "deepest"})),
+               rows);
+}
+
+Table timings_table(const Rows& rows) {
+  const auto columns = columns_of<Row>(
+      names_and_factors(),
+      ValueColumn{"nanoseconds", "ns", "Time a step of a world of one wall and one ball, median over volleys.", time_of,
+                  "lower", "upper"},
+      value("lower", "ns", "Lower end of its 95 % bootstrap interval.",
+            [](const Row& r) { return time_interval(r).lower; }),
+      value("upper", "ns", "Upper end of it.", [](const Row& r) { return time_interval(r).upper; }),
+      value("volleys", "1", "Timed apart, in turn with the other engines.",
+            [](const Row& r) { return r.nanoseconds.size(); }));
+  return timing(table("timings", "Time a step; making the world is not in it.", columns, rows));
+}
+
+// What the pictures show.
+
+bool is_zero(const Series& series) {
+  return std::ranges::all_of(series.y, [](double y) { return y == 0; });
+}
+
+/// Those that never let a ball through would hide each other on the zero line: they take turns on it.
+void take_turns(std::vector<Series>& all) {
+  const auto sharing = static_cast<std::size_t>(std::ranges::count_if(all, is_zero));
+  std::size_t turn = 0;
+  for (Series& series : all) {
+    if (!is_zero(series)) continue;
+    for (std::vector<double>* column : {&series.x, &series.y, &series.lower, &series.upper}) {
+      std::vector<double> kept;
+      for (std::size_t i = turn; i < column->size(); i += sharing) kept.push_back((*column)[i]);
+      if (!kept.empty() || column->empty()) *column = kept;
+    }
+    ++turn;
+  }
+}
+
+/// A line and its points for each engine and mode, of a column against the path; those on the zero line have no line.
+Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
+  const bool shares = column == std::string_view("tunneled_percent");
+  const auto columns =
+      columns_of<Row>(text("label", "", label_of), names_and_factors(), verdict_columns(), bounce_columns());
+  Panel panel = plot(table("drawn", "", columns, rows))
+                    .x("path", Axis::log, "path of the ball in a step [m]")
+                    .y(column, Axis::linear, std::move(y_label))
+                    .by("label");
+  if (!shares) return joined(std::move(panel));
+  take_turns(panel.series);
+  panel = joined(std::move(panel));
+  std::erase_if(panel.series, [](const Series& s) { return s.mark == Mark::line && is_zero(s); });
+  return panel;
+}
+
+/// A curve for each number of poses and skin that took part, as one series with gaps, and the dashes of the ball that is never seen
+/// at the step's end; in percent.
+void add_theory(Panel& panel, const Rows& rows) {
+  constexpr int samples = 200;
+  EngineCell cell = rows.front().cell;
+  const double least = cell.path;
+  const double most = std::ranges::max(rows, {}, [](const Row& r) { return r.cell.path; }).cell.path;
+  std::set<std::pair<int, double>> looked;
+  for (const Row& row : rows) {
+    if (row.theory) looked.emplace(row.setup->mode.poses_per_step, row.setup->mode.skin);
+  }
+  if (most == least) return;
+  Series late = {.label = "theory, not seen in time", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  Series never = {.label = "theory, never seen", .mark = Mark::dashes, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  const auto add_curve = [&](Series& series, int poses, double skin, const auto& chance) {
+    for (int i = 0; i <= samples; ++i) {
+      cell.path = least * std::pow(most / least, static_cast<double>(i) / samples);
+      series.x.push_back(cell.path);
+      series.y.push_back(100 * chance(cell, poses, skin));
+    }
+    series.x.push_back(cell.path);
+    series.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  };
+  for (const auto& [poses, skin] : looked) add_curve(late, poses, skin, through_theory);
+  add_curve(never, 1, 0, unseen_theory);
+  panel.series.insert(panel.series.end(), {std::move(late), std::move(never)});
+}
+
+Figure tunneling_figure(const Rows& rows) {
+  const EngineCell& cell = rows.front().cell;
+  Figure figure = {
+      .name = "tunneling",
+      .title = "How often a ball goes through a thin wall in whole engines",
+      .caption =
+          fmt::format("A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
+                      "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
+                      "number of poses and for Box2D's skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
+                      "times the radius. Those that let none through take turns on the zero line.",
+                      cell.radius, cell.thickness, cell.angle_deg),
+      .panels = {}};
+  const Rows poses = chosen(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
+  if (!poses.empty()) {
+    figure.panels.push_back(path_panel(poses, "tunneled_percent", "through, looking at poses [%]"));
+    add_theory(figure.panels.back(), rows);
+  }
+  for (const double wall : walls_of(rows)) {
+    const Rows sweeping = chosen(rows, [&](const Row& r) { return !looks_at_poses(r) && wall_of(r) == wall; });
+    if (sweeping.empty()) continue;
+    figure.panels.push_back(
+        path_panel(sweeping, "tunneled_percent", fmt::format("through, sweeping, wall {} m wide [%]", wall)));
+  }
+  return figure;
+}
+
+/// Of the balls that turned, at the first wall.
+Figure bounce_figure(const Rows& rows, const char* name, const char* column, const char* y_label, const char* title,
+                     std::string caption) {
+  Figure figure = {.name = name, .title = title, .caption = std::move(caption), .panels = {}};
+  for (const bool poses : {true, false}) {
+    const Rows some = chosen(rows, [&](const Row& r) {
+      return looks_at_poses(r) == poses && wall_of(r) == wall_of(rows.front()) && r.tally.turned > 0;
+    });
+    if (some.empty()) continue;
+    figure.panels.push_back(path_panel(some, column, fmt::format(fmt::runtime(y_label), poses ? "poses" : "sweeping")));
+  }
+  return figure;
+}
+
+Figure time_figure(const Rows& rows) {
+  const double path = told_path(rows);
+  Figure figure = {
+      .name = "times",
+      .title = "Error against run time",
+      .caption = fmt::format("Time a step of a world of one wall and one ball against the share of balls that go "
+                             "through at {} m a step, with 95 % intervals.",
+                             path),
+      .panels = {},
+      .is_timing = true};
+  for (const double wall : walls_of(rows)) {
+    Panel panel;
+    panel.x_label = fmt::format("through at {} m a step, wall {} m wide [%]", path, wall);
+    panel.y_label = "time a step [ns]";
+    panel.log_y = true;
+    Rows some = chosen(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
+    std::ranges::stable_partition(some, looks_at_poses);  // in the other pictures' order, and so with their marks
+    for (const Row& row : some) {
+      const Interval time = time_interval(row), share = percent_interval(row);
+      panel.series.push_back({.label = label_of(row),
+                              .mark = Mark::points,
+                              .x = {percent(row)},
+                              .y = {time_of(row)},
+                              .lower = {time.lower},
+                              .upper = {time.upper},
+                              .x_lower = {share.lower},
+                              .x_upper = {share.upper}});
+    }
+    if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+std::vector<Figure> figures_of(const Rows& rows) {
+  const double wall = wall_of(rows.front());
+  std::vector<Figure> figures = {
+      tunneling_figure(rows),
+      bounce_figure(
+          rows, "lateness", "lateness", "lateness, {} [steps]", "How late the ball turns",
+          fmt::format("Of the balls that turned: from first contact to where the lines of flight before and after the "
+                      "bounce meet, mean. An exact bounce is at 0. The wall is {} m wide.",
+                      wall)),
+      bounce_figure(
+          rows, "energy", "energy", "energy ratio, {} [1]",
+          "What is left of the energy after a bounce of restitution 1",
+          fmt::format("Of the balls that turned: kinetic energy after over before, mean. It should be 1. The wall is "
+                      "{} m wide.",
+                      wall)),
+      time_figure(rows)};
+  std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
+  return figures;
+}
+
+// What it says.
+
+std::string percent_text(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+std::string with_interval(const Row& row) {
+  const Interval i = percent_interval(row);
+  return fmt::format("{} {:.3g} % [{:.3g}, {:.3g}]", label_of(row), percent(row), i.lower, i.upper);
+}
+
+std::string listed(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 < parts.size() ? ", " : " and ";
+    text += parts[i];
+  }
+  return text;
+}
+
+/// All modes and walls get the same shots: those of one are all there are.
+std::string own_zero(const Rows& rows) {
+  const Rows exact = chosen(rows, [](const Row& r) { return r.setup->mode.exact; });
+  if (exact.empty()) return "";
+  std::int64_t shots = 0, wrong = 0;
+  for (const Row& row : exact) wrong += row.tally.wrong();
+  for (const Row& row : rows_of(exact, label_of(exact.front()), wall_of(exact.front()))) shots += row.tally.shots;
+  const std::string modes = listed(labels_of(exact));
+  if (wrong > 0) return fmt::format(" {} let {} shots through: the self-test fails.", modes, grouped_text(wrong));
+  return fmt::format(" {} let none of {} shots through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
+                     grouped_text(shots), percent_text(clopper_pearson(0, shots).upper));
+}
+
+std::string answer_of(const Rows& rows) {
+  const double path = told_path(rows);
+  std::vector<std::string> poses, safe, unsafe;
+  std::optional<double> theory;
+  for (const Row& row : told_rows(rows)) {
+    if (row.setup->mode.poses_per_step != 1 || wall_of(row) != wall_of(rows.front())) continue;
+    poses.push_back(with_interval(row));
+    if (row.setup->mode.skin == 0) theory = row.theory;
+  }
+  for (const Group<Row>& group : group_by(rows, label_of)) {
+    if (looks_at_poses(*group[0]) || group[0]->setup->mode.exact) continue;
+    const Row& worst = **std::ranges::max_element(group, {}, [](const Row* r) { return r->tally.wrong(); });
+    if (worst.tally.wrong() == 0) {
+      safe.push_back(label_of(worst));
+    } else {
+      unsafe.push_back(
+          fmt::format("{} (at {} m, wall {} m wide)", with_interval(worst), worst.cell.path, wall_of(worst)));
+    }
+  }
+  std::string text;
+  if (!poses.empty()) {
+    text = fmt::format("At {} m a step, looking at the poses of a step's end, go through (95 %): {}{}.", path,
+                       listed(poses), theory ? "; theory says " + percent_text(*theory) : "");
+  }
+  if (!safe.empty()) text += fmt::format(" Sweeping, {} let none of these shots through.", listed(safe));
+  if (!unsafe.empty()) text += fmt::format(" Others that sweep do, at worst: {}.", listed(unsafe));
+  text += own_zero(rows);
+  return text.starts_with(' ') ? text.substr(1) : text;
+}
+
+/// A row for each engine and mode, a column for each path, as many as fit.
+std::string percent_matrix(const Rows& rows, double wall) {
+  const std::vector<std::string> labels = labels_of(rows);
+  auto columns = columns_of<std::string>(text("engine and mode", "", [](const std::string& label) { return label; }));
+  std::size_t width = std::ranges::max(labels, {}, &std::string::size).size();
+  for (const Group<Row>& group : group_by(rows, [](const Row& r) { return r.cell.path; })) {
+    const double path = group[0]->cell.path;
+    const std::string header = rounded_text(path, 3);
+    width += 2 + std::max<std::size_t>(4, header.size());
+    if (width > terminal_width) break;
+    text(header, "", [&rows, wall, path](const std::string& label) -> std::string {
+      for (const Row& row : rows_of(rows, label, wall)) {
+        const bool is_whole = row.tally.tunneled % row.tally.shots == 0;  // 0 and 100
+        if (row.cell.path == path) return fmt::format("{:.{}f}", percent(row), is_whole ? 0 : 1);
+      }
+      return "-";
+    }).add_to(columns);
+  }
+  return terminal(
+      table("percent", fmt::format("Percent through a wall {} m wide, against meters a step.", wall), columns, labels));
+}
+
+std::string summary_of(const EnginePlan& plan, const Rows& rows) {
+  std::string text;
+  for (const double wall : walls_of(rows)) text += percent_matrix(rows, wall) + "\n";
+  const double first = wall_of(rows.front());
+  Table turned =
+      cells_table(chosen(told_rows(rows), [&](const Row& r) { return wall_of(r) == first && r.tally.turned > 0; }));
+  turned.description = "Of the balls that turned: lateness, and energy after over energy before.";
+  text += terminal(
+      turned, {"engine", "mode", "wall_size", "path", "lateness", "latest", "energy", "least_energy", "most_energy"});
+  text += fmt::format("\nSelf-test of ours: {}.\n", all_passed(self_test(own_counts(rows))) ? "passed" : "FAILED");
+  for (const std::string& missing : missing_engines(plan)) text += missing + ".\n";
+  return text;
+}
+
+/// How the engines of others that look at poses stand to the same theory, at the first wall: told, and held against nobody.
+std::string agreement_text(const Rows& rows) {
+  const Rows peers = chosen(rows, [&](const Row& r) {
+    return !r.setup->is_ours() && r.theory.has_value() && wall_of(r) == wall_of(rows.front());
+  });
+  const auto excess = [](const Row* r) { return percent(*r) - 100 * *r->theory; };
+  std::string text;
+  for (const Group<Row>& group : group_by(peers, label_of)) {
+    const auto covered =
+        std::ranges::count_if(group, [](const Row* r) { return percent_interval(*r).contains(100 * *r->theory); });
+    const Row* farthest = *std::ranges::max_element(group, {}, [&](const Row* r) { return std::abs(excess(r)); });
+    text += fmt::format(
+        "\n\n{}: theory lies in {} of {} intervals of 95 %; the largest difference is {:+.2f} points, at {} m.",
+        label_of(*farthest), covered, group.size(), excess(farthest), farthest->cell.path);
+  }
+  return text.empty() ? ""
+                      : "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
+}
+
+/// What is missing, and how each of the others is set up.
+std::string engines_text(const EnginePlan& plan) {
+  std::vector<std::string> parts;
+  for (const std::string& line : missing_engines(plan)) parts.push_back(line + ".");
+  const EngineSetup* last = nullptr;
+  for (const EngineSetup& setup : plan.setups) {
+    const Engine& engine = setup.engine;
+    if (last == nullptr || last->engine.name != engine.name) {
+      parts.push_back(fmt::format("{}: {}", engine.called, engine.made_of));
+      if (!engine.why_most_path.empty()) {
+        parts.back() += fmt::format(" It moves nothing further than {} m in a step ({}): longer paths are left out.",
+                                    engine.most_path, engine.why_most_path);
+      }
+    }
+    last = &setup;
+    parts.back() += fmt::format(" Mode {}: {}.", setup.mode.name, setup.mode.what);
+  }
+  return fmt::format("{}", fmt::join(parts, "\n\n"));
+}
+
+Outcome outcome_of(const EnginePlan& plan, const Rows& rows) {
+  const std::vector<SelfTest> tests = self_test(own_counts(rows));
+  return {
+      .answer = answer_of(rows),
+      .summary = summary_of(plan, rows),
+      .tables = {told_table(rows), cells_table(rows), timings_table(rows)},
+      .figures = figures_of(rows),
+      .sections = {{"The engines", engines_text(plan)}, {"Self-test", self_test_text(tests) + agreement_text(rows)}},
+      .self_test_passed = all_passed(tests)};
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  const auto plan = std::make_shared<const EnginePlan>(make_engine_plan(settings, options));
+  const Rows rows = engine_rows(*plan);
+  const std::vector<EngineVolley> volleys = engine_volleys(*plan, rows);
+  std::vector<Task<EngineTally>> tasks;
+  for (const EngineVolley& v : volleys) {
+    const Row& row = rows[v.row];
+    const auto compute = [plan, cell = row.cell, setup = row.setup, v] {
+      return fire(cell, setup->mode, v.first, v.shots, plan->seed);
+    };
+    tasks.push_back({fmt::format("{} {} {} from {}", engine_factors().key(row.cell), row.setup->engine.name,
+                                 row.setup->mode.name, v.first),
+                     v.shots, compute});
+  }
+  const auto finish = [plan, rows, volleys](const Done<EngineTally>& done) {
+    Rows all = rows;
+    add_results(volleys, done.results, all);
+    return outcome_of(*plan, all);
+  };
+  return make_run(finish, missing_engines(*plan), std::move(tasks));
+}
+
+}  // namespace
+
+Experiment engines_experiment() {
+  return {"engines",
+          "How often do the same fast balls pass a thin wall in whole physics engines, and does theory agree?",
+          embedded_toml("engines"), configure};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,287 @@
+/// The experiment engines: what ours does, what the engines of others that are built in do, what is said of the rest, and its settings.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/experiments/engines/model.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/program/program.hpp>
+
+#include "support/experiment_run.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace thinwall {
+namespace {
+
+constexpr std::string_view few_engine_shots = R"(
+  path = [0.1, 0.5, 2]
+  wall_size = [250]
+  swept_radius = [0.2]
+  shots = 400
+)";
+
+EnginePlan engine_plan(std::string_view text) {
+  return make_engine_plan(Settings(text, "test.toml", engines_experiment().default_toml), {.seed = 1, .trials = {}});
+}
+
+std::vector<EngineRow> fired(const EnginePlan& plan) {
+  std::vector<EngineRow> rows = engine_rows(plan);
+  const std::vector<EngineVolley> volleys = engine_volleys(plan, rows);
+  std::vector<EngineTally> tallies;
+  for (const EngineVolley& v : volleys)
+    tallies.push_back(fire(rows[v.row].cell, rows[v.row].setup->mode, v.first, v.shots, plan.seed));
+  add_results(volleys, tallies, rows);
+  return rows;
+}
+
+const Engine& engine_called(const std::vector<Engine>& engines, const std::string& name) {
+  return *std::find_if(engines.begin(), engines.end(), [&](const Engine& e) { return e.name == name; });
+}
+
+/// The rows of one engine in one mode, from the shortest path to the longest; none if it is not in the program.
+struct EngineRows {
+  EngineRows(const std::string& engine, const std::string& label)
+      : plan(engine_plan("engine = ['" + engine + "']" + std::string(few_engine_shots))),
+        rows(rows_of(fired(plan), label, 250)) {}
+  EnginePlan plan;
+  std::vector<EngineRow> rows;
+};
+
+#define SKIP_WITHOUT(name)                                                                          \
+  if (!engine_called(engine_list(), name).is_there()) {                                             \
+    GTEST_SKIP() << name << " is not in this build: " << engine_called(engine_list(), name).package \
+                 << " and -DTHINWALL_PEERS=ON bring it";                                            \
+  }
+
+TEST(Engines, ours_lets_no_ball_through_where_it_sweeps_and_wastes_no_energy) {
+  for (const char* mode : {"clamp", "event_driven"}) {
+    const EngineRows ours("thinwall", std::string("thinwall ") + mode);
+    ASSERT_EQ(ours.rows.size(), 3U);
+    for (const EngineRow& row : ours.rows) {
+      EXPECT_EQ(row.tally.turned, 400) << mode;
+      EXPECT_NEAR(*row.tally.energy.mean(), 1, 1e-9);
+      EXPECT_NEAR(*row.tally.lateness.mean(), mode == std::string("clamp") ? 0.25 : 0,
+                  mode == std::string("clamp") ? 0.05 : 1e-9);
+    }
+  }
+}
+
+TEST(Engines, ours_follows_theory_where_it_looks_at_poses) {
+  const EnginePlan plan = engine_plan("engine = ['thinwall']" + std::string(few_engine_shots));
+  std::vector<EngineRow> rows = fired(plan);
+  std::vector<CellCount> counts = own_counts(rows);
+  EXPECT_EQ(counts.size(), 4U * 3);
+  EXPECT_TRUE(all_passed(self_test(counts)));
+  const EngineRow discrete = rows_of(rows, "thinwall discrete", 250).front();
+  EXPECT_GT(discrete.tally.tunneled, 80) << "the foil tunnels";
+  for (CellCount& count : counts) {
+    if (count.method == "thinwall event_driven") count.tunneled = 1;
+  }
+  EXPECT_FALSE(all_passed(self_test(counts))) << "one ball is too many";
+  for (EngineRow& row : rows) {
+    if (row.theory) row.theory = *row.theory * 0.8;
+  }
+  EXPECT_FALSE(all_passed(self_test(own_counts(rows))));
+}
+
+TEST(Engines, bullet_tunnels_without_its_sweep_and_not_with_it) {
+  SKIP_WITHOUT("bullet");
+  const EngineRows discrete("bullet", "Bullet discrete"), swept("bullet", "Bullet ccd_0.2");
+  ASSERT_EQ(discrete.rows.size(), 3U);
+  for (const EngineRow& row : discrete.rows)
+    EXPECT_NEAR(static_cast<double>(row.tally.tunneled) / static_cast<double>(row.tally.shots), *row.theory, 0.1);
+  for (const EngineRow& row : swept.rows) EXPECT_EQ(row.tally.tunneled, 0);
+}
+
+TEST(Engines, ode_follows_theory) {
+  SKIP_WITHOUT("ode");
+  const EngineRows ode("ode", "ODE discrete");
+  ASSERT_EQ(ode.rows.size(), 3U);
+  std::vector<CellCount> counts;
+  for (const EngineRow& row : ode.rows) {
+    counts.push_back({"ODE", "double", row.tally.shots, row.tally.wrong(), *row.theory});
+    EXPECT_NEAR(*row.tally.energy.mean(), 1, 1e-6);
+  }
+  EXPECT_TRUE(all_passed(self_test(counts)));
+}
+
+TEST(Engines, box2d_stops_balls_at_its_skin_and_no_ball_further_than_it_moves_any) {
+  SKIP_WITHOUT("box2d");
+  const EngineRows discrete("box2d", "Box2D discrete"), swept("box2d", "Box2D bullet");
+  std::vector<CellCount> counts;
+  for (const EngineRow& row : discrete.rows) {
+    counts.push_back({"Box2D", "float", row.tally.shots, row.tally.wrong(), *row.theory});
+  }
+  EXPECT_TRUE(all_passed(self_test(counts)));
+  ASSERT_EQ(swept.rows.size(), 3U);
+  for (const EngineRow& row : swept.rows) EXPECT_EQ(row.tally.wrong(), 0);
+  const EnginePlan far = engine_plan("path = [1, 3]\nwall_size = [250]\nshots = 10");
+  for (const EngineRow& row : fired(far)) EXPECT_FALSE(row.cell.path == 3 && row.setup->engine.name == "box2d");
+}
+
+/// In every engine of the build: no shot knows of another, on whatever thread.
+TEST(Engines, give_the_same_bits_on_four_threads_and_in_any_order) {
+  const auto run = run_of(engines_experiment(), few_engine_shots, {.seed = 5, .trials = 200});
+  const std::vector<Unit> units = run->units();
+  const std::vector<std::string> once = results_of(units);
+  std::vector<std::string> again(units.size());
+  const auto some_of_each = [&](std::size_t from) {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      if (i % 4 == from) again[units.size() - 1 - i] = units[units.size() - 1 - i].compute();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t from = 0; from < 4; ++from) threads.emplace_back(some_of_each, from);
+  for (std::thread& thread : threads) thread.join();
+  const std::vector<double> seconds(units.size(), 1);
+  const Outcome first = run->finish(once, seconds), second = run->finish(again, seconds);
+  for (std::size_t i = 0; i < first.tables.size(); ++i) {
+    if (!first.tables[i].is_timing) {
+      EXPECT_EQ(first.tables[i].rows, second.tables[i].rows) << first.tables[i].name;
+    }
+  }
+  EXPECT_EQ(first.answer, second.answer);
+  EXPECT_EQ(first.summary, second.summary);
+}
+
+/// As many worlds at once of one engine as there are threads.
+TEST(Engines, bear_worlds_of_their_own_kind_on_other_threads) {
+  const EngineCell cell = engine_plan("path = [1]").cells.front();
+  for (const Engine& engine : engine_list()) {
+    if (!engine.is_there()) continue;
+    const EngineMode mode = engine.modes({{0.5}, 0.5, {2}}).front();
+    const auto counts = [&](std::int64_t shots) {
+      EngineTally tally = fire(cell, mode, 0, shots, 3);
+      tally.seconds = 0;
+      return to_text(tally);
+    };
+    constexpr std::int64_t shots = 2000;
+    const std::string alone = counts(shots);
+    std::vector<std::string> lines(4);
+    std::vector<std::thread> threads;
+    for (std::string& line : lines) threads.emplace_back([&] { line = counts(shots); });
+    for (std::thread& thread : threads) thread.join();
+    for (const std::string& line : lines) EXPECT_EQ(line, alone) << engine.called;
+  }
+}
+
+TEST(Engines, says_what_is_missing_and_does_the_rest) {
+  std::size_t missing = 0;
+  for (const Engine& engine : engine_list()) missing += engine.is_there() ? 0U : 1U;
+  const auto run = run_of(engines_experiment(), few_engine_shots, {.seed = 1, .trials = 5});
+  EXPECT_EQ(run->notes().size(), missing);
+  const Outcome outcome = outcome_of(*run);
+  for (const std::string& note : run->notes()) {
+    EXPECT_NE(outcome.summary.find(note), std::string::npos);
+    EXPECT_NE(outcome.sections[0].text.find(note), std::string::npos);
+  }
+  EnginePlan plan = engine_plan(few_engine_shots);
+  plan.missing = {engine_called(engine_list(), "bullet")};
+  ASSERT_EQ(missing_engines(plan).size(), 1U);
+  EXPECT_EQ(missing_engines(plan)[0],
+            "Bullet is left out: install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
+}
+
+TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {
+  const TemporaryFolder folder;
+  write_text(folder / "few.toml", "experiment = 'engines'" + std::string(few_engine_shots));
+  std::ostringstream reply, notes;
+  const int status = run_program({"thinwall", "run", folder / "few.toml", "--trials", "2", "--out", folder / "out"},
+                                 std::vector{engines_experiment()}, reply, notes);
+  EXPECT_NE(status, 2) << notes.str();
+  std::string expected;
+  for (const std::string& note : run_of(engines_experiment(), few_engine_shots)->notes()) expected += note + "\n";
+  EXPECT_TRUE(notes.str().starts_with(expected + "engines: ")) << notes.str();
+}
+
+TEST(Engines, hold_every_shot_once_in_volleys) {
+  const EnginePlan plan = engine_plan("shots = 2345");
+  const std::vector<EngineRow> rows = engine_rows(plan);
+  std::vector<std::int64_t> next(rows.size(), 0);
+  for (const EngineVolley& volley : engine_volleys(plan, rows)) {
+    EXPECT_EQ(volley.first, next[volley.row]);
+    EXPECT_LE(volley.shots, most_shots_an_engine_volley);
+    next[volley.row] += volley.shots;
+  }
+  for (const std::int64_t shots : next) EXPECT_EQ(shots, 2345);
+}
+
+TEST(Engines, answer_with_theory_and_hand_over_pictures_of_which_one_is_of_times) {
+  const Outcome outcome = outcome_of(*run_of(engines_experiment(), "shots = 3"));
+  EXPECT_TRUE(table_of(outcome, "timings").is_timing);
+  for (const Figure& figure : outcome.figures) EXPECT_EQ(figure.is_timing, figure.name == "times");
+  EXPECT_NE(outcome.answer.find("theory says 93.1 %"), std::string::npos) << outcome.answer;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    run_of(engines_experiment(), text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(EnginesConfig, paths_are_sorted_and_engines_keep_their_order) {
+  const EnginePlan plan = engine_plan("path = [2, 0.5, 1]\nwall_size = [300, 250]\nengine = ['all']");
+  ASSERT_EQ(plan.cells.size(), 6U);
+  EXPECT_EQ(plan.cells[0].path, 0.5);
+  EXPECT_EQ(plan.cells[0].wall_size, 300);
+  EXPECT_EQ(plan.setups.back().label(), "thinwall event_driven");
+}
+
+TEST(EnginesConfig, names_the_setting_that_is_out_of_range) {
+  for (const auto& [key, text] : {std::pair{"path", "path = [0]"},
+                                  {"path", "path = []"},
+                                  {"path", "path = [0.01]"},
+                                  {"path", "path = [1e6]\nwall_size = [1e6]"},
+                                  {"step", "step = 0"},
+                                  {"radius", "radius = 0"},
+                                  {"thickness", "thickness = -1"},
+                                  {"wall_size", "wall_size = [100]"},
+                                  {"angle_deg", "angle_deg = 90"},
+                                  {"steps", "steps = 3"},
+                                  {"steps", "steps = 1001"},
+                                  {"shots", "shots = 0"},
+                                  {"swept_radius", "swept_radius = [0]"},
+                                  {"swept_radius", "swept_radius = [1.5]"},
+                                  {"motion_threshold", "motion_threshold = 0"},
+                                  {"substeps", "substeps = [1]"},
+                                  {"engine", "engine = ['havok']"}}) {
+    const std::string said = refusal(text);
+    EXPECT_NE(said.find("key '" + std::string(key) + "'"), std::string::npos) << text << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+  EXPECT_NE(refusal("wall_size = [100]").find("at least 201 m"), std::string::npos) << refusal("wall_size = [100]");
+  EXPECT_NE(refusal("path = [0.01]").find("at least 0.0275 m"), std::string::npos) << refusal("path = [0.01]");
+}
+
+TEST(EnginesConfig, an_engine_asked_for_by_name_is_there_or_refused_with_what_brings_it) {
+  for (const Engine& engine : engine_list()) {
+    const std::string said = refusal("engine = ['" + engine.name + "']");
+    if (engine.is_there()) {
+      EXPECT_EQ(said, "");
+    } else {
+      EXPECT_NE(said.find(engine.package), std::string::npos) << said;
+    }
+  }
+}
+
+TEST(EnginesConfig, an_engine_with_no_path_that_it_can_do_is_refused) {
+  const auto engines = engine_list();
+  for (const Engine& engine : engines) {
+    if (engine.name != "box2d" || !engine.is_there()) continue;
+    const std::string said = refusal("engine = ['box2d']\npath = [3, 5]");
+    EXPECT_NE(said.find("one of at most 2 m"), std::string::npos) << said;
+    return;
+  }
+  GTEST_SKIP() << "box2d is not in this build: libbox2d-dev and -DTHINWALL_PEERS=ON bring it";
+}
+
+}  // namespace
+}  // namespace thinwall
