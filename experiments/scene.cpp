@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/scenes/playback.hpp>
 #include <thinwall/experiments/scenes/scene_results.hpp>
 #include <thinwall/experiments/scenes/trace.hpp>
@@ -15,26 +16,16 @@ namespace thinwall {
 namespace {
 
 /// One unit: a step needs the one before it.
-class SceneRun final : public Run {
- public:
-  explicit SceneRun(Scene scene) : scene_(std::move(scene)) {}
-
-  std::vector<Unit> units() const override {
-    return {{fmt::format("scene {}", scene_.name), scene_.steps, [this] { return to_line(play(scene_)); }}};
-  }
-
-  Outcome finish(const std::vector<std::string>& results, const std::vector<double>&) const override {
-    Outcome out = scene_outcome(scene_, plan(scene_.bodies, scene_.options), playback_from_line(results.front()));
-    if (scene_.trace) out.files.push_back({"trace.jsonl", trace_of(scene_)});
-    return out;
-  }
-
- private:
-  Scene scene_;
-};
-
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  return std::make_unique<SceneRun>(read_scene(settings, options));
+  const auto scene = std::make_shared<const Scene>(read_scene(settings, options));
+  std::vector<Task<Playback>> tasks = {
+      {fmt::format("scene {}", scene->name), scene->steps, [scene] { return play(*scene); }}};
+  const auto finish = [scene](const Done<Playback>& done) {
+    Outcome out = scene_outcome(*scene, plan(scene->bodies, scene->options), done.results.front());
+    if (scene->trace) out.files.push_back({"trace.jsonl", trace_of(*scene)});
+    return out;
+  };
+  return make_run(finish, std::move(tasks));
 }
 
 }  // namespace

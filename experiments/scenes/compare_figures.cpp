@@ -24,8 +24,8 @@ template <class X, class Y>
 std::vector<Series> by_policy(const std::vector<Contest>& contests, const X& x, const Y& y) {
   std::vector<Series> all;
   for (const Contest& c : contests) {
-    if (all.empty() || all.back().label != c.contender->label()) {
-      all.push_back({.label = c.contender->label(), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}});
+    if (all.empty() || all.back().label != c.contender.label()) {
+      all.push_back({.label = c.contender.label(), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}});
     }
     all.back().x.push_back(x(c));
     all.back().y.push_back(y(c));
@@ -36,7 +36,7 @@ std::vector<Series> by_policy(const std::vector<Contest>& contests, const X& x, 
 }  // namespace
 
 Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
-  const auto step = [](const Contest& c) { return 1e3 * c.contender->dt; };
+  const auto step = [](const Contest& c) { return 1e3 * c.contender.dt; };
   Panel top, bottom;
   top.x_label = bottom.x_label = "step [ms]";
   top.log_x = bottom.log_x = bottom.log_y = true;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/scenes/playback.hpp>
 
@@ -59,21 +59,27 @@ Scene scene_for(const Comparison& comparison, const Contender& contender) {
   return scene;
 }
 
+std::optional<double> Trial::met(std::uint32_t first, std::uint32_t second) const {
+  const auto ids = [](const FirstMeeting& m) { return std::pair(m.first, m.second); };
+  const auto found = std::ranges::lower_bound(meetings, std::pair(first, second), {}, ids);
+  return found != meetings.end() && ids(*found) == std::pair(first, second) ? std::optional(found->time) : std::nullopt;
+}
+
 bool Trial::same_outcome(const Trial& other) const {
   return meetings == other.meetings && tunneled == other.tunneled && hits == other.hits && hash == other.hash;
 }
 
 Trial run_trial(const Scene& scene) {
   Trial trial;
-  const Playback playback = play(scene, [&trial](const World& world) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> meetings;
+  const Playback playback = play(scene, [&meetings](const World& world) {
     for (const CollisionEvent& event : world.events().events()) {
-      if (event.kind == CollisionEventKind::begin) trial.meetings.try_emplace({event.first, event.second}, event.time);
+      if (event.kind == CollisionEventKind::begin) meetings.try_emplace({event.first, event.second}, event.time);
     }
   });
-  for (const StepRow& row : playback.rows) {
-    trial.hits += row.hits;
-    trial.sweeps += row.sweeps;
-  }
+  for (const auto& [ids, time] : meetings) trial.meetings.push_back({ids.first, ids.second, time});
+  trial.hits = playback.sums().hits;
+  trial.sweeps = playback.sums().sweeps;
   trial.tunneled = playback.all_missed;
   trial.energy = playback.energy;
   trial.energy_end = playback.rows.back().energy;
@@ -82,46 +88,18 @@ Trial run_trial(const Scene& scene) {
   return trial;
 }
 
-std::string to_line(const Trial& t) {
-  nlohmann::json out = {
-      {"tunneled", t.tunneled},     {"hits", t.hits}, {"sweeps", t.sweeps},   {"energy", t.energy},
-      {"energy_end", t.energy_end}, {"hash", t.hash}, {"seconds", t.seconds}, {"meetings", nlohmann::json::array()}};
-  for (const auto& [pair, time] : t.meetings) out["meetings"].push_back({pair.first, pair.second, time});
-  return out.dump();
-}
-
-Trial trial_from_line(const std::string& line) {
-  try {
-    const auto in = nlohmann::json::parse(line);
-    Trial t;
-    t.tunneled = in.at("tunneled");
-    t.hits = in.at("hits");
-    t.sweeps = in.at("sweeps");
-    t.energy = in.at("energy");
-    t.energy_end = in.at("energy_end");
-    t.hash = in.at("hash");
-    t.seconds = in.at("seconds");
-    for (const auto& m : in.at("meetings"))
-      t.meetings.emplace(std::pair<std::uint32_t, std::uint32_t>(m.at(0), m.at(1)), m.at(2));
-    return t;
-  } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("not a trial: ") + error.what());
-  }
-}
-
 Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration) {
   Contest out;
-  out.contender = &contender;
+  out.contender = contender;
   out.trial = repeats.front();
   for (const Trial& repeat : repeats) {
     out.seconds.push_back(repeat.seconds);
     out.repeated_alike &= repeat.same_outcome(out.trial);
   }
-  for (const auto& [pair, time] : exact.meetings) {
-    const auto found = out.trial.meetings.find(pair);
-    if (found != out.trial.meetings.end()) {
+  for (const auto& [first, second, time] : exact.meetings) {
+    if (const auto here = out.trial.met(first, second)) {
       ++out.met;
-      out.errors.push_back(std::abs(found->second - time));
+      out.errors.push_back(std::abs(*here - time));
     } else if (time <= duration - contender.dt) {
       ++out.unmet;
     }

@@ -7,11 +7,11 @@
 /// of many bodies for good.
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 
 namespace thinwall {
@@ -47,27 +47,45 @@ Comparison read_comparison(const Settings& settings, const RunOptions& options);
 /// The scene, stepped that way.
 Scene scene_for(const Comparison& comparison, const Contender& contender);
 
-/// When each pair of bodies met first [s], by id.
-using FirstMeetings = std::map<std::pair<std::uint32_t, std::uint32_t>, double>;
+/// When a pair of bodies met first.
+struct FirstMeeting {
+  std::uint32_t first = 0, second = 0;  ///< ids
+  double time = 0;                      ///< [s]
+
+  static constexpr auto fields() {
+    using M = FirstMeeting;
+    return record(kept("first", &M::first), kept("second", &M::second), kept("time", &M::time));
+  }
+  bool operator==(const FirstMeeting&) const = default;
+};
 
 /// What a run of a contender leaves.
 struct Trial {
-  FirstMeetings meetings;
+  std::vector<FirstMeeting> meetings;  ///< by id
   std::int64_t tunneled = 0, hits = 0, sweeps = 0;
   double energy = 0, energy_end = 0;  ///< [J]
   std::uint64_t hash = 0;
   double seconds = 0;  ///< of stepping, the referee not included
 
+  static constexpr auto fields() {
+    using T = Trial;
+    return record(
+        kept("meetings", &T::meetings),
+        kept("tunneled", &T::tunneled, "1", "Pairs that went through each other unseen, counted step by step."),
+        kept("hits", &T::hits, "1", "Contacts over all steps."),
+        kept("sweeps", &T::sweeps, "1", "Pairs asked over all steps: the machine-independent cost."),
+        kept("energy", &T::energy), kept("energy_end", &T::energy_end), kept("hash", &T::hash),
+        kept("seconds", &T::seconds));
+  }
+  std::optional<double> met(std::uint32_t first, std::uint32_t second) const;  ///< [s] when these met first
+
   bool same_outcome(const Trial& other) const;  ///< all but the seconds
 };
 
 Trial run_trial(const Scene& scene);
-std::string to_line(const Trial& trial);
-Trial trial_from_line(const std::string& line);  ///< throws std::runtime_error if it is not one
-
 /// A contender against the exact run.
 struct Contest {
-  const Contender* contender = nullptr;
+  Contender contender;
   Trial trial;                  ///< of the first repeat
   std::vector<double> seconds;  ///< of each
   bool repeated_alike = true;   ///< every repeat gave the same bits

@@ -1,6 +1,7 @@
 #pragma once
 /// The referee of a scene: contacts that a step went through and did not see.
 ///
+///
 /// Between two steps a body that nothing touched moved straight, from where it was to where it is. Of two such bodies,
 /// apart at both ends, the closed form says whether they touched on the way. If they did and the step told no contact of
 /// theirs, one went through the other: it tunneled. Bodies that were in any contact in the step are not judged against
@@ -9,9 +10,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
-
+#include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/world/world.hpp>
+#include <vector>
 
 namespace thinwall {
 
@@ -19,6 +20,12 @@ namespace thinwall {
 struct MissedContact {
   std::uint32_t first = 0, second = 0;  ///< ids, first < second
   double time = 0;                      ///< [s] when they first touched
+
+  static constexpr auto fields() {
+    using M = MissedContact;
+    return record(kept("time", &M::time, "s", "When they first touched."), kept("first_id", &M::first),
+                  kept("second_id", &M::second));
+  }
 };
 
 class MissedContacts {

@@ -68,6 +68,12 @@ StepRow row_of(const StepReport& report) {
 
 }  // namespace
 
+StepRow Playback::sums() const {
+  StepRow sums;
+  for (const StepRow& row : rows) sums += row;
+  return sums;
+}
+
 Playback play(const Scene& scene, const Frame& on_frame) {
   World world(scene.bodies, scene.options);
   MissedContacts referee(world);
@@ -87,7 +93,10 @@ Playback play(const Scene& scene, const Frame& on_frame) {
       if (event.kind == CollisionEventKind::stay) continue;
       ++(event.kind == CollisionEventKind::begin ? row.begins : row.ends);
       ++out.all_events;
-      if (out.events.size() < most_kept) out.events.push_back(event);
+      if (out.events.size() < most_kept) {
+        out.events.push_back({event.time, static_cast<std::int64_t>(event.step),
+                              event.kind == CollisionEventKind::begin, event.first, event.second});
+      }
     }
     for (const MissedContact& missed : referee.after_step(world, scene.dt)) {
       ++row.tunneled;
@@ -99,10 +108,12 @@ Playback play(const Scene& scene, const Frame& on_frame) {
     if (step % stride == 0 || step == scene.steps) extend(out.tracks, world, scene);
     if (on_frame) on_frame(world);
   }
-  std::stable_sort(out.events.begin(), out.events.end(),
-                   [](const CollisionEvent& a, const CollisionEvent& b) { return a.time < b.time; });
+  std::ranges::stable_sort(out.events, {}, &LoggedEvent::time);
   out.live = static_cast<std::int64_t>(world.events().live());
-  for (const Body& body : world.bodies()) out.places.emplace_back(body.id, box_of(body).center);
+  for (const Body& body : world.bodies()) {
+    const Vec3<double> at = box_of(body).center;
+    out.places.push_back({body.id, at[0], at[1], at[2]});
+  }
   out.hash = world.state_hash();
   return out;
 }

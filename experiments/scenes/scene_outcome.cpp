@@ -9,25 +9,6 @@ namespace thinwall {
 
 namespace {
 
-struct Sums {
-  std::int64_t pairs = 0, sweeps = 0, gated = 0, hits = 0, impulses = 0, waiting = 0, begins = 0, ends = 0;
-};
-
-Sums sums_of(const Playback& playback) {
-  Sums sums;
-  for (const StepRow& row : playback.rows) {
-    sums.pairs += row.pairs;
-    sums.sweeps += row.sweeps;
-    sums.gated += row.gated;
-    sums.hits += row.hits;
-    sums.impulses += row.impulses;
-    sums.waiting += row.waiting;
-    sums.begins += row.begins;
-    sums.ends += row.ends;
-  }
-  return sums;
-}
-
 std::string policy_text(const Scene& scene) {
   std::string text(name_of(scene.options.policy));
   if (scene.options.policy == TimePolicy::substeps) text += fmt::format(" {}", scene.options.substeps);
@@ -45,9 +26,9 @@ std::string log_text(const Scene& scene, const Playback& playback) {
   constexpr std::size_t most = 12;
   std::string text;
   for (std::size_t i = 0; i < std::min(most, playback.events.size()); ++i) {
-    const CollisionEvent& e = playback.events[i];
+    const LoggedEvent& e = playback.events[i];
     text += fmt::format("{:>10} s  {} {} {}\n", rounded_text(e.time, 6), name_in(scene, e.first),
-                        e.kind == CollisionEventKind::begin ? "meets" : "leaves", name_in(scene, e.second));
+                        e.begins ? "meets" : "leaves", name_in(scene, e.second));
   }
   const auto more = playback.all_events - static_cast<std::int64_t>(std::min(most, playback.events.size()));
   if (more > 0) text += fmt::format("{:>12}  {} more in data/events.csv\n", "", grouped_text(more));
@@ -67,7 +48,7 @@ std::string phases_text(const Playback& playback) {
 }
 
 std::string summary_text(const Scene& scene, const Plan& plan, const Playback& playback) {
-  const Sums sums = sums_of(playback);
+  const StepRow sums = playback.sums();
   const auto omitted =
       std::count_if(plan.lines.begin(), plan.lines.end(), [](const PlanLine& line) { return line.omitted; });
   std::string text = fmt::format("{}: {} bodies, {} steps of {} ms, {}\n\n", scene.name,
@@ -92,13 +73,13 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
 }  // namespace
 
 bool claims_held(const Scene& scene, const Playback& playback) {
-  const Sums sums = sums_of(playback);
+  const StepRow sums = playback.sums();
   const bool paired = sums.begins - sums.ends == playback.live;
   return paired && (!looks_at_all_motion(scene.options) || playback.all_missed == 0);
 }
 
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
-  const Sums sums = sums_of(playback);
+  const StepRow sums = playback.sums();
   Outcome out;
   out.answer = fmt::format(
       "In {} s, stepped {} at a time under {}, {} contacts began and {} ended; {} {} through each other "

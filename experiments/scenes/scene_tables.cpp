@@ -1,138 +1,92 @@
-#include <thinwall/experiments/scenes/scene_results.hpp>
-
 #include <algorithm>
+#include <functional>
 
-#include <thinwall/experiments/scenes/bodies.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/scenes/scene_results.hpp>
 
 namespace thinwall {
 
 namespace {
 
-using enum ColumnType;
+double share_of(double part, std::size_t whole) { return whole == 0 ? 0 : part / static_cast<double>(whole); }
 
-double share(double part, std::size_t whole) { return whole == 0 ? 0 : part / static_cast<double>(whole); }
+/// Who met whom.
+template <class Row> Columns<Row> pair_columns(const Scene& scene) {
+  return columns_of<Row>(
+      text("first", "The body with the lower id.", [&scene](const Row& row) { return name_in(scene, row.first); }),
+      text("second", "The other.", [&scene](const Row& row) { return name_in(scene, row.second); }));
+}
 
 }  // namespace
 
 std::string name_in(const Scene& scene, std::uint32_t id) {
-  const auto found =
-      std::find_if(scene.bodies.begin(), scene.bodies.end(), [id](const Body& body) { return body.id == id; });
+  const auto found = std::ranges::find(scene.bodies, id, &Body::id);
   const bool named = found != scene.bodies.end() && !found->name.empty();
   return named ? found->name : "body " + std::to_string(id);
 }
 
 Table steps_table(const Playback& playback) {
-  Table table;
-  table.name = "steps";
-  table.description = "What each step did.";
-  table.columns = {
-      {"step", integer, "1", "Number of the step, from 1."},
-      {"time", number, "s", "Time at its end."},
-      {"pairs", integer, "1", "Pairs whose boxes meet, as the broad phase found them."},
-      {"sweeps", integer, "1", "Pairs that were asked, those after a hit included."},
-      {"gated", integer, "1", "Of those, tested at an instant because both moved less than the gate."},
-      {"hits", integer, "1", "Contacts."},
-      {"impulses", integer, "1", "Impulses exchanged."},
-      {"waiting", integer, "1", "Bodies that stopped before the end of the step."},
-      {"begins", integer, "1", "Contacts that began."},
-      {"ends", integer, "1", "Contacts that ended."},
-      {"tunneled", integer, "1", "Pairs that went through each other unseen."},
-      {"energy", number, "J", "Kinetic, and of height, at its end."},
-  };
-  for (const StepRow& r : playback.rows) {
-    table.rows.push_back({r.step, r.time, r.pairs, r.sweeps, r.gated, r.hits, r.impulses, r.waiting, r.begins, r.ends,
-                          r.tunneled, r.energy});
-  }
-  return table;
+  return table("steps", "What each step did.", columns_of<StepRow>(fields(std::identity())), playback.rows);
 }
 
 Table events_table(const Scene& scene, const Playback& playback) {
-  Table table;
-  table.name = "events";
-  table.description = "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.";
-  table.in_report = playback.events.size() <= 40;
-  table.columns = {
-      {"time", number, "s", "When they met; of an end, when the step ended."},
-      {"step", integer, "1", "Number of the step."},
-      {"event", text, "", "begin or end."},
-      {"first", text, "", "The body with the lower id."},
-      {"second", text, "", "The other."},
-  };
-  for (const CollisionEvent& e : playback.events) {
-    table.rows.push_back({e.time, static_cast<std::int64_t>(e.step),
-                          std::string(e.kind == CollisionEventKind::begin ? "begin" : "end"), name_in(scene, e.first),
-                          name_in(scene, e.second)});
-  }
-  return table;
+  const auto columns = columns_of<LoggedEvent>(
+      value("time", "s", "When they met; of an end, when the step ended.", &LoggedEvent::time),
+      value("step", "1", "Number of the step.", &LoggedEvent::step),
+      text("event", "begin or end.", [](const LoggedEvent& e) { return e.begins ? "begin" : "end"; }),
+      pair_columns<LoggedEvent>(scene));
+  Table events = table("events", "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.",
+                       columns, playback.events);
+  events.in_report = events.rows.size() <= 40;
+  return events;
 }
 
 Table missed_table(const Scene& scene, const Playback& playback) {
-  Table table;
-  table.name = "tunneled";
-  table.description = "Who went through whom unseen, and when they first touched; the first 10 000.";
-  table.in_report = playback.missed.size() <= 40;
-  table.columns = {
-      {"time", number, "s", "When they first touched."},
-      {"first", text, "", "The body with the lower id."},
-      {"second", text, "", "The other."},
-  };
-  for (const MissedContact& m : playback.missed)
-    table.rows.push_back({m.time, name_in(scene, m.first), name_in(scene, m.second)});
-  return table;
+  const auto columns = columns_of<MissedContact>(fields(std::identity(), {"time"}), pair_columns<MissedContact>(scene));
+  Table missed = table("tunneled", "Who went through whom unseen, and when they first touched; the first 10 000.",
+                       columns, playback.missed);
+  missed.in_report = missed.rows.size() <= 40;
+  return missed;
 }
 
 Table bodies_table(const Scene& scene, const Playback& playback) {
-  Table table;
-  table.name = "bodies";
-  table.description = "Where each body is at the end.";
-  table.columns = {
-      {"id", integer, "1", "Id."},     {"name", text, "", "Name."},     {"x", number, "m", "Of its center."},
-      {"y", number, "m", "The same."}, {"z", number, "m", "The same."},
-  };
-  std::vector<std::pair<std::uint32_t, std::string>> names;  // by id, for a scene of many
+  std::vector<std::pair<std::int64_t, std::string>> names;  // by id, for a scene of many
   for (const Body& body : scene.bodies) names.emplace_back(body.id, body.name);
-  std::sort(names.begin(), names.end());
-  for (const auto& [id, at] : playback.places) {
-    const auto found = std::lower_bound(names.begin(), names.end(), std::pair<std::uint32_t, std::string>(id, ""));
-    table.rows.push_back(
-        {static_cast<std::int64_t>(id), found == names.end() ? "" : found->second, at[0], at[1], at[2]});
-  }
-  return table;
+  std::ranges::sort(names);
+  const auto name = [&names](const FinalPlace& place) {
+    const auto found = std::ranges::lower_bound(names, std::pair<std::int64_t, std::string>(place.id, ""));
+    return found == names.end() ? "" : found->second;
+  };
+  return table("bodies", "Where each body is at the end.",
+               columns_of<FinalPlace>(fields(std::identity(), {"id"}), text("name", "Name.", name),
+                                      fields(std::identity(), {"x", "y", "z"})),
+               playback.places);
 }
 
 Table plan_table(const Plan& plan) {
-  Table table;
-  table.name = "plan";
-  table.description = "What the scene needs, what was left out, and why that changes nothing.";
-  table.in_report = true;
-  table.columns = {
-      {"what", text, "", "A thing that a step might do."},
-      {"omitted", boolean, "", "It is left out."},
-      {"why", text, "", "The proof, or why it is needed."},
-  };
-  for (const PlanLine& line : plan.lines) table.rows.push_back({line.what, line.omitted, line.why});
-  return table;
+  const auto columns = columns_of<PlanLine>(text("what", "A thing that a step might do.", &PlanLine::what),
+                                            value("omitted", "", "It is left out.", &PlanLine::omitted),
+                                            text("why", "The proof, or why it is needed.", &PlanLine::why));
+  return in_report(table("plan", "What the scene needs, what was left out, and why that changes nothing.", columns,
+                         std::vector<PlanLine>(plan.lines.begin(), plan.lines.end())));
 }
 
 Table phases_table(const Playback& playback) {
-  Table table;
-  table.name = "timings";
-  table.description = "Time a step by phase, on this machine.";
-  table.in_report = true;
-  table.is_timing = true;
-  table.columns = {
-      {"phase", text, "", "Part of a step; `step` is all of it."},
-      {"mean_us", number, "us", "Mean over the steps."},
-      {"most_us", number, "us", "The longest."},
-      {"share", number, "1", "Part of the whole step."},
+  struct Row {
+    std::string_view phase;
+    PhaseTime time;
   };
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < phase_names.size(); ++i) rows.push_back({phase_names[i], playback.phases[i]});
   const double whole = playback.phases.back().total;
-  for (std::size_t i = 0; i < phase_names.size(); ++i) {
-    const PhaseTime& phase = playback.phases[i];
-    table.rows.push_back({std::string(phase_names[i]), 1e6 * share(phase.total, playback.rows.size()), 1e6 * phase.most,
-                          whole > 0 ? phase.total / whole : 0.0});
-  }
-  return table;
+  const auto columns =
+      columns_of<Row>(text("phase", "Part of a step; `step` is all of it.", &Row::phase),
+                      value("mean_us", "us", "Mean over the steps.",
+                            [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()); }),
+                      value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
+                      value("share", "1", "Part of the whole step.",
+                            [whole](const Row& row) { return whole > 0 ? row.time.total / whole : 0.0; }));
+  return in_report(timing(table("timings", "Time a step by phase, on this machine.", columns, rows)));
 }
 
 }  // namespace thinwall

@@ -196,7 +196,7 @@ velocity = [-1e30, 1e30, -1e30]
 )");
   const Playback playback = play(scene);
   EXPECT_TRUE(std::isfinite(playback.energy) && std::isfinite(playback.rows.back().energy));
-  EXPECT_EQ(playback_from_line(to_line(playback)).rows.back().energy, playback.rows.back().energy);
+  EXPECT_EQ(from_text<Playback>(to_text(playback)).rows.back().energy, playback.rows.back().energy);
 }
 
 TEST(SceneFile, an_axis_may_be_of_any_length) {
