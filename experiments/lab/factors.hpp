@@ -124,9 +124,9 @@ template <class Cell> class Factors {
     std::vector<std::string_view> lists;
     for (const Factor<Cell>& factor : all_) {
       if (factor.is_list) lists.push_back(factor.column.name);
-      values.push_back(factor.read(settings));
     }
-    settings.limit_cells(lists, each);
+    settings.limit_cells(lists, each);  // before any list is read
+    for (const Factor<Cell>& factor : all_) values.push_back(factor.read(settings));
     std::vector<Cell> cells;
     std::set<std::string> keys;
     add(values, 0, base, adjust, keys, cells);
