@@ -32,6 +32,9 @@ macro(thinwall_lookup name)
   elseif(${name} STREQUAL fmt)
     thinwall_describe(fmt TARGET fmt::fmt DEBIAN libfmt-dev MINIMUM 9
       SOURCE GIT_REPOSITORY https://github.com/fmtlib/fmt.git GIT_TAG 9.1.0)
+  elseif(${name} STREQUAL md4c)
+    thinwall_describe(md4c TARGET md4c::md4c-html DEBIAN libmd4c-html0-dev
+      SOURCE GIT_REPOSITORY https://github.com/mity/md4c.git GIT_TAG release-0.4.8)
   elseif(${name} STREQUAL TBB)
     thinwall_describe(TBB TARGET TBB::tbb DEBIAN libtbb-dev MINIMUM 2021
       SOURCE GIT_REPOSITORY https://github.com/oneapi-src/oneTBB.git GIT_TAG v2021.8.0)
@@ -111,6 +114,11 @@ function(thinwall_fetch name)
   set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)  # the settings above win over the release's own defaults
   set(CMAKE_POLICY_VERSION_MINIMUM 3.5)
   add_subdirectory("${source}" "${${fetched}_BINARY_DIR}" EXCLUDE_FROM_ALL SYSTEM)
+  if(NOT TARGET ${dep_TARGET})  # its name behind the namespace of its package
+    string(REGEX REPLACE "^.*::" "" plain "${dep_TARGET}")
+    target_include_directories(${plain} SYSTEM INTERFACE "${source}/src")
+    add_library(${dep_TARGET} ALIAS ${plain})
+  endif()
 endfunction()
 
 function(thinwall_interface target folder)

@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
 

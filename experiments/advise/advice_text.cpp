@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/advise/words.hpp>
-#include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include <thinwall/experiments/advise/advice.hpp>
-#include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/timing/interleaved.hpp>
 #include <thinwall/swept/certified.hpp>
 
@@ -44,8 +44,8 @@ std::vector<Candidate> candidates(const Wish& wish) {
   const std::vector<std::string> methods(names.begin(), names.end());
   const std::array<std::string, 1> scalars = {"double"};
   std::vector<Candidate> all;
-  for (const Detector& d : detectors(methods, offered_poses(wish), scalars)) {
-    all.push_back({d.method, d.poses_per_step, true, d.theory, d.ask});
+  for (const ThinWallMethod& m : thin_wall_methods(methods, offered_poses(wish), scalars)) {
+    all.push_back({m.name, m.poses_per_step, true, m.theory, m.ask});
   }
   all.push_back({"certified", 0, false, certified_theory, ask_certified});
   return all;

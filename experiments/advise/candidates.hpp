@@ -1,6 +1,6 @@
 #pragma once
 /// Whom the advice chooses from: every method of the method list, as the thin wall fires it in double, and the certified
-/// answers. A method added to the list is here by itself; without a theory in thin_wall/method_theory.hpp it is never
+/// answers. A method added to the list is here by itself; without a theory in thin_wall/methods.cpp it is never
 /// advised.
 
 #include <functional>
@@ -9,12 +9,12 @@
 #include <vector>
 
 #include <thinwall/experiments/advise/wish.hpp>
-#include <thinwall/experiments/thin_wall/detectors.hpp>
+#include <thinwall/experiments/thin_wall/methods.hpp>
 
 namespace thinwall {
 
 struct Candidate {
-  std::string name;  ///< as a detector's: substeps_8
+  std::string name;  ///< as the thin wall calls it: substeps_8
   int poses;         ///< [1] that it tests a step and nothing else; 0 if it does more
   bool fired;        ///< the thin wall can fire it
   std::function<Theory(const Cell&)> theory;

@@ -9,7 +9,7 @@
 #include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/advise/words.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/thin_wall/plan.hpp>
+#include <thinwall/experiments/thin_wall/results.hpp>
 
 namespace thinwall {
 

@@ -7,7 +7,7 @@
 #include <thinwall/experiments/text/escape.hpp>
 #include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall/experiments/text/ranges.hpp>
-#include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <thinwall/experiments/thin_wall/cell.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
 

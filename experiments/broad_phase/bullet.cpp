@@ -1,4 +1,4 @@
-#include <thinwall/experiments/broad_phase/finder.hpp>
+#include <thinwall/experiments/broad_phase/model.hpp>
 
 #ifdef THINWALL_HAS_BULLET
 

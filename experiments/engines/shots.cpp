@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/thin_wall/shots.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <thinwall/experiments/extremes/line.hpp>
+#include <thinwall/experiments/extremes/model.hpp>
 
 namespace thinwall {
 
@@ -31,6 +31,6 @@ struct LossTheory {
 /// where the path is farther than this from the last that touches.
 inline constexpr double least_contact = 64;
 
-std::vector<LadderTest> ladder_tests(const std::vector<ExtremeLine>& lines, const LossTheory& theory = {});
+std::vector<LadderTest> ladder_tests(const std::vector<ExtremeRow>& rows, const LossTheory& theory = {});
 
 }  // namespace thinwall

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <set>
 #include <span>
 #include <string>
@@ -106,10 +107,10 @@ Factor<Cell> choices(std::string_view name, Place Cell::*member, std::span<const
     }
     return all;
   };
-  return {{std::string(name), ColumnType::text, "", std::string(description)},
-          true,
-          read,
-          [=](const Cell& cell) -> Value { return std::string(names[static_cast<std::size_t>(cell.*member)]); }};
+  return {
+      {std::string(name), ColumnType::text, "", std::string(description)}, true, read, [=](const Cell& cell) -> Value {
+        return std::string(names[static_cast<std::size_t>(cell.*member)]);
+      }};
 }
 
 template <class Cell> class Factors {
@@ -125,7 +126,7 @@ template <class Cell> class Factors {
     for (const Factor<Cell>& factor : all_) {
       if (factor.is_list) lists.push_back(factor.column.name);
     }
-    settings.limit_cells(lists, each);  // before any list is read
+    settings.limit_cells(lists, each);
     for (const Factor<Cell>& factor : all_) values.push_back(factor.read(settings));
     std::vector<Cell> cells;
     std::set<std::string> keys;
@@ -160,8 +161,13 @@ template <class Cell> class Factors {
     return {seed, stream_of(numbers)};
   }
 
-  /// A column each, for rows in which `get` finds the cell.
-  template <class Get> auto columns(Get get) const { return FactorColumns<Get>{all_, std::move(get)}; }
+  /// A column each, or of those of these names, for rows in which `get` finds the cell.
+  template <class Get> auto columns(Get get, std::initializer_list<std::string_view> names = {}) const {
+    std::vector<Factor<Cell>> chosen = all_;
+    const auto is_other = [&](const Factor<Cell>& f) { return std::ranges::find(names, f.column.name) == names.end(); };
+    if (names.size() > 0) std::erase_if(chosen, is_other);
+    return FactorColumns<Get>{std::move(chosen), std::move(get)};
+  }
 
  private:
   template <class Get> struct FactorColumns {

@@ -7,7 +7,7 @@
 
 namespace thinwall {
 
-class JournalText {
+class JournalWriter {
  public:
   void put(std::int64_t number);
   void put(double number);

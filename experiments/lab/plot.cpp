@@ -121,6 +121,9 @@ Plot::operator Panel() const {
     series->lower.push_back(number_in(row[place_of(measured.lower)]).value_or(*value));
     series->upper.push_back(number_in(row[place_of(measured.upper)]).value_or(*value));
   }
+  for (Series& series : panel.series) {  // bars only where one of its points has an interval
+    if (series.lower == series.y && series.upper == series.y) series.lower = series.upper = {};
+  }
   panel.series.insert(panel.series.end(), panel_.series.begin(), panel_.series.end());
   for (const Curve& curve : curves_) {
     const double from = std::isnan(curve.from) ? least : curve.from, to = std::isnan(curve.to) ? most : curve.to;

@@ -20,15 +20,15 @@ std::optional<double> RealSum::mean() const {
   return std::ldexp(static_cast<double>(units), -32) / static_cast<double>(count);
 }
 
-std::string& JournalText::next() {
+std::string& JournalWriter::next() {
   if (!out_.empty()) out_ += ' ';
   return out_;
 }
 
-void JournalText::put(std::int64_t number) { next() += std::to_string(number); }
-void JournalText::put(double number) { next() += fmt::format("{:a}", number); }
+void JournalWriter::put(std::int64_t number) { next() += std::to_string(number); }
+void JournalWriter::put(double number) { next() += fmt::format("{:a}", number); }
 
-void JournalText::put(std::string_view text) {
+void JournalWriter::put(std::string_view text) {
   std::string& out = next() += '\'';  // so that an empty text is a word too
   for (const char letter : text) {
     const auto byte = static_cast<unsigned char>(letter);

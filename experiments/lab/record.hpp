@@ -40,7 +40,7 @@ enum class Merge {
   sum,    ///< of whole numbers, of lists of them entry by entry, of records
   least,  ///< the smaller one; of nothing it is infinity
   most,   ///< the larger one; of nothing it is minus infinity
-  kept    ///< the first one: it says what was counted, or stands in one part alone
+  kept    ///< the first that is not empty: it says what was counted, or stands in one part alone
 };
 
 template <class T, class V> struct Field {
@@ -99,8 +99,9 @@ template <Record T> T& operator+=(T& into, const T& more);
 namespace detail {
 
 template <class V> void merge(Merge how, V& into, const V& more) {
-  if (how == Merge::kept) return;
-  if constexpr (Record<V>) {
+  if (how == Merge::kept) {
+    if (into == V{}) into = more;
+  } else if constexpr (Record<V>) {
     into += more;
   } else if constexpr (requires { into.begin(); } && !std::same_as<V, std::string>) {
     if constexpr (requires { into.resize(more.size()); }) {
@@ -114,7 +115,7 @@ template <class V> void merge(Merge how, V& into, const V& more) {
   }
 }
 
-template <class V> void write(JournalText& out, const V& value) {
+template <class V> void write(JournalWriter& out, const V& value) {
   if constexpr (Record<V>) {
     for_each_field<V>([&](const auto& field) { write(out, value.*field.member); });
   } else if constexpr (std::is_enum_v<V>) {
@@ -167,7 +168,7 @@ template <Record T> T& operator+=(T& into, const T& more) {
 
 /// One line without tabs. `T` is a record, a number, a text, an enumeration, or a list, an array or an optional of such.
 template <class T> std::string to_text(const T& value) {
-  JournalText out;
+  JournalWriter out;
   detail::write(out, value);
   return std::move(out).text();
 }

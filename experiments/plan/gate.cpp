@@ -5,9 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <stdexcept>
-
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/random.hpp>
 #include <thinwall/experiments/world/world.hpp>
@@ -119,26 +116,25 @@ GateTally shoot_at_gate(const GateCell& cell, std::int64_t rounds, std::uint64_t
 
 std::string gate_target_name(GateTarget target) { return target == GateTarget::wall ? "wall" : "ball"; }
 
-std::string to_line(const GateTally& t) {
-  return nlohmann::json(
-             {t.missed, t.missed_swept, t.early, t.late, t.sweeps, t.gated, t.milliseconds, t.swept_milliseconds})
-      .dump();
+std::vector<SelfTest> gate_self_test(const std::vector<GateRow>& rows) {
+  std::vector<CellCount> cells;
+  for (const GateRow& row : rows) {
+    const auto same = [&](const GateRow& other) {  // the shots of a path are the same at every gate: one counts
+      return &other < &row && other.cell.target == row.cell.target && other.cell.path == row.cell.path &&
+             other.cell.path <= other.cell.gate && row.cell.path <= row.cell.gate;
+    };
+    if (std::ranges::none_of(rows, same)) {
+      cells.push_back({"gate at a " + gate_target_name(row.cell.target), "double", row.cell.shots, row.tally.missed,
+                       missed_by_gate(row.cell)});
+    }
+  }
+  return self_test(cells);
 }
 
-GateTally gate_tally_from_line(const std::string& line) {
-  try {
-    const auto in = nlohmann::json::parse(line);
-    return {in.at(0),
-            in.at(1),
-            in.at(2),
-            in.at(3),
-            in.at(4),
-            in.at(5),
-            in.at(6).get<std::vector<double>>(),
-            in.at(7).get<std::vector<double>>()};
-  } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("not a tally of the gate: ") + error.what());
-  }
+bool gate_is_right(const std::vector<GateRow>& rows) {
+  return all_passed(gate_self_test(rows)) && std::ranges::all_of(rows, [](const GateRow& row) {
+           return row.tally.early == 0 && row.tally.missed_swept == 0;
+         });
 }
 
 }  // namespace thinwall

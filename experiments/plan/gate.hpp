@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+#include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/self_test.hpp>
+
 namespace thinwall {
 
 enum class GateTarget { wall, ball };
@@ -22,14 +25,27 @@ struct GateCell {
 };
 
 struct GateTally {
-  std::int64_t missed = 0;                 ///< shots that never met their target; without the gate all do
-  std::int64_t missed_swept = 0;           ///< the same without the gate
-  std::int64_t early = 0;                  ///< shots that met it earlier than without the gate
-  double late = 0;                         ///< [1] steps from the true meeting to the one told: mean over those told
-  std::int64_t sweeps = 0;                 ///< pairs asked without the gate, over all steps
-  std::int64_t gated = 0;                  ///< pairs that the gate did not sweep
-  std::vector<double> milliseconds;        ///< a step with the gate, one of each round
-  std::vector<double> swept_milliseconds;  ///< without it
+  std::int64_t missed = 0, missed_swept = 0, early = 0;  ///< shots
+  double late = 0;                                       ///< [1] steps
+  std::int64_t sweeps = 0, gated = 0;
+  std::vector<double> milliseconds, swept_milliseconds;  ///< a step with the gate and without, one of each round
+
+  static constexpr auto fields() {
+    using T = GateTally;
+    return record(kept("missed", &T::missed, "1", "Shots never told to have met their target."),
+                  kept("early", &T::early, "1", "Shots that met it earlier than without the gate."),
+                  kept("late", &T::late, "1", "Steps from the true meeting to the one told: mean over the shots told."),
+                  kept("missed_without_gate", &T::missed_swept, "1", "Shots that are missed with no gate: none."),
+                  kept("sweeps", &T::sweeps, "1", "Pairs asked without the gate, over all steps."),
+                  kept("gated", &T::gated, "1", "Pairs that the gate did not sweep."),
+                  kept("milliseconds", &T::milliseconds), kept("swept_milliseconds", &T::swept_milliseconds));
+  }
+};
+
+/// A cell and what came of it.
+struct GateRow {
+  GateCell cell;
+  GateTally tally;
 };
 
 inline constexpr double gate_wall = 0.1;  // [1] thickness of the wall in radii of the ball
@@ -42,8 +58,10 @@ GateTally shoot_at_gate(const GateCell& cell, std::int64_t rounds, std::uint64_t
 
 std::string gate_target_name(GateTarget target);
 
-/// As the line that a run's journal keeps, and back. Throws std::runtime_error if it is not one.
-std::string to_line(const GateTally& tally);
-GateTally gate_tally_from_line(const std::string& line);
+/// The shots against theory.
+std::vector<SelfTest> gate_self_test(const std::vector<GateRow>& rows);
+
+/// All of it: no shot is missed without the gate, none met early, and with it as many as theory says.
+bool gate_is_right(const std::vector<GateRow>& rows);
 
 }  // namespace thinwall

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/figures/plot.hpp>
+#include <thinwall/experiments/results/prose.hpp>
 #include <thinwall/experiments/results/report_style.hpp>
 #include <thinwall/experiments/results/resolved_toml.hpp>
 #include <thinwall/experiments/tables/shown_table.hpp>
@@ -95,7 +96,8 @@ std::string verdict(bool passed) {
 }  // namespace
 
 std::string report_page(const RunRecord& run, const Outcome& outcome, const ReportParts& parts) {
-  std::string figures, tables, method, limits;
+  const Prose prose = prose_of(run.experiment);
+  std::string figures, tables, method = prose.method, limits = prose.limits;
   for (std::size_t i = 1; i < outcome.figures.size(); ++i) figures += figure_html(outcome.figures[i], parts);
   for (const Table& table : outcome.tables) tables += table.in_report ? html_table(table) : "";
   for (const Section& part : outcome.sections) {
@@ -107,7 +109,7 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
   return fmt::format(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
-             "<title>{0}: {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<main>\n"
+             "<title>{0}: {1}</title>\n<style>{2}</style>\n</head>\n<body id=\"top\">\n<main>\n"
              "<p class=\"kicker\">thinwall {3} &middot; {0} &middot; {4}</p>\n<h1>{1}</h1>\n",
              html_escaped(run.experiment), html_escaped(run.question), report_style, html_escaped(run.build.version),
              utc_text(run.finished).substr(0, 10)) +
@@ -116,7 +118,7 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
          section("More figures", figures) + section("Tables", tables) + section("Method", method) +
          section("Limits", limits) + section("How to reproduce", reproduction(run)) +
          section("Configuration", configuration(run)) + section("Provenance", provenance(run)) +
-         section("Files", file_links(parts.files)) +
+         section("Background", prose.pages) + section("Files", file_links(parts.files)) +
          section("How to cite", fmt::format("<pre><code>{}</code></pre>\n", html_escaped(parts.citation))) +
          "</main>\n</body>\n</html>\n";
 }

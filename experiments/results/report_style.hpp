@@ -15,6 +15,10 @@ h1 { font-size: 1.75rem; line-height: 1.25; margin: .2rem 0 1rem; text-wrap: bal
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; padding-top: 1.2rem; border-top: 1px solid var(--line); }
 h3 { font-size: 1.02rem; margin: 1.6rem 0 .3rem; }
 p { margin: .7rem 0; max-width: 46rem; }
+li { max-width: 44rem; }
+summary { cursor: pointer; margin: .5rem 0; }
+details[open] { border-left: 2px solid var(--line); padding-left: 1rem; }
+h4 { font-size: .95rem; margin: 1.3rem 0 .3rem; }
 figcaption { max-width: 46rem; }
 a { color: var(--link); }
 .kicker { color: var(--soft); margin: 0; font-size: .9rem; }

@@ -1,11 +1,15 @@
 #pragma once
-/// What mathematics says of a penalty contact. No simulation in here; all is derived in docs/stiff_contact.md.
-/// Steps are in units of 1 / omega, depths in units of speed / omega; the damping ratio is c / (2 sqrt(k m)).
+/// What mathematics says of a penalty contact, and whether what was measured agrees. No simulation in here; all is derived in
+/// docs/stiff_contact.md. Steps are in units of 1 / omega, depths in units of speed / omega; the damping ratio is
+/// c / (2 sqrt(k m)).
 
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <thinwall/experiments/statistics.hpp>
-#include <thinwall/experiments/stiff_contact/scheme.hpp>
+#include <thinwall/experiments/stiff_contact/model.hpp>
 
 namespace thinwall {
 
@@ -21,5 +25,32 @@ double deepest(double damping_ratio);
 /// [1] |speed out / speed in| of an undamped bounce by the semi-implicit scheme lies in here, whatever the phase.
 /// Nothing for a step of 2 and more.
 std::optional<Interval> bounce_bounds(double step);
+
+/// The bracket does.
+bool holds_theory(const LimitRow& row);
+
+/// [1] How wide the bracket is, over its stable end; 0 if it has not two ends.
+double bracket_width(const LimitRow& row);
+
+/// What was measured at step `i` of the map: "stable", "unstable", or inside the bracket "undecided".
+std::string_view verdict_of(const StiffPlan& plan, const LimitRow& row, std::size_t i);
+
+/// Every bounce came back, and none got past the middle of the wall.
+bool is_clean(const StiffPlan& plan, const ContactRow& row);
+
+/// In continuous time the wall holds the ball.
+bool is_stiff_enough(const StiffPlan& plan, const PenaltyContact& c);
+
+/// The one of the same wall and step with the other detection, or nothing.
+const ContactRow* twin_of(const std::vector<ContactRow>& rows, const ContactRow& row);
+
+/// What theory claims, over all rows that it speaks of.
+struct StiffClaim {
+  std::string text;
+  std::int64_t judged = 0, wrong = 0;
+  bool passed() const { return wrong == 0; }
+};
+std::vector<StiffClaim> stiff_claims(const StiffResults& results);
+bool all_passed(const std::vector<StiffClaim>& claims);
 
 }  // namespace thinwall

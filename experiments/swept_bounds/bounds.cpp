@@ -1,6 +1,7 @@
 #include <thinwall/experiments/swept_bounds/bounds.hpp>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <type_traits>
 
@@ -190,6 +191,40 @@ template <class Bound> SweptBound erased() {
   };
 }
 
+constexpr int balls_in_question = 2048, tests_a_round = 1 << 13;
+
+/// Where the centers of balls are whose bounding box overlaps that of the swept shape.
+BallRegion box_pairs(const Sweep& s) {
+  const FittedBody box = enclosing_aabb_body(s);
+  BallRegion region = {path(s) / 2, box.axes, {}};
+  for (int i = 0; i < 3; ++i) region.half_extents[i] = half_width(box.body, box.axes.col(i)) + ball_radius(s);
+  return region;
+}
+
+double part_of(std::size_t part, std::size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
+
+/// The value below which `part` of the rounds lie, straight between neighbors.
+double quantile(std::vector<double> rounds, double part) {
+  std::sort(rounds.begin(), rounds.end());
+  const double place = part * static_cast<double>(rounds.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, rounds.size() - 1);
+  return rounds[below] + (rounds[above] - rounds[below]) * (place - static_cast<double>(below));
+}
+
+void note(SweepCost& cost, TimedWork work, const std::vector<double>& rounds) {
+  switch (work) {
+    case TimedWork::build: cost.build_ns = quantile(rounds, 0.5); break;
+    case TimedWork::test: cost.test_ns = quantile(rounds, 0.5); break;
+    case TimedWork::exact: cost.false_ns = quantile(rounds, 0.5); break;
+    case TimedWork::pipeline:
+      cost.pair_ns = quantile(rounds, 0.5);
+      cost.pair_lower_ns = quantile(rounds, 0.25);
+      cost.pair_upper_ns = quantile(rounds, 0.75);
+      break;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string_view> swept_bound_names() {
@@ -204,6 +239,75 @@ std::vector<SweptBound> swept_bounds_named(std::span<const std::string> names) {
     if (std::find(names.begin(), names.end(), Bound::name) != names.end()) all.push_back(erased<Bound>());
   });
   return all;
+}
+
+std::vector<SweepPair> serving_pairs(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds) {
+  std::vector<SweepPair> pairs;
+  for (const Sweep& sweep : sweeps) {
+    for (const SweptBound& bound : bounds) {
+      if (bound.serves(sweep.form)) pairs.push_back({sweep, &bound});
+    }
+  }
+  return pairs;
+}
+
+SweepRow make_row(const SweepPair& pair, const SweepTally& tally) {
+  return {pair.sweep, pair.bound->name, pair.bound->makes_volume,
+          sweep_theory(pair.bound->body(pair.sweep), pair.sweep), tally};
+}
+
+std::vector<CellCount> counts_of(const std::vector<SweepRow>& rows) {
+  std::vector<CellCount> counts;
+  for (const SweepRow& r : rows) {
+    const SweepTally& t = r.tally;
+    counts.push_back({r.bound, "touching", t.shots, t.touching, r.theory.touching});
+    counts.push_back({r.bound, "reported", t.shots, t.reported, r.theory.reported()});
+    counts.push_back({r.bound, "false", t.shots, t.false_hits, r.theory.false_hits});
+    counts.push_back({r.bound, "missed", t.shots + t.grazing, t.missed, 0});
+  }
+  return counts;
+}
+
+std::vector<TimedSubject> timed_subjects(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds,
+                                         std::uint64_t seed) {
+  std::vector<TimedSubject> subjects;
+  for (const SweepPair& pair : serving_pairs(sweeps, bounds)) {
+    const Sweep& s = pair.sweep;
+    const BallRegion region = box_pairs(s);
+    const RandomStream stream = random_stream(s, seed);
+    std::vector<Sphere<double>> all, wrong;
+    std::size_t reported = 0;
+    for (std::uint64_t i = 0; i < balls_in_question; ++i) {
+      all.push_back(ball_in(region, s, stream, i));
+      if (!pair.bound->reports(s, all.back())) continue;
+      ++reported;
+      if (!touches(s, all.back().center)) wrong.push_back(all.back());
+    }
+    for (const TimedWork work : {TimedWork::build, TimedWork::test, TimedWork::exact, TimedWork::pipeline}) {
+      const std::vector<Sphere<double>>& balls = work == TimedWork::exact ? wrong : all;
+      if (balls.empty()) continue;
+      const int passes = std::max(1, tests_a_round / static_cast<int>(balls.size()));
+      subjects.push_back({pair, work, balls, passes, part_of(reported, all.size()), part_of(wrong.size(), all.size())});
+    }
+  }
+  return subjects;
+}
+
+std::vector<SweepCost> sweep_costs(const std::vector<TimedSubject>& subjects, std::span<const double> seconds) {
+  std::vector<SweepCost> costs;
+  if (seconds.empty()) return costs;
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    const TimedSubject& t = subjects[i];
+    if (costs.empty() || costs.back().sweep != t.pair.sweep || costs.back().bound != t.pair.bound->name) {
+      costs.push_back({t.pair.sweep, t.pair.bound->name, t.reported, t.false_hits, 0, 0, {}, 0, 0, 0});
+    }
+    std::vector<double> rounds;
+    for (std::size_t k = i; k < seconds.size(); k += subjects.size()) {
+      rounds.push_back(1e9 * seconds[k] / static_cast<double>(t.tests()));
+    }
+    note(costs.back(), t.work, rounds);
+  }
+  return costs;
 }
 
 }  // namespace thinwall

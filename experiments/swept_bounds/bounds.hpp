@@ -1,16 +1,37 @@
 #pragma once
-/// The bounds that the balls are put to: what the library makes of a moving shape, and its exact answer.
+/// The bounds that the balls are put to, what the library makes of a moving shape and its exact answer; what is counted; and what
+/// the bounds cost. The runner's clock takes the time of units that do nothing but one kind of work; each is repeated, in turn with
+/// all others, and the median counts.
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/swept_bounds/obstacles.hpp>
-#include <thinwall/experiments/swept_bounds/tally.hpp>
+#include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/swept_bounds/theory.hpp>
 
 namespace thinwall {
+
+/// What is counted over the balls of one cell and bound.
+struct SweepTally {
+  std::int64_t shots = 0, touching = 0, reported = 0, false_hits = 0, grazing = 0, missed = 0;
+
+  static constexpr auto fields() {
+    using T = SweepTally;
+    return record(sum("shots", &T::shots, "1", "Balls around the bound."),
+                  sum("touching", &T::touching, "1", "Of those, truly touched during the step."),
+                  sum("reported", &T::reported, "1", "Of the balls, reported by the bound."),
+                  sum("false_hits", &T::false_hits, "1", "Reported, but not touched."),
+                  sum("grazing", &T::grazing, "1", "More balls, which just touch."),
+                  sum("missed", &T::missed, "1", "Touched, of either kind, and not reported."));
+  }
+  std::int64_t touched() const { return touching + grazing; }
+  bool operator==(const SweepTally&) const = default;
+};
 
 /// What a run of a clock is about.
 enum class TimedWork {
@@ -19,6 +40,8 @@ enum class TimedWork {
   exact,    ///< put every ball to the closed form: the price of a hit, false or true
   pipeline  ///< put every ball to the bound, and to the closed form if it is reported
 };
+inline constexpr std::array<std::string_view, 4> timed_work_names = {"build", "test", "exact", "pipeline"};
+constexpr std::string_view name(TimedWork work) { return timed_work_names[static_cast<std::size_t>(work)]; }
 
 struct SweptBound {
   std::string name;
@@ -33,5 +56,60 @@ struct SweptBound {
 
 std::vector<std::string_view> swept_bound_names();
 std::vector<SweptBound> swept_bounds_named(std::span<const std::string> names);  ///< in the list's own order
+
+/// A bound that serves a cell's shape.
+struct SweepPair {
+  Sweep sweep;
+  const SweptBound* bound;
+};
+std::vector<SweepPair> serving_pairs(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds);
+
+/// A cell, a bound, what was counted and what theory expects.
+struct SweepRow {
+  Sweep sweep;
+  std::string bound;
+  bool makes_volume;  ///< as the bound
+  SweepTheory theory;
+  SweepTally tally;
+};
+SweepRow make_row(const SweepPair& pair, const SweepTally& tally);
+
+/// Reported, truly touched, false and missed against theory, as the self-test wants it: `method` is the bound, `scalar`
+/// the event.
+std::vector<CellCount> counts_of(const std::vector<SweepRow>& rows);
+
+/// One kind of work at one cell and bound, and the balls it is done to.
+struct TimedSubject {
+  SweepPair pair;
+  TimedWork work;
+  std::vector<Sphere<double>> balls;  ///< not empty
+  int passes;                         ///< through all of them
+  double reported;                    ///< [1] share of the pairs in question that the bound reports
+  double false_hits;                  ///< [1] share of them that it reports and the shape does not touch
+
+  std::int64_t tests() const { return static_cast<std::int64_t>(balls.size()) * passes; }
+};
+
+/// The pairs in question are those that a broad phase of boxes hands over: balls whose bounding box overlaps the shape's
+/// swept one, the centers uniform. False hits alone are put to the closed form; a bound without any has no such subject.
+std::vector<TimedSubject> timed_subjects(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds,
+                                         std::uint64_t seed);
+
+/// What a bound costs at a cell. Times are medians.
+struct SweepCost {
+  Sweep sweep;
+  std::string bound;
+  double reported, false_hits;  ///< [1] shares of the pairs in question
+  double build_ns = 0, test_ns = 0;
+  std::optional<double> false_ns;               ///< the closed form on one of its false hits, if it makes any
+  double pair_ns = 0;                           ///< the bound on a pair, then the closed form if reported
+  double pair_lower_ns = 0, pair_upper_ns = 0;  ///< quartiles of the rounds
+
+  /// Time spent on false hits, a pair in question.
+  double wasted_ns() const { return false_hits * false_ns.value_or(0); }
+};
+
+/// `seconds` of every subject in turn, round by round; none if there were no rounds.
+std::vector<SweepCost> sweep_costs(const std::vector<TimedSubject>& subjects, std::span<const double> seconds);
 
 }  // namespace thinwall

@@ -3,11 +3,35 @@
 /// shares no code with the library's bounds.
 
 #include <optional>
+#include <vector>
 
-#include <thinwall/experiments/swept_bounds/steiner.hpp>
-#include <thinwall/experiments/swept_bounds/sweep.hpp>
+#include <thinwall/experiments/swept_bounds/model.hpp>
 
 namespace thinwall {
+
+/// Segments added up, each point of one moved by each point of the next, then every point within `radius` of that.
+/// No segment is a ball, one a capsule, three at right angles a rounded box.
+struct RoundedZonotope {
+  std::vector<Vec3<double>> segments;  ///< [length] from end to end
+  double radius = 0;                   ///< [length] >= 0
+};
+
+/// The three numbers of a convex body that the volumes of all bodies around it follow from.
+struct SteinerNumbers {
+  double volume;          ///< [length^3]
+  double area;            ///< [length^2] of the surface
+  double mean_curvature;  ///< [length] integral of the mean curvature over the surface
+};
+SteinerNumbers steiner_numbers(const std::vector<Vec3<double>>& segments);  ///< of the zonotope, not rounded
+
+/// [length^3] V + S r + M r^2 + 4 pi r^3 / 3, Steiner's formula.
+double volume(const RoundedZonotope& body);
+
+/// The sum with a ball: all points within `by` of the body.
+RoundedZonotope grown(RoundedZonotope body, double by);
+
+/// [length] Half of the body's extent along a unit vector.
+double half_width(const RoundedZonotope& body, const Vec3<double>& along);
 
 /// A bound as a body around the middle of the path, and the axes of a box that fits it well.
 struct FittedBody {
@@ -22,12 +46,6 @@ FittedBody capsule_body(const Sweep& s);           ///< what the ball around the
 FittedBody oriented_box_body(const Sweep& s);      ///< the least box with an axis along the motion; of box shapes
 FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes);  ///< the least with these axes
 
-/// A box that balls are drawn from.
-struct BallRegion {
-  Vec3<double> middle;        ///< [m]
-  Mat3<double> axes;          ///< unit columns
-  Vec3<double> half_extents;  ///< [m]
-};
 double volume(const BallRegion& region);  ///< [m^3]
 
 /// Around all centers at which a ball overlaps the bound, and a tenth more: a bound that is too wide would show.

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <thinwall/experiments/thin_wall/cell.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 
 namespace thinwall {

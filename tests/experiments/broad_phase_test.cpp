@@ -6,16 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/discrete/broad_phase.hpp>
-#include <thinwall/experiments/broad_phase/crowd.hpp>
-#include <thinwall/experiments/broad_phase/finder.hpp>
-#include <thinwall/experiments/broad_phase/report.hpp>
+#include <thinwall/experiments/broad_phase/growth.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 
-#include "experiments/broad_phase_run.hpp"
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 namespace {
 
-const CrowdFactors uniform_crowd = {.clustered = false, .speed = 2, .density = 0.1, .count = 4000};
+const CrowdFactors uniform_crowd = {.placement = "uniform", .speed = 2, .count = 4000, .density = 0.1};
 
 TEST(BroadPhaseCrowd, fills_its_cube_at_the_density_and_moves_as_far_as_asked) {
   const Crowd crowd = make_crowd(uniform_crowd, 1);
@@ -52,7 +51,7 @@ TEST(BroadPhaseCrowd, of_uniform_balls_has_as_many_pairs_as_probability_says) {
 
 TEST(BroadPhaseCrowd, heaps_have_more_pairs) {
   CrowdFactors heaps = uniform_crowd;
-  heaps.clustered = true;
+  heaps.placement = "clustered";
   std::vector<ProxyPair> uniform_pairs, heap_pairs;
   find_pairs(UniformGrid{}, proxies_of(make_crowd(uniform_crowd, 1)), uniform_pairs);
   find_pairs(UniformGrid{}, proxies_of(make_crowd(heaps, 1)), heap_pairs);
@@ -79,19 +78,19 @@ TEST(BroadPhase, counts_as_meetings_the_balls_that_touch_and_not_the_boxes) {
   EXPECT_EQ(count_meetings(crowd, {{0, 1}, {0, 2}, {1, 2}, {0, 3}}), 3);  // 0 and 2 pass each other's corner
 }
 
+constexpr std::string_view few_crowds = "count = [30, 400]\nspeed = [0.1, 2]\nrounds = 3";
+
+std::unique_ptr<Run> broad_phase_run(std::string_view text) {
+  return run_of(broad_phase_experiment(), text, {.seed = 5, .trials = {}});
+}
+
 TEST(BroadPhase, puts_every_broad_phase_of_the_list_to_every_world) {
-  const auto run = broad_phase_run(few_crowds);
-  const std::vector<Unit> units = run->units();
-  EXPECT_EQ(units.size(), 2U * 2 * 2);
-  for (const Unit& unit : units) {
-    const std::string line = unit.compute();
-    const Survey s = survey_from_line(line);
-    EXPECT_EQ(to_line(s), line);
+  for (const Unit& unit : broad_phase_run(few_crowds)->units()) {
+    const auto s = from_text<Survey>(unit.compute());
     for_each_type(BroadPhases{}, [&]<class Method>(TypeTag<Method>) {
-      const Finding* f = finding_of(s, std::string(Method::name));
+      const Finding* f = finding_of(s, Method::name);
       ASSERT_NE(f, nullptr) << Method::name;
       EXPECT_EQ(f->pairs, s.pairs);
-      EXPECT_TRUE(f->is_right());
       EXPECT_EQ(f->milliseconds.size(), 3U);
     });
     EXPECT_EQ(finding_of(s, "bullet_step") != nullptr, has_bullet());
@@ -104,44 +103,71 @@ TEST(BroadPhase, puts_every_broad_phase_of_the_list_to_every_world) {
 TEST(BroadPhase, says_the_same_of_pairs_in_every_run) {
   const Outcome first = outcome_of(*broad_phase_run(few_crowds)), second = outcome_of(*broad_phase_run(few_crowds));
   EXPECT_TRUE(first.self_test_passed);
-  const Table &a = table_of(first, "crowds"), &b = table_of(second, "crowds");
-  EXPECT_EQ(a.rows, b.rows);
-  EXPECT_FALSE(a.is_timing);
-  for (const Table& t : first.tables) {
-    for (const auto& row : t.rows) EXPECT_EQ(row.size(), t.columns.size()) << t.name;
-  }
+  EXPECT_EQ(table_of(first, "crowds").rows, table_of(second, "crowds").rows);
+  EXPECT_FALSE(table_of(first, "crowds").is_timing);
   EXPECT_TRUE(table_of(first, "timings").is_timing);
   for (const Figure& f : first.figures) EXPECT_TRUE(f.is_timing);
-  EXPECT_NE(first.answer.find("finds all"), std::string::npos);
 }
 
-TEST(BroadPhase, summary_fits_the_terminal) {
-  std::vector<SurveyLine> lines;
-  for (const std::int64_t count : {10, 100, 10000, 31623, 100000, 316228, 1000000})
-    lines.push_back(made_up_line(count, {made_up_finding("all_ordered_pairs", 1e-4 * double(count)),
-                                         made_up_finding("uniform_grid", 1.5e-4 * double(count))}));
-  std::istringstream text(broad_phase_summary(lines));
-  for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 100U) << line;
+/// A finding as none is.
+Finding made_up_finding(std::string finder, double milliseconds) {
+  Finding f;
+  f.finder = std::move(finder);
+  f.pairs = 3;
+  f.milliseconds = {milliseconds, milliseconds, milliseconds};
+  return f;
+}
+
+SurveyRow made_up_row(std::int64_t count, std::vector<Finding> findings) {
+  SurveyRow row;
+  row.crowd.count = count;
+  row.survey = {3, 1, std::move(findings)};
+  return row;
+}
+
+/// What the experiment makes of these surveys of uniform worlds.
+Outcome outcome_of_rows(const std::vector<SurveyRow>& rows) {
+  std::string counts;
+  std::vector<std::string> results;
+  for (const SurveyRow& row : rows) {
+    counts += (counts.empty() ? "" : ", ") + std::to_string(row.crowd.count);
+    results.push_back(to_text(row.survey));
+  }
+  const auto run = broad_phase_run("speed = [1]\nplacement = [\"uniform\"]\ncount = [" + counts + "]");
+  return run->finish(results, std::vector<double>(results.size(), 1));
+}
+
+TEST(BroadPhase, tells_of_the_largest_worlds_within_the_terminal) {
+  std::vector<SurveyRow> rows;
+  for (const std::int64_t count : {10, 100, 10000, 31623, 100000, 316228, 1000000, 10000000})
+    rows.push_back(made_up_row(count, {made_up_finding("all_ordered_pairs", 1.23456e-9 * double(count)),
+                                       made_up_finding("uniform_grid", 1.5e-4 * double(count))}));
+  const Outcome outcome = outcome_of_rows(rows);  // a table that is too wide throws
+  EXPECT_NE(outcome.summary.find("10,000,000"), std::string::npos) << outcome.summary;
+  EXPECT_EQ(outcome.answer.find("Of 10,000,000 uniform balls"), 0U) << outcome.answer;
+  EXPECT_EQ(value_of(table_of(outcome, "growth"), 0, "counts"), Value(std::int64_t{6}));
 }
 
 TEST(BroadPhase, self_test_fails_who_misses_a_pair_or_invents_one) {
-  std::vector<SurveyLine> lines = {made_up_line(10, {made_up_finding("r_tree", 1)})};
-  EXPECT_TRUE(all_right(lines));
-  Finding& f = lines[0].survey.findings[0];
+  std::vector<SurveyRow> rows = {made_up_row(10, {made_up_finding("r_tree", 1)})};
+  EXPECT_TRUE(all_right(rows));
+  Finding& f = rows[0].survey.findings[0];
   f.extra = 1;
-  EXPECT_FALSE(all_right(lines));
+  EXPECT_FALSE(all_right(rows));
   f.is_exact = false;  // Bullet's boxes have a margin
-  EXPECT_TRUE(all_right(lines));
+  EXPECT_TRUE(all_right(rows));
   f.missing = 1;
-  EXPECT_FALSE(all_right(lines));
-  EXPECT_NE(broad_phase_summary(lines).find("r_tree misses 1"), std::string::npos);
+  EXPECT_FALSE(all_right(rows));
+  f.is_exact = true;
+  EXPECT_FALSE(outcome_of_rows(rows).self_test_passed);
+  EXPECT_NE(outcome_of_rows(rows).summary.find("r_tree misses 1 and adds 1 of 3 pairs"), std::string::npos);
 }
 
 TEST(BroadPhase, finds_the_exponent_of_a_power_and_no_interval_where_it_is_exact) {
   std::vector<GrowthPoint> points;
   for (const double n : {1e4, 1e5, 1e6}) points.push_back({n, 3 * std::pow(n, 1.25)});
-  const Growth growth = fit_growth(points).value();
-  EXPECT_NEAR(growth.exponent, 1.25, 1e-12);
+  const Measured growth = fit_growth(points).value();
+  EXPECT_NEAR(growth.value, 1.25, 1e-12);
   EXPECT_NEAR(growth.interval.upper - growth.interval.lower, 0, 1e-6);
   points[1].cost *= 2;
   EXPECT_GT(fit_growth(points)->interval.upper, 1.5);
@@ -150,47 +176,26 @@ TEST(BroadPhase, finds_the_exponent_of_a_power_and_no_interval_where_it_is_exact
 }
 
 TEST(BroadPhase, fits_only_counts_beyond_the_fixed_costs_and_sees_where_the_loop_ends) {
-  std::vector<SurveyLine> lines;
+  std::vector<SurveyRow> rows;
   for (const std::int64_t count : {10, 100, 10000, 100000, 1000000}) {
     const double loop = 1e-6 * double(count) * double(count), grid = 1e-3 * double(count) + (count < 10000 ? 1 : 0);
-    lines.push_back(made_up_line(count, {made_up_finding("all_pairs", loop), made_up_finding("uniform_grid", grid)}));
+    rows.push_back(made_up_row(count, {made_up_finding("all_pairs", loop), made_up_finding("uniform_grid", grid)}));
   }
-  EXPECT_EQ(loop_is_best_up_to(lines), 100);
-  const std::vector<Course> all = courses(lines);
+  EXPECT_EQ(loop_is_best_up_to(rows), 100);
+  const std::vector<Course> all = courses(rows);
   ASSERT_EQ(all.size(), 2U);
-  EXPECT_NEAR(all[0].growth.value().exponent, 2, 1e-9);
-  EXPECT_NEAR(all[1].growth.value().exponent, 1, 1e-9);
+  EXPECT_NEAR(all[0].growth.value().value, 2, 1e-9);
+  EXPECT_NEAR(all[1].growth.value().value, 1, 1e-9);
 }
 
-TEST(BroadPhase, refuses_what_is_no_survey) {
-  EXPECT_THROW(survey_from_line("nonsense"), std::runtime_error);
-  EXPECT_THROW(survey_from_line("3 1;r_tree 1 3"), std::runtime_error);
-}
-
-std::string complaint(std::string_view text) {
+TEST(BroadPhase, refuses_a_world_that_nobody_would_look_at) {
   try {
-    broad_phase_run(text);
+    broad_phase_run("broad_phase = [\"all_pairs\"]\nloops_up_to = 5\ncount = [6]");
+    FAIL();
   } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
-TEST(BroadPhase, names_the_setting_that_is_out_of_range) {
-  for (const auto& [key, text] : {std::pair{"count", "count = [0]"},
-                                  {"count", "count = []"},
-                                  {"speed", "speed = [-1]"},
-                                  {"density", "density = 0"},
-                                  {"placement", "placement = [\"heaps\"]"},
-                                  {"broad_phase", "broad_phase = [\"octree\"]"},
-                                  {"rounds", "rounds = 0"},
-                                  {"seconds", "seconds = -1"},
-                                  {"loops_up_to", "loops_up_to = -1"},
-                                  {"sweep_up_to", "sweep_up_to = -1"},
-                                  {"broad_phase", "broad_phase = [\"all_pairs\"]\nloops_up_to = 5\ncount = [6]"}}) {
-    const std::string said = complaint(text);
-    EXPECT_NE(said.find(key), std::string::npos) << text << ": " << said;
-    EXPECT_EQ(said.find('\n'), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("broad_phase: at least one that is not left out of 6 balls"),
+              std::string::npos)
+        << error.what();
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/crossing_bullets/encounter.hpp>
+#include <thinwall/experiments/crossing_bullets/model.hpp>
 #include <thinwall/experiments/crossing_bullets/theory.hpp>
 #include <thinwall/experiments/statistics.hpp>
 
@@ -28,7 +28,8 @@ Crossing long_path(double ratio, double angle_deg, double offset) {
 TEST(CrossingEncounter, nothing_touches_at_the_start) {
   for (const Crossing& c : crossings) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
-      ASSERT_GT(gap_at(random_encounter(c, random_stream(c, 1), i), 0), -1e-12) << key(c);
+      ASSERT_GT(gap_at(random_encounter(c, crossing_factors().stream(c, 1), i), 0), -1e-12)
+          << crossing_factors().key(c);
     }
   }
 }
@@ -36,7 +37,7 @@ TEST(CrossingEncounter, nothing_touches_at_the_start) {
 TEST(CrossingEncounter, first_contact_is_uniform_over_the_step) {
   std::vector<double> counts(50);
   for (std::uint64_t i = 0; i < 50000; ++i) {
-    const TrueContact truth = true_contact(random_encounter(head_on, random_stream(head_on, 3), i));
+    const TrueContact truth = true_contact(random_encounter(head_on, crossing_factors().stream(head_on, 3), i));
     ASSERT_TRUE(truth.touches);
     ++counts[std::min<std::size_t>(49, static_cast<std::size_t>(50 * truth.time))];
   }
@@ -49,12 +50,12 @@ TEST(CrossingEncounter, first_contact_is_uniform_over_the_step) {
 TEST(CrossingEncounter, oracle_agrees_with_the_gap) {
   for (const Crossing& c : crossings) {
     for (std::uint64_t i = 0; i < 200; ++i) {
-      const Encounter e = random_encounter(c, random_stream(c, 1), i);
+      const Encounter e = random_encounter(c, crossing_factors().stream(c, 1), i);
       const TrueContact truth = true_contact(e);
       const double end = truth.touches ? static_cast<double>(truth.time) : 1;
-      for (int k = 0; k < 200; ++k) ASSERT_GT(gap_at(e, end * k / 200), -1e-12) << key(c);
+      for (int k = 0; k < 200; ++k) ASSERT_GT(gap_at(e, end * k / 200), -1e-12) << crossing_factors().key(c);
       if (truth.touches) {
-        ASSERT_NEAR(gap_at(e, end), 0, 1e-12) << key(c);
+        ASSERT_NEAR(gap_at(e, end), 0, 1e-12) << crossing_factors().key(c);
       }
     }
   }

@@ -1,6 +1,4 @@
-/// The stiff contact's answers, and whether a wrong theory would be noticed.
-#include <thinwall/experiments/experiment_list.hpp>
-
+/// The stiff contact's settings and answers, and whether a wrong theory would be noticed.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,33 +7,58 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/stiff_contact_run.hpp"
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/stiff_contact/theory.hpp>
+
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 namespace {
 
-struct Measured {
-  StiffPlan plan = stiff_plan();
-  std::vector<LimitLine> limits;
-  std::vector<ContactLine> bounces;
-};
+/// Small enough for a debug build, and still with every kind of cell: soft and stiff, undamped, damped and overdamped.
+constexpr std::string_view few_contacts = R"(
+  bounces = 100
+  stiffness = [100, 1e6, 1e10]
+  damping_ratio = [0, 1e-5, 0.1, 1, 1e5]
+  step = [1.5e-5, 0.15, 1.5, 15]
+  bounce_damping = [0, 0.1]
+  bounce_step = [0.3, 1.5, 1.9, 5, 1000]
+  race_step = [0.8, 0.1]
+  race_bounces = 4
+  rounds = 3
+)";
 
-Measured measured() {
-  Measured m;
-  for (const LimitCell& cell : limit_cells(m.plan)) {
-    m.limits.push_back(limit_line(m.plan, cell, limit_result(m.plan, cell)));
-  }
-  for (const BounceSeries& series : bounce_series(m.plan)) {
-    for (const ContactLine& l : bounce_lines(m.plan, series, bounce_result(m.plan, series))) m.bounces.push_back(l);
-  }
-  return m;
+Outcome stiff_outcome(std::string_view text = few_contacts) {
+  return outcome_of(*run_of(stiff_contact_experiment(), text));
 }
 
-bool passes(const Measured& m) { return all_passed(stiff_tests(m.plan, m.limits, m.bounces)); }
+StiffResults measured() {
+  const Experiment experiment = stiff_contact_experiment();
+  StiffResults all = {
+      make_stiff_plan(Settings(few_contacts, "test.toml", experiment.default_toml), {.seed = 1, .trials = {}}),
+      {},
+      {},
+      {}};
+  for (const Scheme scheme : all_schemes) {
+    for (const double stiffness : all.plan.stiffness) {
+      for (const double ratio : all.plan.ratios)
+        all.limits.push_back(measured_spring(all.plan, scheme, stiffness, ratio));
+      for (const double ratio : all.plan.bounce_ratios) {
+        for (const Detection detection : all_detections) {
+          const auto wall = measured_wall(all.plan, {scheme, detection, stiffness, ratio, 0});
+          all.bounces.insert(all.bounces.end(), wall.begin(), wall.end());
+        }
+      }
+    }
+  }
+  return all;
+}
 
-bool passes_with_limit(Measured m, Scheme scheme, const std::function<double(double ratio, double limit)>& wrong) {
-  for (LimitLine& line : m.limits) {
-    if (line.cell.scheme == scheme) line.theory = wrong(line.cell.ratio, line.theory.value_or(0));
+bool passes(const StiffResults& m) { return all_passed(stiff_claims(m)); }
+
+bool passes_with_limit(StiffResults m, Scheme scheme, const std::function<double(double ratio, double limit)>& wrong) {
+  for (LimitRow& row : m.limits) {
+    if (row.scheme == scheme) row.theory = wrong(row.ratio, row.theory.value_or(0));
   }
   return passes(m);
 }
@@ -49,7 +72,7 @@ TEST(StiffContact, agrees_with_theory) {
 }
 
 TEST(StiffContact, fails_a_wrong_limit) {
-  const Measured m = measured();
+  const StiffResults m = measured();
   EXPECT_TRUE(passes(m));
   const auto as_it_is = [](double, double limit) { return limit; };
   EXPECT_TRUE(passes_with_limit(m, Scheme::semi_implicit, as_it_is));
@@ -65,26 +88,26 @@ TEST(StiffContact, fails_a_wrong_limit) {
 }
 
 TEST(StiffContact, fails_a_wrong_bounce) {
-  const Measured m = measured();
-  const auto passes_with = [&](const std::function<void(ContactLine&)>& change) {
-    Measured changed = m;
-    for (ContactLine& line : changed.bounces) change(line);
+  const StiffResults m = measured();
+  const auto passes_with = [&](const std::function<void(ContactRow&)>& change) {
+    StiffResults changed = m;
+    for (ContactRow& row : changed.bounces) change(row);
     return passes(changed);
   };
-  EXPECT_TRUE(passes_with([](ContactLine&) {}));
-  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.fastest *= 1.01; }));
-  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.slowest *= 0.99; }));
-  EXPECT_FALSE(passes_with([](ContactLine& l) {  // an implicit step that gains
-    if (l.contact.scheme == Scheme::implicit_euler) l.tally.fastest = 1.001;
+  EXPECT_TRUE(passes_with([](ContactRow&) {}));
+  EXPECT_FALSE(passes_with([](ContactRow& r) { r.tally.fastest *= 1.01; }));
+  EXPECT_FALSE(passes_with([](ContactRow& r) { r.tally.slowest *= 0.99; }));
+  EXPECT_FALSE(passes_with([](ContactRow& r) {  // an implicit step that gains
+    if (r.contact.scheme == Scheme::implicit_euler) r.tally.fastest = 1.001;
   }));
-  EXPECT_FALSE(passes_with([](ContactLine& l) {  // an explicit one that loses
-    if (l.contact.scheme == Scheme::explicit_euler) l.tally.slowest = 0.999;
+  EXPECT_FALSE(passes_with([](ContactRow& r) {  // an explicit one that loses
+    if (r.contact.scheme == Scheme::explicit_euler) r.tally.slowest = 0.999;
   }));
-  EXPECT_FALSE(passes_with([](ContactLine& l) {  // a split that matters
-    if (l.contact.detection == Detection::toi_split) l.tally.fastest *= 1 + 1e-6;
+  EXPECT_FALSE(passes_with([](ContactRow& r) {  // a split that matters
+    if (r.contact.detection == Detection::toi_split) r.tally.fastest *= 1 + 1e-6;
   }));
-  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.escaped = 0; }));  // nobody tunnels
-  EXPECT_FALSE(passes_with([](ContactLine& l) { l.tally.escaped = 1; }));  // somebody always does
+  EXPECT_FALSE(passes_with([](ContactRow& r) { r.tally.escaped = 0; }));  // nobody tunnels
+  EXPECT_FALSE(passes_with([](ContactRow& r) { r.tally.escaped = 1; }));  // somebody always does
 }
 
 TEST(StiffContact, says_what_is_stable_and_what_a_bounce_does) {
@@ -121,19 +144,6 @@ TEST(StiffContact, an_unstable_step_is_reported_with_the_step_where_it_blew_up) 
   EXPECT_LT(unstable, map.rows.size());
 }
 
-bool is_race(const Unit& unit) { return unit.key.starts_with("race"); }
-
-TEST(StiffContact, does_not_depend_on_the_order_of_the_units) {
-  const auto run = stiff_run(few_contacts);
-  std::vector<Unit> units = run->units();
-  std::erase_if(units, is_race);  // these hold times
-  const std::vector<std::string> forward = results_of(units);
-  std::reverse(units.begin(), units.end());
-  std::vector<std::string> backward = results_of(units);
-  std::reverse(backward.begin(), backward.end());
-  EXPECT_EQ(forward, backward);
-}
-
 /// What the manifest hashes is the same in every run; what is not, says so.
 TEST(StiffContact, only_what_holds_times_differs_from_run_to_run) {
   const Outcome first = stiff_outcome(), second = stiff_outcome();
@@ -158,6 +168,58 @@ TEST(StiffContact, a_cell_keeps_its_bounces_whatever_else_is_asked) {
   for (const std::vector<Value>& row : one.rows) {
     EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
   }
+}
+
+TEST(StiffContact, the_first_picture_is_the_stability_map) {
+  const Outcome outcome = stiff_outcome();
+  ASSERT_EQ(outcome.figures.size(), 5U);
+  EXPECT_EQ(outcome.figures[0].name, "stability");
+  EXPECT_EQ(outcome.figures[0].panels.size(), 3U);
+  for (const Figure& figure : outcome.figures) {
+    EXPECT_EQ(figure.is_timing, figure.name == "race");
+    for (const Panel& panel : figure.panels) EXPECT_FALSE(panel.series.empty()) << figure.name;
+  }
+}
+
+TEST(StiffContact, answers_for_the_smallest_of_settings) {
+  const Outcome outcome = stiff_outcome(
+      "bounces = 1\nstiffness = [100]\ndamping_ratio = [0]\nstep = [1]\nbounce_damping = [2]\nbounce_step = [3]\n"
+      "race_step = [1]\nrace_bounces = 1\nrounds = 1");
+  EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
+  EXPECT_NE(outcome.answer.find("in 3 of 3 springs"), std::string::npos) << outcome.answer;
+}
+
+TEST(StiffContact, refuses_what_cannot_be_asked) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      run_of(stiff_contact_experiment(), text);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const std::string key : {"stiffness", "damping_ratio", "step", "bounce_damping", "bounce_step", "race_step"}) {
+    for (const char* value : {"[-1]", "[inf]", "[nan]", "[]", "[1, 1]", "1", "['a']", "[1e300]"}) {
+      const std::string complaint = refusal(key + " = " + value);
+      EXPECT_NE(complaint.find("key '" + key + "'"), std::string::npos) << key << " " << value << ": " << complaint;
+      EXPECT_EQ(complaint.find('\n'), std::string::npos);
+    }
+  }
+  for (const std::string key : {"mass", "speed", "radius", "thickness", "blow_up"}) {
+    for (const char* value : {"-1", "inf", "nan", "[1]", "1e300"}) {
+      EXPECT_NE(refusal(key + " = " + value).find("key '" + key + "'"), std::string::npos) << key << " " << value;
+    }
+  }
+  for (const char* text :
+       {"mass = 0", "stiffness = [0]", "stiffness = [1, 0]", "step = [0]", "bounce_step = [0]", "race_step = [0]",
+        "race_step = [2.5]", "speed = 0", "blow_up = 1", "bounces = 0", "rounds = 0", "race_bounces = 0",
+        "damping_ratio = [1e-6]", "stifness = [1]", "radius = 0\nthickness = 0", "mass = 1e-12\nstiffness = [1e18]"}) {
+    EXPECT_NE(refusal(text), "") << text;
+  }
+  EXPECT_NE(refusal("stiffness = [0]").find("key 'stiffness'"), std::string::npos);
+  EXPECT_NE(refusal("stifness = [1]").find("did you mean 'stiffness'?"), std::string::npos);
+  EXPECT_NE(refusal("damping_ratio = [1e-6]").find("0, or 1e-05 to 100000"), std::string::npos);
+  EXPECT_NE(refusal("radius = 0\nthickness = 0").find("key 'thickness'"), std::string::npos);
 }
 
 }  // namespace

@@ -1,39 +1,76 @@
-/// The swept bounds' answers: who makes false hits, who misses, and does theory agree?
+/// The swept bounds' settings and answers: who makes false hits, who misses, what it costs, and does theory agree?
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <thinwall/capsule/capsule.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/swept_bounds/bounds.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 
-#include "experiments/swept_bounds_run.hpp"
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 namespace {
 
-/// Lines of a run that is large enough to tell theories apart.
-const std::vector<SweepLine>& measured() {
-  static const std::vector<SweepLine> lines =
-      sweep_lines("speed = [2.5, 40]\nangle_deg = [0, 30, 90]\nobstacle = [0.1, 1]", 4000);
-  return lines;
+/// Small enough for a debug build, and still with every shape, motion along an axis, across and oblique.
+constexpr std::string_view few_sweeps = R"(
+  speed = [2.5, 40]
+  angle_deg = [0, 30, 90]
+  turn_deg = [0, 45]
+  obstacle = [0.1, 1]
+  shots = 1000
+  timing_repeats = 0
+)";
+
+std::unique_ptr<Run> sweep_run(std::string_view text, RunOptions options = {.seed = 1, .trials = {}}) {
+  return run_of(swept_bounds_experiment(), text, options);
+}
+
+Outcome sweep_outcome(std::string_view text) { return outcome_of(*sweep_run(text)); }
+
+SweepPlan sweep_plan(std::string_view text) {
+  return make_sweeps(Settings(text, "test.toml", swept_bounds_experiment().default_toml));
+}
+
+std::vector<SweptBound> all_bounds() {
+  const std::vector<std::string_view> names = swept_bound_names();
+  return swept_bounds_named(std::vector<std::string>(names.begin(), names.end()));
+}
+
+/// The measured rows of settings laid over the defaults.
+std::vector<SweepRow> sweep_rows(std::string_view text, std::int64_t shots) {
+  const std::vector<SweptBound> bounds = all_bounds();
+  std::vector<SweepRow> rows;
+  for (const SweepPair& pair : serving_pairs(sweep_plan(text).cells, bounds))
+    rows.push_back(make_row(pair, pair.bound->ask_all(pair.sweep, 1, shots)));
+  return rows;
+}
+
+/// Rows of a run that is large enough to tell theories apart.
+const std::vector<SweepRow>& measured() {
+  static const std::vector<SweepRow> rows =
+      sweep_rows("speed = [2.5, 40]\nangle_deg = [0, 30, 90]\nobstacle = [0.1, 1]", 4000);
+  return rows;
 }
 
 TEST(SweptBounds, none_misses_what_is_touched) {
-  for (const SweepLine& l : measured()) EXPECT_EQ(l.tally.missed, 0) << key(l.sweep) << " " << l.bound;
+  for (const SweepRow& r : measured()) EXPECT_EQ(r.tally.missed, 0) << sweep_factors().key(r.sweep) << " " << r.bound;
 }
 
 TEST(SweptBounds, the_exact_make_no_false_hit_and_the_naive_do) {
-  for (const SweepLine& l : measured()) {
-    const bool ball = l.sweep.form == SweptForm::sphere;
-    const bool along_axis = direction(l.sweep).cwiseAbs().maxCoeff() == 1;
-    const bool exact = l.bound == "closed_form" || l.bound == "relative_capsule" || (l.bound == "capsule" && ball) ||
-                       (l.bound == "oriented_box" && along_axis) ||
-                       (l.bound == "enclosing_aabb" && along_axis && !ball);
-    EXPECT_EQ(l.tally.false_hits == 0, exact) << key(l.sweep) << " " << l.bound;
+  for (const SweepRow& r : measured()) {
+    const bool ball = r.sweep.form == SweptForm::sphere;
+    const bool along_axis = direction(r.sweep).cwiseAbs().maxCoeff() == 1;
+    const bool exact = r.bound == "closed_form" || r.bound == "relative_capsule" || (r.bound == "capsule" && ball) ||
+                       (r.bound == "oriented_box" && along_axis) ||
+                       (r.bound == "enclosing_aabb" && along_axis && !ball);
+    EXPECT_EQ(r.tally.false_hits == 0, exact) << sweep_factors().key(r.sweep) << " " << r.bound;
   }
 }
 
@@ -45,7 +82,7 @@ TEST(SweptBounds, agrees_with_theory) {
 
 /// Of two rectangles that mirror each other the library and the theory may pick different ones.
 TEST(SweptBounds, does_not_mind_a_tie_of_oriented_boxes) {
-  EXPECT_TRUE(all_passed(self_test(counts_of(sweep_lines(
+  EXPECT_TRUE(all_passed(self_test(counts_of(sweep_rows(
       "shape = ['plate', 'cube']\nangle_deg = [15, 30, 45, 75]\nturn_deg = [45]\nobstacle = [0.1]", 5000)))));
 }
 
@@ -53,20 +90,19 @@ TEST(SweptBounds, does_not_mind_a_tie_of_oriented_boxes) {
 using Volume = std::function<double(const RoundedZonotope& body, double ball)>;
 
 bool passes(const Volume& volume_with_ball) {
-  std::vector<SweepLine> lines = measured();
-  const std::vector<std::string_view> names = swept_bound_names();
-  const std::vector<SweptBound> bounds = swept_bounds_named(std::vector<std::string>(names.begin(), names.end()));
-  for (SweepLine& l : lines) {
+  std::vector<SweepRow> rows = measured();
+  const std::vector<SweptBound> bounds = all_bounds();
+  for (SweepRow& r : rows) {
     const auto bound =
-        std::find_if(bounds.begin(), bounds.end(), [&](const SweptBound& b) { return b.name == l.bound; });
-    const double ball = ball_radius(l.sweep), drawn = volume(region_around(bound->body(l.sweep), l.sweep));
-    const double of_exact = volume_with_ball(exact_body(l.sweep).body, ball);
-    const double of_bound = volume_with_ball(bound->body(l.sweep).body, ball);
-    l.theory.touching = std::min(1.0, of_exact / drawn);
-    if (l.theory.false_hits > 0)
-      l.theory.false_hits = std::clamp(of_bound / drawn - l.theory.touching, 0.0, 1 - l.theory.touching);
+        std::find_if(bounds.begin(), bounds.end(), [&](const SweptBound& b) { return b.name == r.bound; });
+    const double ball = ball_radius(r.sweep), drawn = volume(region_around(bound->body(r.sweep), r.sweep));
+    const double of_exact = volume_with_ball(exact_body(r.sweep).body, ball);
+    const double of_bound = volume_with_ball(bound->body(r.sweep).body, ball);
+    r.theory.touching = std::min(1.0, of_exact / drawn);
+    if (r.theory.false_hits > 0)
+      r.theory.false_hits = std::clamp(of_bound / drawn - r.theory.touching, 0.0, 1 - r.theory.touching);
   }
-  return all_passed(self_test(counts_of(lines)));
+  return all_passed(self_test(counts_of(rows)));
 }
 
 TEST(SweptBounds, fails_a_wrong_theory) {
@@ -89,9 +125,9 @@ TEST(SweptBounds, fails_a_wrong_theory) {
 /// A bound that misses, or reports more than its volume, fails too.
 TEST(SweptBounds, fails_a_wrong_count) {
   const auto passes_with = [](const std::function<void(SweepTally&)>& change) {
-    std::vector<SweepLine> lines = measured();
-    change(lines[5].tally);
-    return all_passed(self_test(counts_of(lines)));
+    std::vector<SweepRow> rows = measured();
+    change(rows[5].tally);
+    return all_passed(self_test(counts_of(rows)));
   };
   EXPECT_TRUE(passes_with([](SweepTally&) {}));
   EXPECT_FALSE(passes_with([](SweepTally& t) { t.missed = 1; }));
@@ -124,16 +160,6 @@ TEST(SweptBounds, grazing_balls_find_a_bound_that_is_a_little_too_small) {
   EXPECT_GT(by_tight, 200);
 }
 
-TEST(SweptBounds, does_not_depend_on_the_order_of_the_units) {
-  const auto run = sweep_run(few_sweeps);
-  std::vector<Unit> units = run->units();
-  const std::vector<std::string> forward = results_of(units);
-  std::reverse(units.begin(), units.end());
-  std::vector<std::string> backward = results_of(units);
-  std::reverse(backward.begin(), backward.end());
-  EXPECT_EQ(forward, backward);
-}
-
 TEST(SweptBounds, a_cell_keeps_its_balls_whatever_else_is_asked) {
   const Table all = table_of(sweep_outcome(few_sweeps), "cells");
   const Table one = table_of(
@@ -144,6 +170,88 @@ TEST(SweptBounds, a_cell_keeps_its_balls_whatever_else_is_asked) {
   for (const std::vector<Value>& row : one.rows) {
     EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
   }
+}
+
+constexpr const char* few_timed =
+    "shape = ['sphere', 'cube']\nspeed = [10]\nangle_deg = [45]\nturn_deg = [0]\nobstacle = [1]\nshots = 100\n"
+    "timing_repeats = 2";
+
+TEST(SweptBoundsConfig, opens_with_the_diagonals_and_asks_no_cell_twice) {
+  const SweepPlan plan = sweep_plan("");
+  EXPECT_EQ(plan.cells[0], diagonals[0]);
+  EXPECT_EQ(plan.cells[1], diagonals[1]);
+  for (const Sweep& s : plan.cells)
+    EXPECT_EQ(std::count(plan.cells.begin(), plan.cells.end(), s), 1) << sweep_factors().key(s);
+  EXPECT_EQ(plan.view, diagonals[1]);
+}
+
+TEST(SweptBoundsConfig, draws_what_is_nearest_to_the_diagonal) {
+  const SweepPlan plan = sweep_plan("speed = [1, 8, 90]\nangle_deg = [0, 40, 80]\nobstacle = [0, 3]");
+  EXPECT_EQ(plan.view.speed, 8);
+  EXPECT_EQ(plan.view.angle_deg, 40);
+  EXPECT_EQ(plan.view.obstacle, 0);
+  const SweepPlan along_x = sweep_plan("angle_deg = [0]\nturn_deg = [45]");
+  EXPECT_EQ(along_x.view.turn_deg, 0);  // what goes along x is turned by nothing
+}
+
+/// Only the table of times may know how long anything took.
+TEST(SweptBoundsConfig, what_is_not_a_timing_does_not_depend_on_the_clock) {
+  const auto run = sweep_run(few_timed);
+  const std::vector<std::string> results = results_of(run->units());
+  const Outcome fast = run->finish(results, std::vector<double>(results.size(), 1e-6));
+  const Outcome slow = run->finish(results, std::vector<double>(results.size(), 1));
+  EXPECT_EQ(fast.answer, slow.answer);
+  ASSERT_EQ(fast.tables.size(), slow.tables.size());
+  for (std::size_t i = 0; i < fast.tables.size(); ++i) {
+    EXPECT_EQ(fast.tables[i].rows == slow.tables[i].rows, !fast.tables[i].is_timing) << fast.tables[i].name;
+  }
+  EXPECT_EQ(fast.tables.back().rows.size(), 4U + 6U);  // a sphere's bounds, and a cube's
+  EXPECT_TRUE(fast.tables.back().is_timing);
+}
+
+TEST(SweptBoundsConfig, times_are_medians_over_the_rounds) {
+  const std::vector<std::string> names = {"capsule"};
+  const std::vector<SweptBound> bounds = swept_bounds_named(names);
+  const auto subjects = timed_subjects({diagonals[1]}, bounds, 1);
+  ASSERT_EQ(subjects.size(), 4U);
+  std::vector<double> seconds;
+  for (const double round : {9.0, 1.0, 3.0}) {
+    for (const TimedSubject& t : subjects) seconds.push_back(1e-9 * round * static_cast<double>(t.tests()));
+  }
+  const std::vector<SweepCost> costs = sweep_costs(subjects, seconds);
+  ASSERT_EQ(costs.size(), 1U);
+  EXPECT_NEAR(costs[0].test_ns, 3, 1e-9);
+  EXPECT_NEAR(costs[0].pair_lower_ns, 2, 1e-9);
+  EXPECT_NEAR(costs[0].pair_upper_ns, 6, 1e-9);
+  EXPECT_NEAR(costs[0].wasted_ns(), 3 * costs[0].false_hits, 1e-9);
+  EXPECT_GT(costs[0].false_hits, 0);
+}
+
+TEST(SweptBoundsConfig, answers_for_any_choice_of_bounds_and_shapes) {
+  for (const char* text : {"bound = ['closed_form']", "shape = ['sphere']\nbound = ['capsule']", "obstacle = [0]",
+                           "angle_deg = [0]", "shape = ['plate']\nturn_deg = [90]\nangle_deg = [90]"}) {
+    const Outcome outcome = sweep_outcome(std::string("speed = [10]\nshots = 50\ntiming_repeats = 0\n") + text);
+    EXPECT_NE(outcome.answer.find("the bounds miss 0"), std::string::npos) << outcome.answer;
+    EXPECT_TRUE(outcome.self_test_passed) << text;
+  }
+}
+
+TEST(SweptBoundsConfig, refuses_what_cannot_be_asked) {
+  const auto refusal = [](const char* text) -> std::string {
+    try {
+      sweep_run(text);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* text : {"speed = [1e-6]", "shape = []", "timing_repeats = -1", "bound = ['box']"})
+    EXPECT_NE(refusal(text), "") << text;
+  EXPECT_NE(refusal("shape = ['sphere']\nbound = ['oriented_box']").find("one that serves one of the shapes"),
+            std::string::npos);
+  EXPECT_NE(refusal("bound = ['oriented_bax']").find("did you mean 'oriented_box'?"), std::string::npos);
+  EXPECT_NE(refusal("speed = [1e8]").find("a path of 0.001 to 10000 widths a step"), std::string::npos);
+  EXPECT_NE(refusal("angle_deg = [91]").find("key 'angle_deg'"), std::string::npos);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/capsule/capsule.hpp>
-#include <thinwall/experiments/swept_bounds/obstacles.hpp>
 #include <thinwall/experiments/swept_bounds/theory.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 
@@ -53,7 +52,7 @@ TEST(Steiner, of_a_swept_box_is_its_volume_and_the_way_of_its_shadow) {
     const Vec h = half_extents(s), d = path(s);
     const double shadow =
         4 * (h[1] * h[2] * std::abs(d[0]) + h[0] * h[2] * std::abs(d[1]) + h[0] * h[1] * std::abs(d[2]));
-    EXPECT_NEAR(volume(exact_body(s).body), 8 * h.prod() + shadow, 1e-15) << key(s);
+    EXPECT_NEAR(volume(exact_body(s).body), 8 * h.prod() + shadow, 1e-15) << sweep_factors().key(s);
   }
 }
 
@@ -75,7 +74,7 @@ TEST(Steiner, grown_volumes_agree_with_a_grid) {
       }
     }
     const double counted = 8 * half.prod() * static_cast<double>(inside) / (1.0 * cells * cells * cells);
-    EXPECT_NEAR(counted / volume(reached), 1, 6e-3) << key(s);
+    EXPECT_NEAR(counted / volume(reached), 1, 6e-3) << sweep_factors().key(s);
   }
 }
 
@@ -94,8 +93,8 @@ TEST(SweepOracle, least_distance_agrees_with_many_poses) {
       }
       if (s.form == SweptForm::sphere) least = std::max(0.0, least - s.width / 2);
       const double found = static_cast<double>(least_distance(s, c));
-      EXPECT_LE(found, least + 1e-15) << key(s);
-      EXPECT_GE(found, least - path(s).norm() / poses) << key(s);
+      EXPECT_LE(found, least + 1e-15) << sweep_factors().key(s);
+      EXPECT_GE(found, least - path(s).norm() / poses) << sweep_factors().key(s);
     }
   }
 }
@@ -105,11 +104,11 @@ TEST(SweepOracle, grazing_balls_touch_and_barely) {
     double deepest = 0;
     for (std::uint64_t i = 0; i < 500; ++i) {
       const Sphere<double> ball = grazing_ball(s, exact_body(s).axes, random_stream(s, 1), i);
-      EXPECT_TRUE(touches(s, ball.center)) << key(s);
+      EXPECT_TRUE(touches(s, ball.center)) << sweep_factors().key(s);
       const double depth = ball.radius - static_cast<double>(least_distance(s, ball.center));
       deepest = std::max(deepest, depth);
     }
-    EXPECT_LT(deepest, 1e-6 * (path(s).norm() + s.width + ball_radius(s))) << key(s);
+    EXPECT_LT(deepest, 1e-6 * (path(s).norm() + s.width + ball_radius(s))) << sweep_factors().key(s);
   }
 }
 
@@ -123,20 +122,22 @@ TEST(SweepTheory, oriented_box_is_the_least) {
       const Vec across = fitted.axes.col(1) * std::cos(turn) + fitted.axes.col(2) * std::sin(turn);
       return half_width(exact, across) * half_width(exact, cross<double>(fitted.axes.col(0), across));
     };
-    for (int degree = 0; degree < 180; ++degree) EXPECT_GE(area(degree * pi / 180), area(0) * (1 - 1e-12)) << key(s);
-    EXPECT_NEAR(volume(fitted.body), 8 * swept_volume(moving_box(s)).half_extents.prod(), 1e-15) << key(s);
+    for (int degree = 0; degree < 180; ++degree)
+      EXPECT_GE(area(degree * pi / 180), area(0) * (1 - 1e-12)) << sweep_factors().key(s);
+    EXPECT_NEAR(volume(fitted.body), 8 * swept_volume(moving_box(s)).half_extents.prod(), 1e-15)
+        << sweep_factors().key(s);
   }
 }
 
 TEST(SweepTheory, is_zero_only_where_the_bound_is_exact) {
   for (const Sweep& s : sweeps) {
     const bool ball = s.form == SweptForm::sphere, along_axis = direction(s).cwiseAbs().maxCoeff() == 1;
-    EXPECT_GT(sweep_theory(enclosing_sphere_body(s), s).false_hits, 0) << key(s);
-    EXPECT_EQ(sweep_theory(enclosing_aabb_body(s), s).false_hits == 0, !ball && along_axis) << key(s);
-    EXPECT_EQ(sweep_theory(capsule_body(s), s).false_hits == 0, ball) << key(s);
-    EXPECT_EQ(sweep_theory(exact_body(s), s).false_fraction, 0) << key(s);
+    EXPECT_GT(sweep_theory(enclosing_sphere_body(s), s).false_hits, 0) << sweep_factors().key(s);
+    EXPECT_EQ(sweep_theory(enclosing_aabb_body(s), s).false_hits == 0, !ball && along_axis) << sweep_factors().key(s);
+    EXPECT_EQ(sweep_theory(capsule_body(s), s).false_hits == 0, ball) << sweep_factors().key(s);
+    EXPECT_EQ(sweep_theory(exact_body(s), s).false_fraction, 0) << sweep_factors().key(s);
     if (!ball) {
-      EXPECT_EQ(sweep_theory(oriented_box_body(s), s).false_hits == 0, along_axis) << key(s);
+      EXPECT_EQ(sweep_theory(oriented_box_body(s), s).false_hits == 0, along_axis) << sweep_factors().key(s);
     }
   }
 }

@@ -1,5 +1,5 @@
-/// The shots of the thin wall experiment, without any method under test.
-#include <thinwall/experiments/thin_wall/shots.hpp>
+/// The shots of the thin wall and the response to them, without any method under test.
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/sphere.hpp>
+#include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/statistics.hpp>
-#include <thinwall/experiments/thin_wall/plan.hpp>
+#include <thinwall/experiments/thin_wall/methods.hpp>
 
 namespace thinwall {
 namespace {
@@ -29,13 +32,13 @@ bool float_holds(const Vec3<double>& v) { return v.cast<float>().cast<double>() 
 TEST(ThinWallShots, float_holds_every_pose) {
   for (const Cell& cell : cells) {
     const Target aimed = target(cell);
-    EXPECT_TRUE(float_holds(aimed.displacement) && float_holds(aimed.half_extents)) << key(cell);
+    EXPECT_TRUE(float_holds(aimed.displacement) && float_holds(aimed.half_extents)) << cell_factors().key(cell);
     EXPECT_EQ(static_cast<double>(static_cast<float>(aimed.radius)), aimed.radius);
     for (std::uint64_t trial = 0; trial < 200; ++trial) {
       const Vec3<double> start = random_start(aimed, random_stream(cell, 1), trial);
       Vec3<double> pose = start;
       for (int k = 0; !is_past(aimed, pose); pose = start + ++k * aimed.displacement) ASSERT_TRUE(float_holds(pose));
-      ASSERT_TRUE(float_holds(pose)) << key(cell);
+      ASSERT_TRUE(float_holds(pose)) << cell_factors().key(cell);
     }
   }
 }
@@ -59,7 +62,7 @@ TEST(ThinWallShots, start_before_contact_by_at_most_two_steps_of_the_plane) {
     const Target aimed = target(cell);
     for (std::uint64_t trial = 0; trial < 1000; ++trial) {
       const Vec3<double> start = random_start(aimed, random_stream(cell, 1), trial);
-      ASSERT_GE(gap(aimed, start), 0) << key(cell);
+      ASSERT_GE(gap(aimed, start), 0) << cell_factors().key(cell);
       ASSERT_FALSE(is_past(aimed, start));
       if (cell.wall == Wall::infinite) {
         ASSERT_LE(path_to_contact(aimed, start), aimed.step_length * (1 + 1e-6));
@@ -76,7 +79,7 @@ TEST(ThinWallShots, path_ends_at_contact) {
       const Vec3<double> start = random_start(aimed, random_stream(cell, 1), trial);
       const double path = path_to_contact(aimed, start);
       const Vec3<double> contact = start + path / aimed.step_length * aimed.displacement;
-      ASSERT_NEAR(gap(aimed, contact), 0, 1e-13 * (1 + start.norm())) << key(cell);
+      ASSERT_NEAR(gap(aimed, contact), 0, 1e-13 * (1 + start.norm())) << cell_factors().key(cell);
       ASSERT_GE(gap(aimed, (start + contact) / 2), 0);
     }
   }
@@ -118,6 +121,49 @@ TEST(ThinWallShots, depend_on_the_physical_factors_and_the_seed_alone) {
   Cell faster = bullet;
   faster.speed = 11;
   EXPECT_NE(random_stream(bullet, 1).stream, random_stream(faster, 1).stream);
+}
+
+TEST(ThinWallBounce, pushes_out_to_touch_and_reflects) {
+  const Target wall = target(bullet);
+  const double face = wall.half_extents[0] + wall.radius;
+  Flight shallow = {{-face + 0.01, 0, 0}, {0.1, 0.05, 0}};
+  respond(wall, {1, 0, 0}, shallow);
+  EXPECT_NEAR(shallow.position[0], -face, 1e-15);
+  EXPECT_EQ(shallow.displacement, Vec3<double>(-0.1, 0.05, 0));
+  Flight deep = {{0.001, 0, 0}, {0.1, 0.05, 0}};  // past the middle: the way out leads ahead
+  respond(wall, {-1, 0, 0}, deep);
+  EXPECT_NEAR(deep.position[0], face, 1e-15);
+  EXPECT_EQ(deep.displacement, Vec3<double>(0.1, 0.05, 0));
+  Flight early = {{-face - 0.01, 0, 0}, {0.1, 0, 0}};  // seen before contact: reflected where it is
+  respond(wall, {1, 0, 0}, early);
+  EXPECT_EQ(early.position[0], -face - 0.01);
+  EXPECT_TRUE(has_left(wall, early));
+}
+
+/// Points uniform in the rounded box, and the normal that the library gives there.
+TEST(ThinWallBounce, unturned_share_is_what_the_normals_say) {
+  const RoundedBox box = {{0.1, 0.6, 0.6}, 0.25};
+  for (const double angle : {0.0, 0.5, 1.2}) {
+    const Vec3<double> direction(std::cos(angle), angle == 0 ? 0 : std::sin(angle), 0);
+    const RandomStream stream{5, 7};
+    std::int64_t inside = 0, unturned = 0;
+    for (std::uint64_t trial = 0; trial < 100000; ++trial) {
+      const RandomWords words = random_words(stream, trial, 0);
+      Vec3<double> point;
+      for (int i = 0; i < 3; ++i)
+        point[i] = (2 * uniform(words[static_cast<std::size_t>(i)]) - 1) * (box.half_extents[i] + box.radius);
+      const auto found =
+          separation(Sphere<double>{point, box.radius}, Aabb<double>{Vec3<double>::Zero(), box.half_extents});
+      if (found.distance > 0) continue;
+      ++inside;
+      unturned += found.normal.dot(direction) > 0 ? 0 : 1;
+    }
+    const double spacing = 2 * longest_chord(box, direction), lines = spacing * shadow(box, direction);
+    const double missed = 1 - volume(box) / lines;
+    const double expected = (*unturned_probability(box, direction, spacing) - missed) / (volume(box) / lines);
+    EXPECT_LT(std::abs(standard_residual(unturned, inside, expected)), 4) << angle;
+    EXPECT_FALSE(unturned_probability(box, direction, longest_chord(box, direction) / 2));
+  }
 }
 
 }  // namespace

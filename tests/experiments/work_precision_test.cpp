@@ -1,38 +1,57 @@
-/// The races: what each method's errors must be, whatever its times are.
-
+/// The races: what each method's errors must be, whatever its times are; how racers are compared, with made-up ones whose place is
+/// known; and what the result says of them.
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <set>
 
 #include <gtest/gtest.h>
 
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/work_precision/model.hpp>
 #include <thinwall/swept/methods.hpp>
 
-#include "experiments/work_precision_run.hpp"
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 namespace {
+
+/// Every method on two sets, small enough for a debug build.
+constexpr std::string_view few_races = R"(
+  set = ["sphere_wall", "capsule_box"]
+  queries = 40
+  rounds = 3
+  substeps = [8]
+  tolerance = [1e-5, 1e-2]
+)";
+
+std::unique_ptr<Run> race_run(std::string_view text) {
+  return run_of(work_precision_experiment(), text, {.seed = 3, .trials = {}});
+}
+
+std::vector<std::string> run_races(std::string_view text) { return results_of(race_run(text)->units()); }
+
+Outcome race_outcome(std::string_view text) { return outcome_of(*race_run(text)); }
+
+/// A racer as none is, for the tests of how they are compared.
+Racer made_up(std::string method, double p99, std::vector<double> nanoseconds) {
+  Racer racer;
+  racer.method = std::move(method);
+  racer.queries = racer.touching = 100;
+  racer.time = {p99 / 2, p99, 2 * p99};
+  racer.nanoseconds = std::move(nanoseconds);
+  return racer;
+}
 
 /// All racers of the small races, run once.
 const std::vector<std::vector<Racer>>& races() {
   static const std::vector<std::vector<Racer>> all = [] {
     std::vector<std::vector<Racer>> parsed;
-    for (const std::string& line : run_races(few_races)) parsed.push_back(racers_from_line(line));
+    for (const std::string& line : run_races(few_races)) parsed.push_back(from_text<std::vector<Racer>>(line));
     return parsed;
   }();
   return all;
 }
 
 constexpr double rounding = 1e-6;  // [1] of a step: above what float can resolve
-
-TEST(WorkPrecision, has_a_race_for_every_set_class_and_scalar) {
-  const auto units = race_run(few_races)->units();
-  EXPECT_EQ(units.size(), 2u * 3 * 2);
-  std::set<std::string> keys;
-  for (const Unit& unit : units) keys.insert(unit.key);
-  EXPECT_EQ(keys.size(), units.size());
-}
 
 TEST(WorkPrecision, every_method_of_the_list_that_serves_the_pair_takes_part_at_every_setting) {
   std::map<std::string, int> settings;
@@ -112,11 +131,10 @@ TEST(WorkPrecision, a_missed_contact_is_an_infinite_error) {
   FAIL() << "nobody looks at the end of the step alone";
 }
 
-TEST(WorkPrecision, errors_are_the_same_in_every_run_and_read_back_as_written) {
+TEST(WorkPrecision, errors_are_the_same_in_every_run) {
   const std::vector<std::string> again = run_races(few_races);
   for (std::size_t i = 0; i < again.size(); ++i) {
-    std::vector<Racer> first = races()[i], second = racers_from_line(again[i]);
-    EXPECT_EQ(to_line(second), again[i]);
+    std::vector<Racer> first = races()[i], second = from_text<std::vector<Racer>>(again[i]);
     for (auto* racers : {&first, &second}) {
       for (Racer& r : *racers) {
         EXPECT_EQ(r.nanoseconds.size(), 3u);
@@ -124,8 +142,130 @@ TEST(WorkPrecision, errors_are_the_same_in_every_run_and_read_back_as_written) {
         r.nanoseconds.clear();
       }
     }
-    EXPECT_EQ(to_line(first), to_line(second));
+    EXPECT_EQ(to_text(first), to_text(second));
   }
+}
+
+Heat heat_of(std::vector<Racer> racers) { return {query_sets().data(), QueryClass::hit, "double", std::move(racers)}; }
+
+std::vector<std::string> names(const std::vector<const Racer*>& racers) {
+  std::vector<std::string> all;
+  for (const Racer* r : racers) all.push_back(r->method);
+  return all;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(WorkPrecisionHeat, the_front_is_those_that_nobody_beats_in_both) {
+  Racer misses = made_up("misses", 1e-9, {1, 1, 1});
+  misses.missed = 1;
+  const Heat heat = heat_of({made_up("rough", 1e-2, {10, 10, 10}), made_up("beaten", 1e-3, {60, 60, 60}),
+                             made_up("fine", 1e-15, {50, 50, 50}), misses, made_up("middle", 1e-6, {20, 20, 20})});
+  EXPECT_EQ(names(pareto_front(heat)), (Names{"fine", "middle", "rough"}));
+}
+
+TEST(WorkPrecisionHeat, a_method_stands_with_its_roughest_setting_that_is_fine_or_its_finest) {
+  const Heat heat = heat_of({made_up("a", 1e-3, {1}), made_up("a", 1e-13, {2}), made_up("a", 1e-15, {1}),
+                             made_up("b", 1e-3, {1}), made_up("b", 1e-5, {9})});
+  const auto chosen = one_a_method(heat);
+  ASSERT_EQ(names(chosen), (Names{"a", "b"}));
+  EXPECT_EQ(chosen[0]->time.p99, 1e-13);
+  EXPECT_EQ(chosen[1]->time.p99, 1e-5);
+}
+
+TEST(WorkPrecisionHeat, slowdown_is_taken_round_by_round) {
+  const Estimate ratio = slowdown(made_up("a", 0, {20, 200, 40}), made_up("b", 0, {10, 100, 20}));
+  EXPECT_EQ(ratio.median, 2);
+  EXPECT_EQ(ratio.interval.lower, 2);
+  EXPECT_EQ(ratio.interval.upper, 2);
+}
+
+TEST(WorkPrecisionHeat, who_is_fine_and_faster_than_the_closed_form_is_named) {
+  const std::vector<Racer> racers = {made_up("closed_form", 1e-16, {50, 51, 49}), made_up("quick", 1e-13, {40, 41, 39}),
+                                     made_up("noisy", 1e-13, {30, 60, 52}), made_up("rough", 1e-9, {10, 10, 10})};
+  const Heat heat = heat_of(racers);
+  EXPECT_EQ(names(fine_and_faster(heat)), Names{"quick"});
+  EXPECT_NE(work_precision_answer({heat}).find("In 0 of 1 races on hits"), std::string::npos);
+  EXPECT_NE(work_precision_answer({heat}).find("quick is faster on sphere_wall in double"), std::string::npos);
+  EXPECT_NE(heat_text(heat).find("quick is as fine and faster than the closed form"), std::string::npos);
+  const Heat without = heat_of({racers[0], racers[2], racers[3]});
+  EXPECT_NE(work_precision_answer({without}).find("In 1 of 1 races on hits no method"), std::string::npos);
+}
+
+TEST(WorkPrecisionHeat, says_where_the_curves_cross_and_by_how_much) {
+  const Heat heat = heat_of({made_up("closed_form", 1e-16, {50, 50, 50}), made_up("rough", 1e-2, {10, 10, 10})});
+  const std::string text = heat_text(heat);
+  EXPECT_NE(text.find("closed_form is the finest (99th percentile error 1.0e-16 of a step) and the cheapest, at 50 ns"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("where 1.0e-02 is good enough the curves cross and rough is, in 0.20 of that"), std::string::npos)
+      << text;
+}
+
+TEST(WorkPrecisionHeat, false_hits_are_those_among_the_misses) {
+  Heat hits = heat_of({made_up("rash", 1e-3, {1}), made_up("other", 1e-3, {1})});
+  Heat misses = hits;
+  misses.kind = QueryClass::miss;
+  misses.racers[0].false_hits = 25;
+  EXPECT_EQ(false_share({hits, misses}, hits, hits.racers[0]), 0.25);
+  EXPECT_EQ(false_share({hits, misses}, hits, hits.racers[1]), 0.0);
+  EXPECT_FALSE(false_share({hits}, hits, hits.racers[0]));
+}
+
+TEST(WorkPrecisionHeat, a_closed_form_that_errs_fails_the_self_test) {
+  Racer exact = made_up("closed_form", 1e-16, {50});
+  exact.forward = 3.9;
+  EXPECT_TRUE(keeps_contract(heat_of({exact})));
+  exact.forward = 4.1;
+  EXPECT_FALSE(keeps_contract(heat_of({exact})));
+  exact.forward = 1;
+  exact.false_hits = 1;
+  EXPECT_FALSE(keeps_contract(heat_of({exact})));
+}
+
+TEST(WorkPrecisionResult, keeps_times_out_of_what_is_hashed) {
+  const Outcome outcome = race_outcome(few_races);
+  EXPECT_TRUE(outcome.self_test_passed);
+  for (const Table& table : outcome.tables) EXPECT_EQ(table.is_timing, table.name != "errors") << table.name;
+  for (const Figure& figure : outcome.figures) {
+    EXPECT_EQ(figure.panels.size(), 2u) << figure.name;
+    EXPECT_EQ(figure.is_timing, !figure.name.ends_with("evaluations")) << figure.name;
+  }
+}
+
+void expect_refusal(const std::string& text, const std::vector<std::string>& said) {
+  try {
+    race_run(text);
+    FAIL() << "taken: " << text;
+  } catch (const UsageError& error) {
+    for (const std::string& part : said)
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(WorkPrecisionConfig, refuses_what_no_method_can_take) {
+  expect_refusal("tolerance = [0]", {"key 'tolerance'", "2.220446049250313e-16"});
+  expect_refusal("substeps = [0]", {"key 'substeps'"});
+  expect_refusal("rounds = 0", {"key 'rounds'"});
+  expect_refusal("tolerance = [1e-9]\nscalar = [\"float\"]", {"key 'tolerance'", "float"});
+  expect_refusal("set = [\"box_box\"]\nmethod = [\"swept_volume_ray\"]",
+                 {"key 'method'", "box_box", "conservative_advancement", "closed_form", "swept_volume_ray"});
+}
+
+TEST(WorkPrecisionResult, leaves_out_pictures_of_nothing) {  // gnuplot minds
+  const Outcome outcome = race_outcome("method = [\"end_of_step\"]\nset = [\"sphere_wall\"]\nqueries = 40\nrounds = 2");
+  for (const Figure& figure : outcome.figures) {
+    for (const Panel& panel : figure.panels) {
+      bool any = false;
+      for (const Series& series : panel.series) any = any || (series.mark == Mark::points && !series.x.empty());
+      EXPECT_TRUE(any) << figure.name;
+    }
+  }
+}
+
+TEST(WorkPrecisionConfig, leaves_out_what_is_not_served_where_all_are_asked_for) {
+  const auto run = race_run("set = [\"all\"]\nmethod = [\"swept_volume_ray\"]\nscalar = [\"double\"]");
+  EXPECT_EQ(run->units().size(), 2u * 3) << "the two sets with a ball";
 }
 
 }  // namespace

@@ -75,3 +75,7 @@ file(GLOB documents CONFIGURE_DEPENDS
 foreach(document IN LISTS documents)
   thinwall_snippets("${document}")
 endforeach()
+
+if(TARGET thinwall AND NOT WIN32)
+  include("${house}/contributed.cmake")
+endif()

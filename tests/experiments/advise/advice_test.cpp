@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <thinwall/experiments/thin_wall/allowed.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 #include "experiments/advise/given_costs.hpp"
 

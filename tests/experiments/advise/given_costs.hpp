@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <thinwall/experiments/advise/advice.hpp>
-#include <thinwall/experiments/thin_wall/plan.hpp>
+#include <thinwall/experiments/thin_wall/results.hpp>
 
 namespace thinwall {
 

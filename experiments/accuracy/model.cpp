@@ -1,0 +1,145 @@
+#include <thinwall/experiments/accuracy/model.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <thinwall/experiments/accuracy/judge.hpp>
+
+namespace thinwall {
+
+namespace {
+
+constexpr int bins_an_octave = 64, octaves = 32;
+constexpr double half_range = 16;
+
+}  // namespace
+
+void ErrorHistogram::add(double error) {
+  const double octave = error > 0 ? std::log2(error) + half_range : 0;
+  const double bin = std::clamp(std::ceil(octave * bins_an_octave), 0.0, double{bins_an_octave} * octaves);
+  const auto i = static_cast<std::size_t>(bin);
+  if (i >= bins_.size()) bins_.resize(i + 1);
+  ++bins_[i];
+  largest_ = std::max(largest_, error);
+}
+
+double ErrorHistogram::quantile(double share) const {
+  std::int64_t total = 0, seen = 0;
+  for (const std::int64_t count : bins_) total += count;
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    seen += bins_[i];
+    if (static_cast<double>(seen) < share * static_cast<double>(total)) continue;
+    return std::min(largest_, i == 0 ? 0 : std::exp2(static_cast<double>(i) / bins_an_octave - half_range));
+  }
+  return 0;
+}
+
+namespace {
+
+/// The kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
+template <Shape A, Shape B> Toi<typename A::Scalar> kernel_impact(const Moving<A>& a, const Moving<B>& b) {
+  if constexpr (A::rank < B::rank) {
+    return flipped(impact(ClosedForm<typename A::Scalar>{}, b, a));
+  } else {
+    return impact(ClosedForm<typename A::Scalar>{}, a, b);
+  }
+}
+
+/// By how much the input would have to change, in u, to make a wrong verdict right.
+template <class R, class S>
+double wrongness(const oracle::Problem<R>& problem, const Toi<S>& toi, const oracle::Impact<R>& truth,
+                 const R& tolerance) {
+  const bool about_start = toi.status == ToiStatus::overlapping || truth.verdict == oracle::Verdict::overlapping;
+  const R margin = about_start ? truth.start_margin : oracle::verdict_margin(problem, tolerance);
+  return std::abs(static_cast<double>(margin)) / (static_cast<double>(std::numeric_limits<S>::epsilon()) / 2);
+}
+
+/// Times and verdict against the oracle at 50 digits.
+template <class A, class B, class S = typename A::Scalar>
+void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, AccuracyTally& tally) {
+  const Digits50 tolerance = ldexp(Digits50(1), -140);
+  const auto problem = oracle::pose<Digits50>(a, b);
+  const bool timed = toi.status == ToiStatus::hit;
+  const Digits50 guess =
+      timed ? Digits50(toi.time) * (1 - ldexp(Digits50(1), -std::numeric_limits<S>::digits / 2)) : Digits50(0);
+  const auto truth = oracle::first_contact(problem, guess, tolerance);
+  ++tally.queries;
+  tally.hits += truth.verdict == oracle::Verdict::hit ? 1 : 0;
+  tally.overlapping += truth.verdict == oracle::Verdict::overlapping ? 1 : 0;
+  tally.gave_up += toi.status == ToiStatus::gave_up ? 1 : 0;
+  if (!agree(toi.status, truth.verdict)) {
+    ++tally.wrong_verdicts;
+    tally.largest_wrong = std::max(tally.largest_wrong, wrongness(problem, toi, truth, tolerance));
+    return;
+  }
+  if (!timed) return;
+  const Digits50 u = Digits50(std::numeric_limits<S>::epsilon()) / 2;
+  const double forward = static_cast<double>(abs(Digits50(toi.time) - truth.time) / (u * truth.conditioning));
+  const auto there = oracle::gap_at(problem, Digits50(toi.time), tolerance);
+  const double backward =
+      there.core > 0 ? static_cast<double>(abs(there.core - problem.reach) / (u * there.scale)) : forward;
+  tally.forward.add(forward);
+  tally.backward.add(backward);
+}
+
+/// The verdict alone, first against the oracle in long double, and at 50 digits where that is too close to call.
+template <class A, class B> void judge_verdict(const Moving<A>& a, const Moving<B>& b, AccuracyTally& tally) {
+  const auto toi = time_of_impact(a, b);
+  const long double tolerance = std::ldexp(1.0L, -56);
+  const auto problem = oracle::pose<long double>(a, b);
+  const auto rough = oracle::first_contact<long double>(
+      problem, toi.status == ToiStatus::hit ? static_cast<long double>(toi.time) * (1 - 0x1p-26L) : 0.0L, tolerance);
+  if (agree(toi.status, rough.verdict)) {
+    ++tally.queries;
+    tally.hits += rough.verdict == oracle::Verdict::hit ? 1 : 0;
+    tally.overlapping += rough.verdict == oracle::Verdict::overlapping ? 1 : 0;
+    return;
+  }
+  judge_answer(a, b, toi, tally);
+}
+
+/// Puts a block of queries to one pair of shapes.
+template <template <class> class A, template <class> class B>
+AccuracyTally ask_pair(Inquiry inquiry, std::uint64_t seed, std::int64_t first, std::int64_t count) {
+  const bool in_float = inquiry == Inquiry::in_float || inquiry == Inquiry::float_kernel;
+  const std::array<double, 3> factors{double{A<double>::rank}, double{B<double>::rank},
+                                      inquiry == Inquiry::verdicts ? 1.0 : 0.0};
+  const RandomStream stream{seed, stream_of(factors)};
+  AccuracyTally tally;
+  for (std::int64_t i = first; i < first + count; ++i) {
+    QueryNumbers numbers(stream, static_cast<std::uint64_t>(i));
+    const auto query = draw_query<A<double>, B<double>>(numbers, in_float ? 3 : 8);
+    if (inquiry == Inquiry::verdicts) {
+      judge_verdict(query.a, query.b, tally);
+    } else if (inquiry == Inquiry::in_double) {
+      judge_answer(query.a, query.b, time_of_impact(query.a, query.b), tally);
+    } else {
+      const auto a = cast<float>(query.a);
+      const auto b = cast<float>(query.b);
+      judge_answer(a, b, inquiry == Inquiry::in_float ? time_of_impact(a, b) : kernel_impact(a, b), tally);
+    }
+  }
+  return tally;
+}
+
+}  // namespace
+
+std::span<const AccuracyPair> accuracy_pairs() {
+  static constexpr std::array list{
+      AccuracyPair{"sphere_sphere", &ask_pair<Sphere, Sphere>},
+      AccuracyPair{"sphere_aabb", &ask_pair<Sphere, Aabb>},
+      AccuracyPair{"aabb_aabb", &ask_pair<Aabb, Aabb>},
+      AccuracyPair{"sphere_obb", &ask_pair<Sphere, Obb>},
+      AccuracyPair{"aabb_obb", &ask_pair<Aabb, Obb>},
+      AccuracyPair{"obb_obb", &ask_pair<Obb, Obb>},
+      AccuracyPair{"sphere_triangle", &ask_pair<Sphere, Triangle>},
+      AccuracyPair{"sphere_capsule", &ask_pair<Sphere, Capsule>},
+      AccuracyPair{"capsule_capsule", &ask_pair<Capsule, Capsule>},
+      AccuracyPair{"capsule_aabb", &ask_pair<Capsule, Aabb>},
+      AccuracyPair{"capsule_obb", &ask_pair<Capsule, Obb>},
+      AccuracyPair{"capsule_triangle", &ask_pair<Capsule, Triangle>},
+  };
+  return list;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,68 @@
+#pragma once
+/// The pairs whose accuracy is measured, the ways to ask, and what a block of queries adds up to.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/lab/record.hpp>
+
+namespace thinwall {
+
+/// Errors by size: 64 bins a factor of two, from 2^-16 to 2^16 units.
+class ErrorHistogram {
+ public:
+  void add(double error);
+  double largest() const { return largest_; }
+  /// The upper end of the bin that holds the given share of all errors; at most a hundredth part above it.
+  double quantile(double share) const;
+
+  static constexpr auto fields() {
+    return record(sum("bins", &ErrorHistogram::bins_, "1", "Errors in each bin."),
+                  most("largest", &ErrorHistogram::largest_, "1", "The largest error."));
+  }
+
+ private:
+  std::vector<std::int64_t> bins_{};  // up to the last that is not empty
+  double largest_ = 0;
+};
+
+struct AccuracyTally {
+  std::int64_t queries = 0, hits = 0, overlapping = 0, wrong_verdicts = 0, gave_up = 0;
+  double largest_wrong = 0;
+  ErrorHistogram forward{};   ///< [u kappa t] of the hits
+  ErrorHistogram backward{};  ///< [u] of the hits
+
+  static constexpr auto fields() {
+    using T = AccuracyTally;
+    return record(
+        sum("queries", &T::queries, "1", "How many."),
+        sum("hits", &T::hits, "1", "How many touch during the step, by the oracle."),
+        sum("overlapping", &T::overlapping, "1", "How many touch at the start, by the oracle."),
+        sum("wrong_verdicts", &T::wrong_verdicts, "1", "Verdicts that differ from the oracle's."),
+        most("worst_wrong", &T::largest_wrong, "u", "The largest change of the input that a wrong verdict would need."),
+        sum("gave_up", &T::gave_up, "1", "Queries that ran out of rounds."), part(&T::forward), part(&T::backward));
+  }
+};
+
+enum class Inquiry { in_double, in_float, float_kernel, verdicts };
+inline constexpr std::array all_inquiries{Inquiry::in_double, Inquiry::in_float, Inquiry::float_kernel,
+                                          Inquiry::verdicts};
+
+constexpr std::string_view name(Inquiry inquiry) {
+  constexpr std::array<std::string_view, 4> names{"double", "float", "float kernel", "verdicts"};
+  return names[static_cast<std::size_t>(inquiry)];
+}
+
+struct AccuracyPair {
+  std::string_view name;
+  /// Asks queries `first` to `first + count`, which depend on the seed and their number alone.
+  AccuracyTally (*ask)(Inquiry inquiry, std::uint64_t seed, std::int64_t first, std::int64_t count);
+};
+
+std::span<const AccuracyPair> accuracy_pairs();
+
+}  // namespace thinwall

@@ -1,0 +1,660 @@
+/// Where does each way to find a time of impact break, at which scale, distance, speed, thickness, offset, angle or size ratio, and
+/// in which precision? See docs/extremes.md.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/extremes/theory.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Row = ExtremeRow;
+using Tally = ExtremeTally;
+
+std::string_view precision_name(std::size_t precision) { return all_precisions()[precision].name; }
+std::string title_of(std::size_t precision) { return std::string(all_precisions()[precision].title); }
+std::string_view pairs_name(PairSet pairs) { return pairs == PairSet::rounded ? "with a ball" : "two boxes"; }
+
+/// A method in a precision, on pairs with a ball or on two boxes: how far it gets along each arm.
+struct Rung {
+  std::string_view method;
+  std::size_t precision;
+  PairSet pairs;
+  double nanoseconds = 0;        ///< a query: the median over pairs and places
+  std::vector<Survival> arms{};  ///< in the order of all_arms()
+  bool breaks_at_once = false;
+};
+
+bool is_asked(const Survival& s) { return s.survived || s.broken; }
+
+std::vector<Rung> rungs_of(const std::vector<Row>& rows) {
+  std::vector<Rung> rungs;
+  for (const std::string_view method : extreme_method_names()) {
+    for (const std::size_t p : precisions_of(rows)) {
+      for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
+        std::vector<double> times;
+        for (const Row& row : rows) {
+          if (row.tally.queries > 0 && matches(row, {.method = method, .precision = p, .pairs = pairs}))
+            times.push_back(row.tally.nanoseconds);
+        }
+        if (times.empty()) continue;
+        Rung& rung = rungs.emplace_back(Rung{.method = method, .precision = p, .pairs = pairs});
+        rung.nanoseconds = median(times);
+        for (const Arm& arm : all_arms()) rung.arms.push_back(survival(rows, arm, method, p, pairs));
+        rung.breaks_at_once = breaks_at_once(rows, method, p, pairs);
+      }
+    }
+  }
+  return rungs;
+}
+
+// What the tables show.
+
+/// "1e+08 verdict", "-" where it survives, empty where it was not asked.
+std::string break_text(const Survival& s) {
+  if (!s.broken) return s.survived ? "-" : "";
+  return fmt::format("{} {}", rounded_text(*s.broken, 3), name(s.flaw));
+}
+
+/// The power of ten and what is wrong: "4v", "-10e"; "all" where it breaks at the first value, "ok" where it survives.
+std::string short_break_text(const Survival& s) {
+  if (!s.broken) return s.survived ? "ok" : "";
+  return fmt::format("{}{}", s.survived ? fmt::format("{:.0f}", std::log10(*s.broken)) : "all", name(s.flaw)[0]);
+}
+
+/// A column an arm.
+template <class Text> void add_arms(Columns<Rung>& columns, const Text& text_of) {
+  for (std::size_t i = 0; i < all_arms().size(); ++i) {
+    const Arm& arm = all_arms()[i];
+    text(std::string(arm.name),
+         fmt::format("First break along {}, towards {} values.", info(arm.axis).title,
+                     arm.side > 0 ? "greater" : "lesser"),
+         [i, text_of](const Rung& r) { return text_of(r.arms[i]); })
+        .add_to(columns);
+  }
+}
+
+Table ladder_table(const std::vector<Rung>& rungs) {
+  auto columns =
+      columns_of<Rung>(text("method", "Way to find the time of impact.", &Rung::method),
+                       text("precision", "Floating-point type the kernels ran in.",
+                            [](const Rung& r) { return precision_name(r.precision); }),
+                       text("pairs", "With a ball, three pairs; or two boxes, which have no radius.",
+                            [](const Rung& r) { return pairs_name(r.pairs); }),
+                       value("nanoseconds", "ns", "A query; median over pairs and places.", &Rung::nanoseconds));
+  add_arms(columns, break_text);
+  return in_report(timing(table(
+      "ladder",
+      "The first value of each axis at which a method breaks, and why: a verdict wrong by more than 4 u, an error of the "
+      "time of more than 100 u kappa t, no number, or out of budget; a dash where it survives the whole axis. Run time "
+      "beside it. The textbook forms are foils.",
+      columns, rungs)));
+}
+
+Table ladder_test_table(const std::vector<LadderTest>& tests) {
+  using T = LadderTest;
+  const auto finite = [](double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; };
+  const auto columns = columns_of<T>(
+      text("what", "What theory says something about; docs/extremes.md has the units.", &T::what),
+      text("precision", "Floating-point type.", [](const T& t) { return precision_name(t.precision); }),
+      value("cells", "1", "Cells it is held against.", &T::cells),
+      value("measured", "1", "The worst of them; missing: there is none.",
+            [=](const T& t) { return finite(t.measured); }),
+      value("least", "1", "Least allowed.", &T::least),
+      value("most", "1", "Most allowed; missing: no bound.", [=](const T& t) { return finite(t.most); }),
+      text("where", "The worst cell.", &T::where), value("passed", "", "Within what is allowed.", &T::passed));
+  return in_report(
+      table("self_test",
+            "The contract of the closed form, and the theory of the textbook's loss between two balls, by precision.",
+            columns, tests));
+}
+
+Table breaks_table(const std::vector<Row>& rows, const std::vector<Rung>& rungs) {
+  struct Break {
+    const Arm* arm;
+    const Rung* rung;
+    Survival survival;
+  };
+  std::vector<Break> breaks;
+  for (std::size_t i = 0; i < all_arms().size(); ++i) {
+    for (const std::size_t p : precisions_of(rows)) {
+      for (const Rung& rung : rungs) {
+        const Survival& s = rung.arms[i];
+        if (rung.precision == p && is_asked(s)) breaks.push_back({&all_arms()[i], &rung, s});
+      }
+    }
+  }
+  const auto columns = columns_of<Break>(
+      text("axis", "What is extreme.", [](const Break& b) { return info(b.arm->axis).name; }),
+      text("side", "Towards greater or lesser values.",
+           [](const Break& b) { return b.arm->side > 0 ? "greater" : "lesser"; }),
+      text("precision", "Floating-point type.", [](const Break& b) { return precision_name(b.rung->precision); }),
+      text("method", "Way to find the time of impact; textbook is a foil.",
+           [](const Break& b) { return b.rung->method; }),
+      text("pairs", "With a ball, three pairs; or two boxes.",
+           [](const Break& b) { return pairs_name(b.rung->pairs); }),
+      value("survived", "1", "Last value before the first break; missing: none.",
+            [](const Break& b) { return b.survival.survived; }),
+      value("broken", "1", "First value at which it breaks; missing: none.",
+            [](const Break& b) { return b.survival.broken; }),
+      text("why", "A wrong verdict, an error, nan or gave_up.",
+           [](const Break& b) { return b.survival.broken ? name(b.survival.flaw) : ""; }),
+      text("pair", "On which shapes.", [](const Break& b) { return b.survival.pair; }));
+  return table("breaks", "How far each method gets along each axis, on the pairs that every method is asked.", columns,
+               breaks);
+}
+
+Columns<Row> key_columns() {
+  return columns_of<Row>(text("pair", "The two shapes.", [](const Row& r) { return r.pair->name; }),
+                         text("precision", "Floating-point type the kernels ran in.",
+                              [](const Row& r) { return precision_name(r.precision); }),
+                         text("axis", "What is extreme.", [](const Row& r) { return info(r.place.axis).name; }),
+                         value("value", "1", "How extreme: of lengths in sizes of the pair, R.",
+                               [](const Row& r) { return r.place.value; }),
+                         text("method", "Way to find the time of impact; textbook is a foil.",
+                              [](const Row& r) { return r.tally.method; }));
+}
+
+Table cells_table(const std::vector<Row>& asked) {
+  const auto columns =
+      columns_of<Row>(
+          key_columns(), fields(&Row::tally),
+          where([](const Row& r) { return r.tally.timed > 0; },
+                fields(&Row::tally, {"forward_median", "forward_max", "backward_median", "backward_max"})),
+          where([](const Row& r) { return r.tally.loss_max > 0; }, fields(&Row::tally, {"loss_rms", "loss_max"})))
+          .without({"nanoseconds"});
+  return table("cells", "Every method on every pair, in every precision, at every value of every axis.", columns,
+               asked);
+}
+
+Table timings_table(const std::vector<Row>& asked) {
+  return timing(table("timings",
+                      "Time a query on this machine: the median over up to nine passes of the cell's queries.",
+                      columns_of<Row>(key_columns(), fields(&Row::tally, {"nanoseconds"})), asked));
+}
+
+// What the pictures show: heat maps over all places, whose columns are the values of all axes, side by side.
+
+/// A class of values and its color.
+struct HeatBin {
+  std::string label;
+  std::string color;  ///< #rrggbb
+};
+using Bins = std::vector<HeatBin>;
+
+/// The bin of what all rows of a cell add up to; nothing leaves it white.
+using BinOf = std::function<std::optional<std::size_t>(const Tally&)>;
+
+struct HeatRow {
+  std::string label;
+  std::function<bool(const Row&)> has;
+};
+
+/// In every list each bin is darker than the one before, so that the order holds in gray.
+const Bins share_bins = {{"none", "#e6eef6"},
+                         {"up to 1 %", "#f2b36b"},
+                         {"up to 10 %", "#e77a44"},
+                         {"up to half", "#d7301f"},
+                         {"more", "#7f0000"}};
+const Bins error_bins = {{"up to 1", "#e6eef6"},   {"up to 4", "#b4d6ee"},   {"up to 100", "#eaa838"},
+                         {"up to 1e4", "#dc741a"}, {"up to 1e8", "#b43f0a"}, {"more than 1e8", "#571c06"}};
+const Bins silence_bins = {{"all answered", "#e6eef6"},
+                           {"gave up, up to 10 %", "#9e9ac8"},
+                           {"gave up, more", "#54278f"},
+                           {"NaN or invalid, up to 10 %", "#f5c48a"},
+                           {"NaN or invalid, more", "#d95f02"}};
+
+/// The first bin whose upper limit is not below x; the last has none.
+std::size_t bin_of(double x, const std::vector<double>& limits) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(limits, x) - limits.begin());
+}
+BinOf share_bin(std::int64_t Tally::*part) {
+  return [part](const Tally& t) -> std::optional<std::size_t> {
+    if (t.queries == 0) return {};
+    return bin_of(static_cast<double>(t.*part) / static_cast<double>(t.queries), {0, 0.01, 0.1, 0.5});
+  };
+}
+BinOf error_bin(double Tally::*error) {
+  return [error](const Tally& t) -> std::optional<std::size_t> {
+    if (t.timed == 0) return {};
+    return bin_of(t.*error, {1, 4, 100, 1e4, 1e8});
+  };
+}
+std::optional<std::size_t> silence_bin(const Tally& t) {
+  if (t.queries == 0) return {};
+  if (t.invalid > 0) return 10 * t.invalid > t.queries ? 4 : 3;
+  if (t.gave_up > 0) return 10 * t.gave_up > t.queries ? 2 : 1;
+  return 0;
+}
+
+/// 1e4, 1e-15, but 1, 10 and 0.1.
+std::string tic_text(double x) {
+  if (x > 0.05 && x < 50) return rounded_text(x, 2);
+  const double power = std::floor(std::log10(x) + 1e-9), leading = x / std::pow(10, power);
+  return fmt::format("{}e{:.0f}", rounded_text(leading, 2), power);
+}
+
+/// The column of each place: one apart, two where another axis begins.
+std::vector<double> heat_columns(const std::vector<Place>& places) {
+  std::vector<double> columns;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool begins = i > 0 && places[i].axis != places[i - 1].axis;
+    columns.push_back(i == 0 ? 1 : columns.back() + (begins ? 2 : 1));
+  }
+  return columns;
+}
+
+Panel heat_panel(const std::string& title, const std::vector<Row>& rows, const std::vector<HeatRow>& heat_rows,
+                 const Bins& bins, bool names_axes, const BinOf& bin_of_sum) {
+  constexpr double row_height = 22.0 / 360;  // [1] of a panel of height 1
+  const std::vector<Place> places = places_of(rows);
+  const std::vector<double> columns = heat_columns(places);
+  Panel panel;
+  panel.x_label = "value on the axis named above, all others as usual [1]";
+  panel.y_label = title;
+  panel.height = row_height * (static_cast<double>(heat_rows.size()) + 0.4);
+  for (const HeatBin& bin : bins) {
+    panel.series.push_back(
+        {.label = bin.label, .mark = Mark::cells, .x = {}, .y = {}, .lower = {}, .upper = {}, .color = bin.color});
+  }
+  for (std::size_t i = 0; i < heat_rows.size(); ++i) {
+    const double y = static_cast<double>(heat_rows.size() - i);
+    panel.y_tics.push_back({y, heat_rows[i].label});
+    std::vector<Tally> sums(places.size());
+    for (const Row& row : rows) {
+      if (heat_rows[i].has(row))
+        sums[static_cast<std::size_t>(std::ranges::find(places, row.place) - places.begin())] += row.tally;
+    }
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      const std::optional<std::size_t> bin = bin_of_sum(sums[j]);
+      if (!bin) continue;
+      panel.series[*bin].x.push_back(columns[j]);
+      panel.series[*bin].y.push_back(y);
+    }
+  }
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    panel.x_tics.push_back({columns[j], tic_text(places[j].value)});
+    const bool begins = j == 0 || places[j].axis != places[j - 1].axis;
+    if (!names_axes || !begins) continue;
+    const auto of_axis = std::ranges::count(places, places[j].axis, &Place::axis);
+    panel.x_groups.push_back(
+        {columns[j] + static_cast<double>(of_axis - 1) / 2, std::string(info(places[j].axis).title)});
+  }
+  return panel;
+}
+
+/// A panel a precision, a row a method.
+Figure by_method(const std::vector<Row>& rows, PairSet pairs, std::string name, std::string title, std::string caption,
+                 const Bins& bins, const BinOf& bin) {
+  Figure figure{std::move(name), std::move(title), std::move(caption), {}};
+  for (const std::size_t p : precisions_of(rows)) {
+    std::vector<HeatRow> heat_rows;
+    for (const std::string_view method : methods_of(rows, p, pairs)) {
+      heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""), [=](const Row& row) {
+                             return matches(row, {.method = method, .precision = p, .pairs = pairs});
+                           }});
+    }
+    if (!heat_rows.empty())
+      figure.panels.push_back(heat_panel(title_of(p), rows, heat_rows, bins, figure.panels.empty(), bin));
+  }
+  return figure;
+}
+
+/// The closed form on every pair: a panel a precision, a row a pair.
+Figure by_pair(const std::vector<Row>& rows) {
+  Figure figure{
+      "closed_form_pairs",
+      "The closed form on every pair: largest forward error [u kappa t]",
+      "A row is a pair of shapes. White: no hit to time, or a value that does not concern the pair, or that the "
+      "precision cannot hold.",
+      {}};
+  for (const std::size_t p : precisions_of(rows)) {
+    std::vector<HeatRow> heat_rows;
+    for (const ExtremePair& pair : extreme_pairs()) {
+      const auto has = [p, &pair](const Row& row) {
+        return row.pair == &pair && row.precision == p && row.tally.method == "closed_form";
+      };
+      if (std::ranges::any_of(rows, has)) heat_rows.push_back({std::string(pair.name), has});
+    }
+    if (heat_rows.empty()) continue;
+    figure.panels.push_back(
+        heat_panel(title_of(p), rows, heat_rows, error_bins, figure.panels.empty(), error_bin(&Tally::forward_max)));
+  }
+  return figure;
+}
+
+/// What rounding the input changes, whatever the method: a row a precision.
+Figure changed_by_rounding(const std::vector<Row>& rows) {
+  std::vector<HeatRow> heat_rows;
+  for (const std::size_t p : precisions_of(rows))
+    heat_rows.push_back({title_of(p), [p](const Row& row) { return row.precision == p; }});
+  return {
+      "representation",
+      "Verdicts that rounding the input alone changes",
+      "Share of the queries, drawn in doubles, whose true answer is another one once they are rounded to the precision. "
+      "No method is at fault: every method is judged by the answer to the rounded query.",
+      {heat_panel("precision", rows, heat_rows, share_bins, true, share_bin(&Tally::changed))}};
+}
+
+/// The foil's loss between two balls, with u (d/R)^2 / 2.
+Figure loss_figure(const std::vector<Row>& rows) {
+  struct Loss {
+    const Row* row;
+    double distance, unit;
+  };
+  std::vector<Loss> losses;
+  for (const Row& row : rows) {
+    const double d = row.place.value;
+    const bool is_drawn = row.pair->name == "sphere_sphere" && row.place.axis == ExtremeAxis::distance && d >= 10 &&
+                          row.tally.timed > 0 && (row.tally.method == "textbook" || row.tally.method == "closed_form");
+    if (is_drawn) losses.push_back({&row, d, all_precisions()[row.precision].unit * d * d / 2});
+  }
+  const auto columns = columns_of<Loss>(
+      text("series", "",
+           [](const Loss& l) { return fmt::format("{} {}", l.row->tally.method, title_of(l.row->precision)); }),
+      value("distance", "", "", &Loss::distance), value("loss", "", "", [](const Loss& l) {
+        const double rms = l.row->tally.loss_rms;
+        return rms > 0 ? std::optional(rms * l.unit) : std::nullopt;
+      }));
+  Panel panel = plot(table("drawn", "", columns, losses))
+                    .x("distance", Axis::log, "distance / R [1]")
+                    .y("loss", Axis::log, "error along the normal / R [1]")
+                    .by("series");
+  const bool is_empty = panel.series.empty();
+  for (const std::size_t p : precisions_of(rows)) {
+    Series theory = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+    for (const Loss& l : losses) {
+      if (l.row->precision != p || l.row->tally.method != "textbook") continue;
+      theory.x.push_back(l.distance);
+      theory.y.push_back(l.unit);
+    }
+    panel.series.push_back(theory);
+  }
+  return {
+      "textbook_loss", "What the textbook's quadratic loses between two balls",
+      "Root mean square of the error of the place of contact along the normal, over the radius, where it finds one. The "
+      "lines are u (d/R)^2 / 2, one a precision; points leave them where verdicts go wrong, at d/R = 1/sqrt(u). The "
+      "closed form's stay at u d/R, whose slope is half.",
+      is_empty ? std::vector<Panel>() : std::vector{panel}};
+}
+
+std::vector<Figure> figures_of(const std::vector<Row>& rows) {
+  const std::string columns =
+      " Columns are the values of seven axes, one extreme at a time; rows are methods. White: not asked, as the precision "
+      "cannot hold the query or the axis does not concern the pair.";
+  const std::string balls = " Three pairs with a ball, together." + columns,
+                    boxes = " Two boxes, which have no radius to give them a normal where they touch." + columns;
+  const std::string wrong = "Share of the queries whose verdict is wrong by more than 4 u of its input.",
+                    contract = "The contract of the closed form is 4.", timed = " White, too: no hit to time.";
+  const BinOf verdict = share_bin(&Tally::far_wrong), forward = error_bin(&Tally::forward_max);
+  std::vector<Figure> figures = {
+      by_method(rows, PairSet::rounded, "verdicts", "Wrong verdicts, by more than 4 u", wrong + balls, share_bins,
+                verdict),
+      by_method(rows, PairSet::rounded, "forward", "Largest forward error of the time of a hit [u kappa t]",
+                contract + balls + timed, error_bins, forward),
+      by_method(rows, PairSet::rounded, "backward", "Largest backward error of a hit [u]", contract + balls + timed,
+                error_bins, error_bin(&Tally::backward_max)),
+      by_method(rows, PairSet::four, "no_answer", "NaN, invalid, and gave up",
+                "Of all four pairs. Where both occur, the NaN is shown." + columns, silence_bins, silence_bin),
+      by_method(rows, PairSet::boxes, "verdicts_boxes", "Two boxes: wrong verdicts, by more than 4 u", wrong + boxes,
+                share_bins, verdict),
+      by_method(rows, PairSet::boxes, "forward_boxes",
+                "Two boxes: largest forward error of the time of a hit [u kappa t]", contract + boxes + timed,
+                error_bins, forward),
+      by_pair(rows)};
+  if (!rows.empty()) figures.push_back(changed_by_rounding(rows));
+  figures.push_back(loss_figure(rows));
+  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return figures;
+}
+
+// What it says.
+
+/// 0.1, 30, 10^8, 3 x 10^-7.
+std::string spoken(double x) {
+  if (x >= 0.1 && x < 1000) return rounded_text(x, 2);
+  const double power = std::floor(std::log10(x) + 1e-9);
+  const std::string leading = rounded_text(x / std::pow(10, power), 2);
+  return fmt::format("{}10^{:.0f}", leading == "1" ? "" : leading + " x ", power);
+}
+
+std::string in_precision(std::size_t precision) {
+  return fmt::format("{} {}", all_precisions()[precision].is_wide ? "at" : "in", title_of(precision));
+}
+
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
+  return text;
+}
+
+std::string closed_form_answer(const std::vector<Row>& rows, const std::vector<LadderTest>& tests) {
+  double forward = 0;
+  bool asked = false;
+  for (const LadderTest& t : tests) {
+    if (t.what != "closed_form_forward") continue;
+    forward = std::max(forward, t.measured);
+    asked = true;
+  }
+  if (!asked) return "";
+  std::vector<std::string> breaks;
+  bool is_on_ladder = false;
+  for (const std::size_t p : precisions_of(rows)) {
+    std::vector<std::string> places;
+    for (const Arm& arm : all_arms()) {
+      const Survival s = survival(rows, arm, "closed_form", p);
+      is_on_ladder |= is_asked(s);
+      if (s.broken)
+        places.push_back(fmt::format("{} {}{}", info(arm.axis).name, spoken(*s.broken), info(arm.axis).unit));
+    }
+    if (!places.empty()) breaks.push_back(fmt::format("{} at {}", in_precision(p), listed(places)));
+  }
+  return fmt::format(
+      "Where contact lasts long enough for a time to name it, the closed form is off by at most {:.2f} times what rounding "
+      "its input changes{}. ",
+      forward,
+      !is_on_ladder    ? ""
+      : breaks.empty() ? ", and it breaks nowhere"
+                       : ", and it breaks " + fmt::format("{}", fmt::join(breaks, ", ")));
+}
+
+/// Between two balls, along the distance: where the foil's verdicts first go wrong.
+std::string foil_answer(const std::vector<Row>& rows) {
+  std::vector<std::string> parts;
+  for (const std::size_t p : precisions_of(rows)) {
+    std::optional<double> first;
+    bool asked = false;
+    for (const Row& row : rows) {
+      if (!matches(row, {.method = "textbook", .precision = p}) || row.pair->name != "sphere_sphere" ||
+          row.place.axis != ExtremeAxis::distance || row.tally.queries == 0) {
+        continue;
+      }
+      asked = true;
+      if (row.tally.far_wrong > 0) first = std::min(first.value_or(row.place.value), row.place.value);
+    }
+    if (asked)
+      parts.push_back(
+          (first ? fmt::format("from {} R {}", spoken(*first), parts.empty() ? "apart " : "") : "at no distance ") +
+          in_precision(p));
+  }
+  return parts.empty() ? "" : fmt::format("The textbook's formula gets two balls wrong {}. ", listed(parts));
+}
+
+/// Of the others on pairs with a ball, in double or the last precision there is: along how many arms each breaks.
+std::string others_answer(const std::vector<Row>& rows, const std::vector<Rung>& rungs) {
+  const std::vector<std::size_t> precisions = precisions_of(rows);
+  if (precisions.empty()) return "";
+  const std::size_t p = std::ranges::find(precisions, 1U) != precisions.end() ? 1 : precisions.back();
+  std::int64_t at_once = 0, ways = 0;
+  std::vector<std::string> others, clauses;
+  for (const Rung& rung : rungs) {
+    if (rung.precision != p || rung.pairs != PairSet::rounded || rung.method == "closed_form") continue;
+    ways = std::max<std::int64_t>(ways, std::ranges::count_if(rung.arms, is_asked));
+    at_once += rung.breaks_at_once ? 1 : 0;
+    if (rung.breaks_at_once) continue;
+    const auto broken = std::ranges::count_if(rung.arms, [](const Survival& s) { return s.broken.has_value(); });
+    others.push_back(fmt::format("{} {}on {}", rung.method, others.empty() ? "breaks " : "",
+                                 broken > 0 ? std::to_string(broken) : "none"));
+  }
+  if (at_once > 0)
+    clauses.push_back(fmt::format("{} {} where nothing is extreme", plural_text(at_once, "other method"),
+                                  at_once == 1 ? "breaks" : "break"));
+  if (!others.empty())
+    clauses.push_back(fmt::format("of {} {}", plural_text(ways, "way") + " outward", listed(others)));
+  if (clauses.empty()) return "";
+  return fmt::format("On pairs with a ball, {}, {}.", in_precision(p), fmt::join(clauses, "; "));
+}
+
+std::string answer_of(const std::vector<Row>& rows, const std::vector<Rung>& rungs,
+                      const std::vector<LadderTest>& tests) {
+  const std::string text = closed_form_answer(rows, tests) + foil_answer(rows) + others_answer(rows, rungs);
+  return text.empty() ? "No query was asked: see the tables." : text;
+}
+
+/// A row a method that does not break at once, and the names of those that do.
+std::string ladder_text(const std::vector<Rung>& rungs, std::size_t precision, PairSet pairs) {
+  std::vector<Rung> shown;
+  std::vector<std::string_view> at_once;
+  for (const Rung& rung : rungs) {
+    if (rung.precision != precision || rung.pairs != pairs) continue;
+    if (rung.breaks_at_once) {
+      at_once.push_back(rung.method);
+    } else {
+      shown.push_back(rung);
+    }
+  }
+  auto columns = columns_of<Rung>(text("method", "", &Rung::method),
+                                  text("ns", "", [](const Rung& r) { return rounded_text(r.nanoseconds, 3); }));
+  add_arms(columns, short_break_text);
+  std::string text;
+  if (!shown.empty())
+    text = terminal(table("ladder", fmt::format("{}, {}.", title_of(precision), pairs_name(pairs)), columns, shown));
+  if (!at_once.empty())
+    text += wrapped(fmt::format(
+        "{}: {}", shown.empty() ? fmt::format("{}, {}, at once", title_of(precision), pairs_name(pairs)) : "At once",
+        fmt::join(at_once, ", ")));
+  return text.empty() ? text : text + "\n";
+}
+
+std::string self_test_words(const std::vector<LadderTest>& tests) {
+  std::string failed;
+  for (const LadderTest& t : tests) {
+    if (!t.passed())
+      failed += fmt::format("FAILED: {}, {}: {:.3g}, allowed {:.3g} to {:.3g}, at {}.\n", t.what, title_of(t.precision),
+                            t.measured, t.least, t.most, t.where);
+  }
+  return fmt::format("{} of {} passed.\n{}", std::ranges::count_if(tests, &LadderTest::passed), tests.size(), failed);
+}
+
+std::string summary_of(const std::vector<Row>& rows, const std::vector<Rung>& rungs,
+                       const std::vector<LadderTest>& tests) {
+  std::string text;
+  for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
+    for (const std::size_t p : precisions_of(rows)) text += ladder_text(rungs, p, pairs);
+  }
+  if (!text.empty()) {
+    text +=
+        wrapped(
+            "The power of ten at which each first breaks, and why: v a verdict wrong by more than 4 u, e a time off by more "
+            "than 100 u kappa t, n no number, g gave up; all: at the first value; ok: it does not.\n"
+            "Small, large: scale. Far, offset: over R. Slow, fast: speed / R. Graze: 1 - b/R. Unequal: sizes. Textbook is a "
+            "foil. At once: the methods that break at most first values; they claim less.") +
+        "\n";
+  }
+  return text + "Self-test: " + self_test_words(tests);
+}
+
+Outcome outcome_of(const std::vector<Row>& rows) {
+  const std::vector<LadderTest> tests = ladder_tests(rows);
+  const std::vector<Rung> rungs = rungs_of(rows);
+  std::vector<Row> asked = rows;
+  std::erase_if(asked, [](const Row& row) { return row.tally.queries == 0; });
+  return {.answer = answer_of(rows, rungs, tests),
+          .summary = summary_of(rows, rungs, tests),
+          .tables = {ladder_table(rungs), ladder_test_table(tests), breaks_table(rows, rungs), cells_table(asked),
+                     timings_table(asked)},
+          .figures = figures_of(rows),
+          .sections = {{"Self-test", self_test_words(tests)}},
+          .self_test_passed = std::ranges::all_of(tests, &LadderTest::passed)};
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  std::vector<std::string_view> pair_names, precision_names;
+  for (const ExtremePair& pair : extreme_pairs()) pair_names.push_back(pair.name);
+  for (const Precision& precision : all_precisions()) precision_names.push_back(precision.name);
+  const std::vector<std::string> pairs = settings.choices_or_all("pair", pair_names);
+  const std::vector<std::string> precisions = settings.choices_or_all("precision", precision_names);
+  const std::vector<std::string> methods = settings.choices_or_all("method", extreme_method_names());
+  const std::int64_t queries = settings.trials("queries", 1, 1 << 20, options.trials);
+  const std::int64_t one_in = settings.integer("one_in_at_50_digits", 1, 1 << 20);
+  const double tolerance = settings.number("tolerance", {.lower = 1, .upper = 1e6, .unit = "epsilon"});
+  const std::vector<Place> places = make_places(settings);
+  if (places.size() * pairs.size() * precisions.size() > most_cells) {
+    settings.complain(
+        "axis", fmt::format("fewer: {} values on these axes, for {} pairs and {} precisions, make more than {} cells",
+                            places.size(), pairs.size(), precisions.size(), most_cells));
+  }
+
+  std::vector<Row> cells;  // a pair and a precision at a place: one unit, on all methods
+  std::vector<Task<std::vector<Tally>>> tasks;
+  const auto has = [](const auto& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const ExtremePair& pair : extreme_pairs()) {
+    for (std::size_t p = 0; p < precision_count; ++p) {
+      const Precision& precision = all_precisions()[p];
+      if (!has(pairs, pair.name) || !has(precisions, precision.name) || pair.ask[p] == nullptr) continue;
+      const std::int64_t count = precision.is_wide ? (queries + one_in - 1) / one_in : queries;
+      for (const Place& place : places) {
+        if (place.axis == ExtremeAxis::thickness && !pair.has_box) continue;
+        const ExtremeInquiry inquiry = {place, count, options.seed, methods, tolerance};
+        cells.push_back({&pair, p, place, {}});
+        tasks.push_back(
+            {fmt::format("{} {} {} {}", pair.name, precision.name, info(place.axis).name, exact_text(place.value)),
+             count, [ask = pair.ask[p], inquiry] { return ask(inquiry); }});
+      }
+    }
+  }
+  if (cells.empty()) {
+    settings.complain("precision", "\"float\" or \"double\" too: the pairs that are chosen are asked in no other");
+  }
+  const auto finish = [cells](const Done<std::vector<Tally>>& done) {
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (const Tally& tally : done.results[i])
+        rows.push_back({cells[i].pair, cells[i].precision, cells[i].place, tally});
+    }
+    return outcome_of(rows);
+  };
+  return make_run(finish, std::move(tasks));
+}
+
+}  // namespace
+
+Experiment extremes_experiment() {
+  return {
+      "extremes",
+      "At which scale, distance, speed, thickness, offset, angle or size ratio does each way to find a time of impact break, "
+      "in float, double, long double and at 50 digits?",
+      embedded_toml("extremes"), configure};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,104 @@
+#pragma once
+/// The benchmark programs: which there are, where they lie, running one, what it said, and all rounds of one of its rows.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/lab/rounds.hpp>
+
+namespace thinwall {
+
+/// In the order of a round.
+std::span<const std::string_view> bench_program_names();
+
+/// bench/ of the build tree that this program lies in; where that does not exist, where it would be.
+std::filesystem::path built_benchmarks();
+
+/// True if the file can be run.
+bool is_program(const std::filesystem::path& file);
+
+/// A number that a program says, by its name.
+struct Counter {
+  std::string name;
+  double value;
+  static constexpr auto fields() { return record(kept("name", &Counter::name), kept("value", &Counter::value)); }
+  bool operator==(const Counter&) const = default;
+};
+
+/// One row of Google Benchmark's: KIND/SUBJECT/WAY, such as time_of_impact/sphere_aabb/kernel.
+struct BenchRow {
+  std::string kind, subject, way;
+  double nanoseconds = 0;         ///< [ns] of the processor, an answer
+  std::vector<Counter> counters;  ///< those of the suite: errors, floors
+
+  static constexpr auto fields() {
+    using B = BenchRow;
+    return record(kept("kind", &B::kind), kept("subject", &B::subject), kept("way", &B::way),
+                  kept("nanoseconds", &B::nanoseconds), kept("counters", &B::counters));
+  }
+};
+
+/// What one start of a program said.
+struct BenchOutput {
+  std::string program;
+  std::string missing;                      ///< why there are no rows; empty if the program ran
+  std::vector<Counter> floors;              ///< of the machine, as the program measured them
+  std::vector<std::string> peers_left_out;  ///< libraries that the program was built without
+  std::vector<BenchRow> rows;
+
+  static constexpr auto fields() {
+    using B = BenchOutput;
+    return record(kept("program", &B::program), kept("missing", &B::missing), kept("floors", &B::floors),
+                  kept("peers_left_out", &B::peers_left_out), kept("rows", &B::rows));
+  }
+};
+
+/// From what `program` wrote to --benchmark_out. Throws std::runtime_error, in one line, if that is not such JSON or a row of it
+/// says that it failed.
+BenchOutput bench_output_from_json(const std::string& program, const std::string& json);
+
+struct BenchOptions {
+  double seconds = 0.02;  ///< [s] each row is timed at least so long
+  std::string filter;     ///< regular expression; empty: every row
+};
+
+/// Starts FOLDER/NAME and waits for it. One at a time in the whole process, so that none disturbs another. A program that is
+/// not there gives an output that says so and what to do. Throws std::runtime_error, in one line, if it fails.
+BenchOutput run_bench_program(const std::filesystem::path& folder, const std::string& name,
+                              const BenchOptions& options);
+
+/// All rounds of one row, and what follows from them.
+struct TimedWay {
+  std::string program, kind, subject, way;
+  std::vector<double> nanoseconds = {};              ///< [ns] an answer, one of each round
+  std::vector<double> floor_ns = {}, to_floor = {};  ///< of each round, where the program says them
+  std::vector<Counter> errors = {};                  ///< its other counters, in the first round
+  bool errors_agree = true;                          ///< the same in every round
+
+  Measured time() const { return median_of_rounds(nanoseconds); }
+  std::optional<double> error(std::string_view counter) const;  ///< where the row has it
+  double wrong_verdicts() const { return error("missed").value_or(0) + error("false").value_or(0); }
+
+  std::string name() const;    ///< what a picture calls it: "thinwall, kernel", "Bullet, subsimplex cast"
+  bool is_front_door() const;  ///< the program's own answer through it
+  bool is_peer() const;        ///< another library answers
+  bool must_be_right()
+      const;  ///< our own, on queries where a wrong verdict has no excuse: not the ones made to be hard
+};
+
+/// By program in the order of the suite, then as the program lists its rows.
+std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds);
+
+/// Asked for a time of impact, and its errors counted: what the picture shows, pair by pair. Of those of one name and pair, the
+/// first.
+std::vector<TimedWay> drawn_ways(const std::vector<TimedWay>& all);
+
+/// The program's own answer through the front door, for the subject of `timed`; null if it is not there.
+const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed);
+
+}  // namespace thinwall

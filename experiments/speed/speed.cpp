@@ -1,0 +1,407 @@
+/// What does an answer cost on this machine, and how wrong is it: ours, the plain form, other libraries? See docs/speed.md.
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <regex>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/speed/batch.hpp>
+#include <thinwall/experiments/speed/model.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+constexpr double rows_of_a_program = 700;  // about, on average: for the estimate of a dry run, which starts none
+
+// What the tables show.
+
+Columns<TimedWay> key_columns() {
+  using T = TimedWay;
+  return columns_of<T>(text("kind", "What is asked: a time of impact, a ray, a contact, a step of a world.", &T::kind),
+                       text("subject", "Of what: a pair of shapes, a world.", &T::subject),
+                       text("way", "Who answers, and how.", &T::way),
+                       text("program", "Benchmark program that asked.", &T::program));
+}
+
+auto number_column(std::string name, std::string unit, std::string description, std::string_view counter) {
+  return value(std::move(name), std::move(unit), std::move(description),
+               [counter](const TimedWay& c) { return c.error(counter); });
+}
+
+auto count_column(std::string name, std::string description, std::string_view counter) {
+  return value(std::move(name), "1", std::move(description),
+               [counter](const TimedWay& c) -> std::optional<std::int64_t> {
+                 const std::optional<double> count = c.error(counter);
+                 return count ? std::optional(static_cast<std::int64_t>(*count)) : std::nullopt;
+               });
+}
+
+/// Verdicts, and errors as a length.
+auto missed_column() { return count_column("missed", "Hits of the set that are called misses.", "missed"); }
+auto false_column() { return count_column("false_hits", "Misses of the set that are called hits.", "false"); }
+auto p99_column() {
+  return number_column("length_p99", "m", "99th percentile error of the hits that are found, as a length.",
+                       "p99_length");
+}
+auto max_column() { return number_column("length_max", "m", "Largest of the same.", "max_length"); }
+
+auto time_columns() {
+  return measured("nanoseconds", "ns", "Processor time of an answer; median over rounds.", &TimedWay::time);
+}
+
+auto median_column(std::string name, std::string unit, std::string description, std::vector<double> TimedWay::*rounds) {
+  return value(std::move(name), std::move(unit), std::move(description),
+               [rounds](const TimedWay& c) -> std::optional<double> {
+                 return (c.*rounds).empty() ? std::nullopt : std::optional(median(c.*rounds));
+               });
+}
+auto to_floor_column() {
+  return median_column("to_floor", "1", "Time over the floor measured beside it; median over rounds.",
+                       &TimedWay::to_floor);
+}
+
+Table errors_table(std::vector<TimedWay> all) {
+  std::erase_if(all, [](const TimedWay& c) { return !c.error("missed"); });
+  const auto columns = columns_of<TimedWay>(
+      key_columns(), missed_column(), false_column(),
+      number_column("error_p99", "1", "99th percentile error, in steps; of a depth, a length.", "p99_error"),
+      number_column("error_max", "1", "Largest of the same.", "max_error"), p99_column(), max_column());
+  return table("errors",
+               "Verdicts and errors against the benchmark's oracle, of every row that has one. An error is that of a "
+               "hit that was found: of a time in steps and as a length along the relative path, of a contact's depth "
+               "as a length.",
+               columns, all);
+}
+
+Table race_table(const std::vector<TimedWay>& drawn) {
+  const auto columns = columns_of<TimedWay>(
+      text("subject", "The pair of shapes.", &TimedWay::subject), text("who", "Who answers, and how.", &TimedWay::name),
+      time_columns(), to_floor_column(), missed_column(), false_column(), p99_column(), max_column());
+  return in_report(
+      timing(table("race",
+                   "Time of impact: what an answer costs and what is wrong with it, of 100 000 queries a pair. Length: "
+                   "the error of the time times the relative motion.",
+                   columns, drawn)));
+}
+
+Table timings_table(const std::vector<TimedWay>& all) {
+  const auto columns = columns_of<TimedWay>(
+      key_columns(), time_columns(),
+      value("rounds", "1", "Rounds timed.", [](const TimedWay& c) { return c.nanoseconds.size(); }),
+      median_column("floor_ns", "ns", "The least that the same work could take; median over rounds.",
+                    &TimedWay::floor_ns),
+      to_floor_column());
+  return timing(table("timings",
+                      "Every row of every benchmark program: processor time of an answer, median over rounds, each a "
+                      "process of its own.",
+                      columns, all));
+}
+
+Table floors_table(const std::vector<BenchOutput>& outputs) {
+  std::map<std::string, std::vector<double>> floors;
+  for (const BenchOutput& output : outputs) {
+    for (const Counter& floor : output.floors) floors[floor.name].push_back(floor.value);
+  }
+  using Row = std::pair<std::string, std::vector<double>>;
+  const auto columns = columns_of<Row>(
+      text("floor", "What was measured.", &Row::first),
+      value("median", "1", "In the unit that its name ends with.", [](const Row& row) { return median(row.second); }),
+      value("least", "1", "Least of all starts.", [](const Row& row) { return std::ranges::min(row.second); }),
+      value("most", "1", "Most of all starts.", [](const Row& row) { return std::ranges::max(row.second); }));
+  return in_report(timing(table(
+      "floors", "What the machine can do at best, measured by each start of a program; medians and extremes over all.",
+      columns, std::vector<Row>(floors.begin(), floors.end()))));
+}
+
+/// What did not take part, and why.
+std::optional<std::string> left_out(const BenchOutput& output) {
+  std::string text = output.missing;
+  for (const std::string& peer : output.peers_left_out) text += (text.empty() ? "built without " : ", ") + peer;
+  if (!output.peers_left_out.empty())
+    text += ": install their development packages, configure with -DTHINWALL_PEERS=ON and build again";
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+/// A start of each program: every round has the same rows.
+std::vector<BenchOutput> first_starts(const std::vector<BenchOutput>& outputs) {
+  std::vector<BenchOutput> starts;
+  for (const std::string_view name : bench_program_names()) {
+    const auto first = std::ranges::find(outputs, name, &BenchOutput::program);
+    if (first != outputs.end()) starts.push_back(*first);
+  }
+  return starts;
+}
+
+Table programs_table(const std::vector<BenchOutput>& outputs) {
+  const auto columns = columns_of<BenchOutput>(
+      text("program", "Benchmark program.", &BenchOutput::program),
+      value("rows", "1", "Rows that it has.", [](const BenchOutput& output) { return output.rows.size(); }),
+      text("left_out", "What did not take part, and why; missing if all did.", left_out));
+  return in_report(
+      table("programs", "Which benchmark programs and libraries took part.", columns, first_starts(outputs)));
+}
+
+// What the pictures show.
+
+constexpr double least_length = 1e-17;  // [m] drawn in place of an error that is less, down to 0
+
+std::vector<std::string> distinct(const std::vector<TimedWay>& drawn,
+                                  const std::function<std::string(const TimedWay&)>& key) {
+  std::vector<std::string> values;
+  for (const auto& group : group_by(drawn, key)) values.push_back(key(*group[0]));
+  return values;
+}
+std::vector<std::string> subjects_of(const std::vector<TimedWay>& drawn) { return distinct(drawn, &TimedWay::subject); }
+
+void add_point(Series& series, const TimedWay& c) {
+  const double p99 = std::max(least_length, c.error("p99_length").value_or(0));
+  const Measured time = c.time();
+  series.x.push_back(p99);
+  series.x_lower.push_back(p99);
+  series.x_upper.push_back(std::max(p99, c.error("max_length").value_or(0)));
+  series.y.push_back(time.value);
+  series.lower.push_back(time.interval.lower);
+  series.upper.push_back(time.interval.upper);
+}
+
+/// Of one pair, or of all of them.
+Panel race_panel(const std::vector<TimedWay>& drawn, const std::string& subject) {
+  Panel panel;
+  panel.x_label = "error of the time of impact, as a length [m]: 99th percentile, with a bar to the largest";
+  panel.y_label = subject.empty() ? "ns a query" : subject + ", ns";
+  panel.log_x = panel.log_y = true;
+  panel.height = subject.empty() ? 1.6 : 0.8;
+  for (const Group<TimedWay>& group : group_by(drawn, &TimedWay::name)) {
+    Series series{.label = group[0]->name(), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
+    for (const TimedWay* c : group) {
+      if (subject.empty() || c->subject == subject) add_point(series, *c);
+    }
+    if (!series.x.empty()) panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+/// Who gives a wrong verdict, in words.
+std::string wrong_text(const std::vector<TimedWay>& drawn) {
+  std::string text;
+  for (const Group<TimedWay>& group : group_by(drawn, &TimedWay::name)) {
+    double missed = 0, false_hits = 0;
+    for (const TimedWay* c : group) {
+      missed += c->error("missed").value_or(0);
+      false_hits += c->error("false").value_or(0);
+    }
+    if (missed + false_hits == 0) continue;
+    text += fmt::format("{}{} misses {} and invents {}", text.empty() ? "" : "; ", group[0]->name(),
+                        grouped_text(static_cast<std::int64_t>(missed)),
+                        grouped_text(static_cast<std::int64_t>(false_hits)));
+  }
+  return text.empty() ? "No verdict is wrong." : "Wrong verdicts, over all pairs: " + text + ".";
+}
+
+Figure race_figure(std::string name, std::string title, const std::vector<TimedWay>& drawn, std::vector<Panel> panels) {
+  return {.name = std::move(name),
+          .title = std::move(title),
+          .caption = "Left is finer, lower is faster. The error of hits that are found; what is missed has none. " +
+                     wrong_text(drawn) +
+                     " Vertical bars, mostly hidden by their points: 95 % bootstrap intervals of the median time. "
+                     "Errors below 1e-17 are drawn there.",
+          .panels = std::move(panels),
+          .is_timing = true};
+}
+
+/// A panel for each pair that another library answers; for each of all, if none answers any.
+std::vector<Panel> panels_by_pair(const std::vector<TimedWay>& drawn) {
+  const bool any_peer = std::ranges::any_of(drawn, &TimedWay::is_peer);
+  std::vector<Panel> panels;
+  for (const std::string& subject : subjects_of(drawn)) {
+    const auto rival = [&](const TimedWay& c) { return c.subject == subject && c.is_peer(); };
+    if (!any_peer || std::ranges::any_of(drawn, rival)) panels.push_back(race_panel(drawn, subject));
+  }
+  return panels;
+}
+
+/// Wrong verdicts of each, by pair; who has none is not there.
+Figure verdict_figure(const std::vector<TimedWay>& drawn) {
+  const std::vector<std::string> subjects = subjects_of(drawn);
+  const auto place = [&](const TimedWay& c) { return subjects.end() - std::ranges::find(subjects, c.subject); };
+  Figure figure = {.name = "wrong_verdicts",
+                   .title = "Wrong verdicts",
+                   .caption = "Who is not there has none. " + wrong_text(drawn),
+                   .panels = {}};
+  for (const auto& [counter, label] : {std::pair{"missed", "hits missed"}, {"false", "hits invented"}}) {
+    const auto columns = columns_of<TimedWay>(text("who", "", &TimedWay::name), number_column("wrong", "", "", counter),
+                                              value("place", "", "", place));  // the first on top
+    Panel panel = plot(table("drawn", "", columns, drawn))
+                      .where("wrong", [](double wrong) { return wrong > 0; })
+                      .x("wrong", Axis::log, "of 100 000 queries, half of them hits")
+                      .y("place", Axis::linear, label)
+                      .by("who");
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+      panel.y_tics.push_back({static_cast<double>(i + 1), subjects[subjects.size() - 1 - i]});
+    if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+std::vector<Figure> figures_of(const std::vector<TimedWay>& all) {
+  const std::vector<TimedWay> drawn = drawn_ways(all);
+  std::vector<Figure> figures;
+  if (!drawn.empty()) {
+    figures = {
+        race_figure("error_against_time", "Error against run time: a point a pair", drawn, {race_panel(drawn, "")}),
+        verdict_figure(drawn),
+        race_figure("error_against_time_by_pair", "Error against run time, pair by pair", drawn,
+                    panels_by_pair(drawn))};
+  }
+  figures.push_back(batch_figure(all));
+  std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
+  return figures;
+}
+
+// What it says.
+
+/// Programs and libraries that did not take part, a sentence each.
+std::string left_out_text(const std::vector<BenchOutput>& outputs) {
+  std::string text;
+  for (const BenchOutput& output : first_starts(outputs)) {
+    if (const auto why = left_out(output)) text += fmt::format("Left out: {}: {}.\n", output.program, *why);
+  }
+  return text;
+}
+
+/// The same errors in every round, and none of our own verdicts wrong.
+bool is_right(const TimedWay& c) { return c.errors_agree && !(c.must_be_right() && c.wrong_verdicts() > 0); }
+
+std::string self_test_words(const std::vector<TimedWay>& all) {
+  std::size_t judged = 0;
+  std::string broken;
+  for (const TimedWay& c : all) {
+    if (!c.error("missed")) continue;
+    ++judged;
+    const std::string name = fmt::format("{} {} {}", c.kind, c.subject, c.way);
+    if (!c.errors_agree) broken += fmt::format(" FAILED: {}: its errors differ from round to round.", name);
+    if (c.must_be_right() && c.wrong_verdicts() > 0)
+      broken += fmt::format(" FAILED: {}: {:.0f} wrong verdicts.", name, c.wrong_verdicts());
+  }
+  return fmt::format(
+      "Self-test: in {} rows with an oracle the errors are the same in every round, and our front door has no wrong "
+      "verdict.{}",
+      judged, broken.empty() ? " It holds." : broken);
+}
+
+struct Extremes {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  void add(double x) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  bool any() const { return most > 0; }
+};
+
+std::string answer_of(const std::vector<TimedWay>& all) {
+  Extremes ours, floor, slower;
+  double worst_of_ours = 0, best_of_peers = std::numeric_limits<double>::infinity(), wrong = 0;
+  for (const TimedWay& c : drawn_ways(all)) {
+    const double length = c.error("p99_length").value_or(0);
+    if (c.must_be_right()) {
+      ours.add(c.time().value);
+      worst_of_ours = std::max(worst_of_ours, length);
+      if (!c.to_floor.empty()) floor.add(median(c.to_floor));
+    } else if (const TimedWay* front = front_door_for(all, c); c.is_peer() && front != nullptr) {
+      slower.add(median(c.nanoseconds) / median(front->nanoseconds));
+      best_of_peers = std::min(best_of_peers, length);
+      wrong += c.wrong_verdicts();
+    }
+  }
+  if (!ours.any()) {
+    return fmt::format(
+        "{} rows were timed; none asks our front door for a time of impact, so that there is no race to tell of.{}",
+        all.size(), batch_text(all));
+  }
+  std::string text = fmt::format(
+      "A time of impact through the front door takes {:.0f} to {:.0f} ns, by pair, at a 99th percentile error of at "
+      "most {:.0e} m",
+      ours.least, ours.most, worst_of_ours);
+  if (floor.any()) text += fmt::format("; that is {:.0f} to {:.0f} times the measured floor", floor.least, floor.most);
+  text += ".";
+  if (slower.any()) {
+    text += fmt::format(
+        " The other libraries' casts take {:.1f} to {:.0f} times as long, at errors from {:.0e} m on, and give {} "
+        "wrong verdicts over all pairs.",
+        slower.least, slower.most, best_of_peers, grouped_text(static_cast<std::int64_t>(wrong)));
+  } else {
+    text += " No other library took part.";
+  }
+  return text + batch_text(all);
+}
+
+Outcome outcome_of(const std::vector<BenchOutput>& outputs) {
+  const std::vector<TimedWay> all = ways(outputs);
+  const Table race = race_table(drawn_ways(all));
+  std::string shown;
+  if (!race.rows.empty()) {
+    shown = terminal(race, {"subject", "who", "nanoseconds", "to_floor", "missed", "false_hits", "length_p99"}) + "\n";
+  }
+  Outcome outcome = {
+      .answer = answer_of(all),
+      .summary = shown + wrapped(left_out_text(outputs)) + wrapped(self_test_words(all)),
+      .tables = {race, programs_table(outputs), floors_table(outputs), errors_table(all), timings_table(all)},
+      .figures = figures_of(all),
+      .sections = {{"Self-test", self_test_words(all)}},
+      .self_test_passed = std::ranges::all_of(all, is_right)};
+  std::erase_if(outcome.tables, [](const Table& table) { return table.rows.empty(); });
+  return outcome;
+}
+
+std::unique_ptr<Run> configure_speed(const Settings& settings, const RunOptions& options) {
+  const std::vector<std::string> programs = settings.choices_or_all("programs", bench_program_names());
+  const std::string named = settings.text("benchmarks");
+  const std::filesystem::path folder = named.empty() ? built_benchmarks() : std::filesystem::path(named);
+  const BenchOptions bench{settings.number("seconds", {.lower = 0.001, .upper = 100, .unit = "s"}),
+                           settings.text("filter")};
+  const std::int64_t rounds = settings.trials("rounds", 1, 1000, options.trials);
+  try {
+    const std::regex checked(bench.filter);
+  } catch (const std::regex_error&) {
+    settings.complain("filter", "a regular expression, or \"\" for every row");
+  }
+  if (std::ranges::none_of(programs, [&](const std::string& program) { return is_program(folder / program); })) {
+    settings.complain("benchmarks",
+                      fmt::format("a folder that holds at least one of the benchmark programs asked for; {} has none. "
+                                  "Build them: cmake --preset release -DTHINWALL_BUILD_BENCH=ON && cmake --build "
+                                  "--preset release",
+                                  folder.string()));
+  }
+  std::vector<Task<BenchOutput>> tasks;
+  for (std::int64_t round = 1; round <= rounds; ++round) {
+    for (const std::string& program : programs) {
+      tasks.push_back({fmt::format("{} {}", program, round), 1,
+                       [folder, program, bench] { return run_bench_program(folder, program, bench); },
+                       rows_of_a_program * bench.seconds});
+    }
+  }
+  return make_run([](const Done<BenchOutput>& done) { return outcome_of(done.results); }, std::move(tasks));
+}
+
+}  // namespace
+
+Experiment speed_experiment() {
+  return {"speed",
+          "What does an answer cost on this machine, and how wrong is it: ours, the plain form, other libraries?",
+          embedded_toml("speed"), configure_speed};
+}
+
+}  // namespace thinwall

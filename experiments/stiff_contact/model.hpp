@@ -1,0 +1,177 @@
+#pragma once
+/// A ball flies at a wall that pushes it with a spring and a damper, and is followed until it leaves: what the settings ask, one
+/// bounce, what is counted over its phases, and the rows of the results.
+/// Contact is the library's: `contact` at the poses, `time_of_impact` between them.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/stiff_contact/spring.hpp>
+
+namespace thinwall {
+
+enum class Detection {
+  discrete,   ///< a step pushes if the ball touches at its start, so contact begins late by the phase
+  toi_split,  ///< a step that meets the wall is split at the time of impact, and its rest pushes
+};
+inline constexpr std::array all_detections = {Detection::discrete, Detection::toi_split};
+std::string_view name(Detection detection);
+
+/// What flies at what.
+struct Approach {
+  double mass;       ///< [kg] > 0
+  double speed;      ///< [m/s] > 0, straight at the wall
+  double radius;     ///< [m] >= 0
+  double thickness;  ///< [m] >= 0, of the wall; radius + thickness > 0
+  double blow_up;    ///< [incoming speeds] > 1: a run that gets this fast has blown up
+};
+
+/// How the contact is computed.
+struct PenaltyContact {
+  Scheme scheme;
+  Detection detection;
+  double stiffness;      ///< [N/m] > 0
+  double damping_ratio;  ///< [1] >= 0
+  double step;           ///< [1/omega] > 0
+
+  bool operator==(const PenaltyContact&) const = default;
+  static constexpr auto fields() {
+    using C = PenaltyContact;
+    return record(kept("scheme", &C::scheme), kept("detection", &C::detection),
+                  kept("stiffness", &C::stiffness, "N/m", "Of the spring."),
+                  kept("damping_ratio", &C::damping_ratio, "1", "damping / (2 sqrt(stiffness mass))."),
+                  kept("step", &C::step, "1/omega", "Time step, with omega = sqrt(stiffness / mass)."));
+  }
+};
+
+/// [m] How far the center is from the middle of the wall at first contact. Past the middle, the wall pushes it on.
+double reach(const Approach& e);
+Spring spring_of(const Approach& e, const PenaltyContact& c);
+double seconds(const Approach& e, const PenaltyContact& c);    ///< [s] a step
+double step_path(const Approach& e, const PenaltyContact& c);  ///< [m] of the incoming ball in a step
+
+enum class Ending {
+  returned,    ///< left on the side it came from
+  escaped,     ///< left on the other
+  unfinished,  ///< it rests there, or is there after 1024 + 64 (1 + zeta) / step steps, or is no finite number
+};
+
+struct Bounce {
+  Ending ending;
+  double speed;                ///< [incoming speeds] >= 0, at the end; 0 if unfinished
+  double deepest;              ///< [m] past the front face, at a pose (or the time of impact)
+  std::int64_t contact_steps;  ///< steps in which the wall was asked for a force
+  std::int64_t blow_up_step;   ///< the first after which it was too fast; 0 if none
+};
+
+/// The ball starts `phase` in [0, 1) of a step before first contact. Nothing in here is NaN.
+Bounce bounce(const Approach& e, const PenaltyContact& c, double phase);
+
+/// Over all phases of one contact; what is of the returned has no value where none did.
+struct ContactTally {
+  std::int64_t returned = 0, escaped = 0, unfinished = 0, blown_up = 0;
+  std::optional<std::int64_t> blow_up_step;      ///< the first after which one of them was too fast
+  std::int64_t contact_steps = 0;                ///< of the returned, as all that follows
+  double slowest = no_least, fastest = no_most;  ///< [incoming speeds] on leaving
+  double speed_sum = 0;                          ///< [incoming speeds]
+  double square_error = 0;                       ///< sum of (speed - restitution)^2
+  double deepest = no_most;                      ///< [m]
+
+  static constexpr auto fields() {
+    using T = ContactTally;
+    return record(
+        sum("returned", &T::returned, "1", "Left on the side they came from."),
+        sum("escaped", &T::escaped, "1", "Left on the other side: tunneled."),
+        sum("unfinished", &T::unfinished, "1", "Came to rest at the wall, or did not leave it."),
+        sum("blown_up", &T::blown_up, "1", "At some step faster than the settings' blow_up, however they ended."),
+        kept("blow_up_step", &T::blow_up_step, "1", "The first step after which one was; missing if none."),
+        sum("contact_steps", &T::contact_steps, "1", "Steps that pushed."),
+        least("speed_min", &T::slowest, "1", "Of those that returned: the least speed out over speed in."),
+        most("speed_max", &T::fastest, "1", "The greatest."), kept("speed_sum", &T::speed_sum),
+        kept("square_error", &T::square_error),
+        most("depth_max", &T::deepest, "m", "Deepest of all, past the front face."));
+  }
+
+  std::int64_t bounces() const { return returned + escaped + unfinished; }
+  double mean_speed() const { return speed_sum / static_cast<double>(returned); }
+  double rms_error() const;
+  double spread() const { return fastest - slowest; }
+};
+
+/// The phases: one in each of `count` equal parts of the step, at random. The same for every scheme and detection.
+ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count);
+
+// What is asked, and the rows of what was found.
+
+struct StiffPlan {
+  std::uint64_t seed = 0;
+  std::vector<double> stiffness;  ///< [N/m] ascending
+  std::vector<double> ratios;     ///< [1] damping of the spring that holds both ways, ascending
+  std::vector<double> steps;      ///< [1/omega] of its map, ascending
+
+  Approach approach;                  ///< what flies at the wall that only pushes; its mass is the spring's, too
+  std::vector<double> bounce_ratios;  ///< [1] ascending
+  std::vector<double> bounce_steps;   ///< [1/omega] ascending
+  std::int64_t bounces = 0;           ///< of a cell
+
+  std::vector<double> race_steps;  ///< [1/omega] descending: from rough to fine
+  std::int64_t race_bounces = 0, rounds = 0;
+
+  double stiffest() const { return stiffness.back(); }
+};
+
+/// Throws UsageError.
+StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options);
+
+/// A spring that holds both ways: where stable ends, and what each step of the map does.
+struct LimitRow {
+  Scheme scheme;
+  double stiffness, ratio;
+  std::optional<double> theory;  ///< the limit; nothing: there is none
+  LimitBracket bracket;
+  std::vector<std::int64_t> blow_ups;  ///< for each step of the map, after how many steps it blew up; 0: it did not
+
+  static constexpr auto fields() {
+    using L = LimitRow;
+    return record(kept("scheme", &L::scheme), kept("stiffness", &L::stiffness, "N/m", "Of the spring."),
+                  kept("damping_ratio", &L::ratio, "1", "damping / (2 sqrt(stiffness mass))."),
+                  kept("limit", &L::theory, "1/omega", "By formula; missing where every step is stable."),
+                  part(&L::bracket), kept("blow_ups", &L::blow_ups));
+  }
+};
+LimitRow measured_spring(const StiffPlan& plan, Scheme scheme, double stiffness, double ratio);
+
+/// One wall that only pushes, at one step, over all phases.
+struct ContactRow {
+  PenaltyContact contact;
+  ContactTally tally;
+  static constexpr auto fields() { return record(part(&ContactRow::contact), part(&ContactRow::tally)); }
+};
+/// At each step of the plan in place of the wall's own.
+std::vector<ContactRow> measured_wall(const StiffPlan& plan, PenaltyContact wall);
+
+/// Error against run time.
+struct RaceRow {
+  PenaltyContact contact;
+  ContactTally tally;
+  std::vector<double> nanoseconds;  ///< a bounce, round by round
+  static constexpr auto fields() {
+    return record(part(&RaceRow::contact), part(&RaceRow::tally), kept("nanoseconds", &RaceRow::nanoseconds));
+  }
+};
+/// Every scheme and detection at the greatest stiffness, from rough to fine steps: the same bounces, timed in interleaved rounds.
+std::vector<RaceRow> measured_race(const StiffPlan& plan, double ratio);
+
+struct StiffResults {
+  StiffPlan plan;
+  std::vector<LimitRow> limits;
+  std::vector<ContactRow> bounces;
+  std::vector<RaceRow> racers;
+};
+
+}  // namespace thinwall

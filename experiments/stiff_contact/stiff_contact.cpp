@@ -1,0 +1,618 @@
+/// A ball held by a stiff spring at a wall: which steps are stable, what does a bounce do to the energy, and when does the ball get
+/// through? See docs/stiff_contact.md.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/stiff_contact/theory.hpp>
+#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+template <class Row>
+std::vector<Row> chosen(const std::vector<Row>& rows, const std::function<bool(const Row&)>& is_it) {
+  std::vector<Row> result;
+  std::ranges::copy_if(rows, std::back_inserter(result), is_it);
+  return result;
+}
+
+template <class T> bool is_in(const std::vector<T>& all, const T& x) { return std::ranges::find(all, x) != all.end(); }
+
+template <class Row> bool has_returned(const Row& row) { return row.tally.returned > 0; }
+template <class Row> double rms_error(const Row& row) { return row.tally.rms_error(); }
+double spread(const ContactRow& row) { return row.tally.fastest - row.tally.slowest; }
+
+/// [1] Deepest over what continuous time has.
+double relative_depth(const StiffPlan& plan, const ContactRow& row) {
+  const double omega = frequency(spring_of(plan.approach, row.contact));
+  return row.tally.deepest * omega / (plan.approach.speed * deepest(row.contact.damping_ratio));
+}
+
+std::string method_of(const PenaltyContact& c) { return fmt::format("{} {}", name(c.scheme), name(c.detection)); }
+
+// Who is cheapest at which error.
+
+double time_of(const RaceRow& row) { return median(row.nanoseconds); }
+
+/// [ns] The 95 % bootstrap interval of the median.
+Interval time_interval(const RaceRow& row) {
+  constexpr RandomStream resampling = {0, 0x7374696666};  // any constant: the interval depends on the times alone
+  return bootstrap_median(row.nanoseconds, resampling);
+}
+
+bool all_returned(const RaceRow& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
+
+/// Of those of one damping ratio, all of whose bounces returned: whom nobody beats in both error and time, from the finest to the
+/// coarsest.
+std::vector<RaceRow> front_of(const std::vector<RaceRow>& racers, double ratio) {
+  auto all =
+      chosen<RaceRow>(racers, [&](const RaceRow& r) { return r.contact.damping_ratio == ratio && all_returned(r); });
+  std::ranges::stable_sort(all, {}, [](const RaceRow& r) { return r.tally.square_error; });
+  std::vector<RaceRow> front;
+  for (const RaceRow& r : all) {
+    if (front.empty() || time_of(r) < time_of(front.back())) front.push_back(r);
+  }
+  return front;
+}
+
+/// Of each damping ratio, scheme and detection the cheapest whose error is at most this, if there is one.
+std::vector<RaceRow> cheapest(const std::vector<RaceRow>& racers, double error) {
+  const auto good = chosen<RaceRow>(racers, [&](const RaceRow& r) { return all_returned(r) && rms_error(r) <= error; });
+  std::vector<RaceRow> best;
+  for (const Group<RaceRow>& group :
+       group_by(good, [](const RaceRow& r) { return std::pair(r.contact.damping_ratio, method_of(r.contact)); }))
+    best.push_back(**std::ranges::min_element(group, {}, [](const RaceRow* r) { return time_of(*r); }));
+  return best;
+}
+
+// What the tables show.
+
+template <class Row> Columns<Row> contact_columns() {
+  return columns_of<Row>(text("scheme", "How a step is computed.", [](const Row& r) { return name(r.contact.scheme); }),
+                         text("detection", "discrete: at the poses; toi_split: at the time of impact.",
+                              [](const Row& r) { return name(r.contact.detection); }),
+                         fields(&Row::contact));
+}
+
+template <class Row> auto error_column() {
+  return where(has_returned<Row>,
+               value("speed_error", "1", "Root mean square error of speed out over speed in.", rms_error<Row>));
+}
+
+template <class Row> auto contact_steps_column() {
+  return where(has_returned<Row>, value("contact_steps", "1", "Mean number of steps that pushed.", [](const Row& r) {
+                 return static_cast<double>(r.tally.contact_steps) / static_cast<double>(r.tally.returned);
+               }));
+}
+
+Table claims_table(const std::vector<StiffClaim>& claims) {
+  using C = StiffClaim;
+  const auto columns = columns_of<C>(
+      text("claim", "What must hold.", &C::text), value("judged", "1", "Cells it speaks of.", &C::judged),
+      value("wrong", "1", "Of those, in which it does not hold.", &C::wrong), value("passed", "", "None.", &C::passed));
+  return in_report(table("self_test", "What theory claims, and how often it was wrong.", columns, claims));
+}
+
+Columns<LimitRow> spring_columns() {
+  return columns_of<LimitRow>(
+      text("scheme", "How a step is computed.", [](const LimitRow& r) { return name(r.scheme); }),
+      fields([](const LimitRow& r) -> const LimitRow& { return r; }));
+}
+
+Table limits_table(const std::vector<LimitRow>& rows) {
+  return table(
+      "limits", "The largest stable step of a spring that holds both ways, measured and by formula.",
+      columns_of<LimitRow>(spring_columns(), value("inside", "", "The limit lies between the two.", holds_theory)),
+      rows);
+}
+
+/// Every step of the map: the limits' columns, and what the step does.
+Table stability_table(const StiffPlan& plan, const std::vector<LimitRow>& limits) {
+  Table map = table("stability", "The map: what each step does to a spring that holds both ways.",
+                    spring_columns().without({"limit", "stable", "unstable"}), limits);
+  map.columns.push_back({"step", ColumnType::number, "1/omega", "Time step, with omega = sqrt(stiffness / mass)."});
+  map.columns.push_back(
+      {"verdict", ColumnType::text, "", "Measured: stable, unstable, or undecided (inside the bracket of the limit)."});
+  map.columns.push_back({"blow_up_step", ColumnType::integer, "1",
+                         "Steps after which the state is 2^32 times its start; missing if never."});
+  const auto springs = std::exchange(map.rows, {});
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    for (std::size_t j = 0; j < plan.steps.size(); ++j) {
+      const std::int64_t blow_up = limits[i].blow_ups[j];
+      auto& row = map.rows.emplace_back(springs[i]);
+      row.insert(row.end(),
+                 {plan.steps[j], std::string(verdict_of(plan, limits[i], j)), blow_up > 0 ? Value(blow_up) : Value()});
+    }
+  }
+  return map;
+}
+
+Table bounces_table(const StiffPlan& plan, const std::vector<ContactRow>& rows) {
+  using Row = ContactRow;
+  const auto square = [](double ContactTally::*speed) {
+    return [speed](const Row& r) { return r.tally.*speed * (r.tally.*speed); };
+  };
+  const auto of_returned =
+      columns_of<Row>(value("speed_mean", "1", "The mean of it.", [](const Row& r) { return r.tally.mean_speed(); }),
+                      fields(&Row::tally, {"speed_max"}),
+                      value("energy_min", "1", "The least energy out over energy in.", square(&ContactTally::slowest)),
+                      value("energy_max", "1", "The greatest.", square(&ContactTally::fastest)));
+  const auto columns = columns_of<Row>(
+      contact_columns<Row>(),
+      value("path", "m", "How far the ball flies in a step.",
+            [&](const Row& r) { return step_path(plan.approach, r.contact); }),
+      value("bounces", "1", "Asked, each at a phase of its own.", [](const Row& r) { return r.tally.bounces(); }),
+      fields(&Row::tally, {"returned", "escaped", "unfinished", "blown_up", "blow_up_step", "speed_min"}),
+      where(has_returned<Row>, of_returned),
+      value("speed_exact", "1", "Speed out over speed in, in continuous time.",
+            [](const Row& r) { return restitution(r.contact.damping_ratio); }),
+      error_column<Row>(), contact_steps_column<Row>(), fields(&Row::tally, {"depth_max"}),
+      where(has_returned<Row>, value("depth_ratio", "1", "The same over the depth in continuous time.",
+                                     [&](const Row& r) { return relative_depth(plan, r); })));
+  return table("bounces", "A wall that only pushes: every cell, over all phases.", columns, rows);
+}
+
+/// Discrete detection beside split steps, at the greatest stiffness, where every bounce came back.
+Table detection_table(const StiffResults& results) {
+  const StiffPlan& plan = results.plan;
+  const auto split = [&](const ContactRow& r) -> const ContactRow& { return *twin_of(results.bounces, r); };
+  const auto rows = chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
+    return r.contact.detection == Detection::discrete && r.contact.stiffness == plan.stiffest() && is_clean(plan, r) &&
+           is_clean(plan, split(r));
+  });
+  const auto both = [&](const std::string& what, const std::string& description, const auto& read) {
+    return columns_of<ContactRow>(value(what + "_discrete", "1", description + ": at the poses.", read),
+                                  value(what + "_split", "1", "The same with split steps.",
+                                        [read, split](const ContactRow& r) { return read(split(r)); }));
+  };
+  return table(
+      "detection", "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.",
+      columns_of<ContactRow>(contact_columns<ContactRow>().without({"detection", "stiffness"}),
+                             both("error", "Root mean square error of speed out over speed in", rms_error<ContactRow>),
+                             both("spread", "Greatest less least speed out over speed in", spread),
+                             both("depth", "Deepest over the depth in continuous time",
+                                  [&](const ContactRow& r) { return relative_depth(plan, r); })),
+      rows);
+}
+
+Table race_table(const std::vector<RaceRow>& racers) {
+  const auto bounces = [](const RaceRow& r) { return r.tally.bounces(); };
+  return table("race", "The error of a bounce against the number of its steps.",
+               columns_of<RaceRow>(contact_columns<RaceRow>().without({"stiffness"}),
+                                   fields(&RaceRow::tally, {"returned"}), value("bounces", "1", "Asked.", bounces),
+                                   error_column<RaceRow>(), contact_steps_column<RaceRow>()),
+               racers);
+}
+
+Table times_table(const std::vector<RaceRow>& racers) {
+  const auto columns = columns_of<RaceRow>(
+      contact_columns<RaceRow>().without({"stiffness"}), error_column<RaceRow>(),
+      value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.", time_of),
+      value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
+            [](const RaceRow& r) { return time_interval(r).lower; }),
+      value("upper_ns", "ns", "Upper end of it.", [](const RaceRow& r) { return time_interval(r).upper; }));
+  return timing(table("timings", "Time a bounce, on this machine, with every core at work: medians over rounds.",
+                      columns, racers));
+}
+
+// What the pictures show: points on two logarithmic axes.
+
+constexpr double last_step_of_bounces = 3;  // [1] h omega; beyond it a bounce is a matter of chance
+constexpr const char* step_label = "h omega [1]";
+
+struct Point {
+  double x, y;
+  std::string label;
+  std::optional<double> lower = {}, upper = {};
+};
+
+Plot plot_of(const std::vector<Point>& points, std::string x_label, std::string y_label) {
+  const bool has_bars = !points.empty() && points.back().lower;
+  const auto columns = columns_of<Point>(
+      value("x", "", "", &Point::x),
+      ValueColumn{"y", "", "", &Point::y, has_bars ? "lower" : "", has_bars ? "upper" : ""},
+      text("label", "", &Point::label), value("lower", "", "", &Point::lower), value("upper", "", "", &Point::upper));
+  return plot(table("drawn", "", columns, points))
+      .x("x", Axis::log, std::move(x_label))
+      .y("y", Axis::log, std::move(y_label))
+      .by("label")
+      .height(0.9);
+}
+
+/// With a line through the points of each series.
+Panel joined(Panel panel) {
+  std::vector<Series> both;
+  for (Series& points : panel.series) {
+    both.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}});
+    both.push_back(std::move(points));
+  }
+  panel.series = std::move(both);
+  return panel;
+}
+
+/// The headline: measured and predicted limits of a spring that holds both ways.
+Figure stability_figure(const StiffResults& results) {
+  const StiffPlan& plan = results.plan;
+  Figure figure = {
+      .name = "stability",
+      .title = "Which steps a spring and damper can take",
+      .caption = fmt::format("Points: what the steps of the map do, at {:g} N/m. Bars, thinner than the line: "
+                             "the measured limit at every stiffness from {:g} to {:g} N/m.",
+                             plan.stiffness.front(), plan.stiffness.front(), plan.stiffest()),
+      .panels = {}};
+  if (plan.ratios.back() == 0) return figure;  // which has no place on the axis
+  for (const Scheme scheme : all_schemes) {
+    std::vector<Point> points;
+    for (const LimitRow& r : results.limits) {
+      if (r.scheme != scheme || r.ratio == 0) continue;
+      for (std::size_t i = 0; i < plan.steps.size() && r.stiffness == plan.stiffness.front(); ++i) {
+        const std::string_view verdict = verdict_of(plan, r, i);
+        if (verdict != "undecided")
+          points.push_back({r.ratio, plan.steps[i], verdict == "stable" ? "decays" : "grows"});
+      }
+      if (r.theory) {
+        const auto [stable, unstable] = r.bracket;
+        points.push_back({r.ratio, std::sqrt(stable * unstable), "measured limit, every stiffness", stable, unstable});
+      }
+    }
+    figure.panels.push_back(plot_of(points, "damping ratio zeta [1]", fmt::format("h omega [1], {}", name(scheme)))
+                                .curve("formula", [scheme](double ratio) {
+                                  return step_limit(scheme, ratio).value_or(std::numeric_limits<double>::quiet_NaN());
+                                }));
+  }
+  return figure;
+}
+
+/// At the greatest stiffness, and at steps at which a bounce is no matter of chance.
+std::vector<ContactRow> clean_rows(const StiffResults& results, double ratio) {
+  return chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
+    const PenaltyContact& c = r.contact;
+    return c.stiffness == results.plan.stiffest() && c.damping_ratio == ratio && c.step <= last_step_of_bounces &&
+           is_clean(results.plan, r);
+  });
+}
+
+Figure bounce_figure(const StiffResults& results) {
+  constexpr double least_drawn = 1e-3;  // in place of a speed ratio that is less, down to 0
+  constexpr double last_bound = 1.99;   // they end at 0 and infinity
+  const StiffPlan& plan = results.plan;
+  Figure figure = {
+      .name = "bounce",
+      .title = "What one bounce off a wall that only pushes does to the speed",
+      .caption = fmt::format("Contact found at the poses, {:g} N/m. Points: the mean over the phases; bars: from "
+                             "the least to the greatest.",
+                             plan.stiffest()),
+      .panels = {}};
+  for (const Scheme scheme : all_schemes) {
+    std::vector<Point> points;
+    std::vector<double> ratios = plan.bounce_ratios;
+    std::ranges::reverse(ratios);  // the least damped on top
+    for (const double ratio : ratios) {
+      for (const ContactRow& r : clean_rows(results, ratio)) {
+        if (r.contact.scheme != scheme || r.contact.detection != Detection::discrete) continue;
+        points.push_back({r.contact.step, std::max(least_drawn, r.tally.mean_speed()),
+                          fmt::format("damping ratio {:g}", ratio), std::max(least_drawn, r.tally.slowest),
+                          std::max(least_drawn, r.tally.fastest)});
+      }
+    }
+    if (points.empty()) continue;
+    Plot panel = plot_of(points, step_label, fmt::format("speed out / in [1], {}", name(scheme)));
+    for (const double ratio : ratios) panel.curve("continuous time", [ratio](double) { return restitution(ratio); });
+    for (double Interval::*end : {&Interval::lower, &Interval::upper}) {
+      if (scheme != Scheme::semi_implicit || ratios.back() != 0) continue;
+      panel.curve(
+          "bounds, undamped", [=](double step) { return *bounce_bounds(std::min(step, last_bound)).*end; },
+          plan.bounce_steps.front(), last_bound);
+    }
+    figure.panels.push_back(panel);
+  }
+  return figure;
+}
+
+std::string fate_of(const ContactTally& tally) {
+  if (tally.escaped > 0) return tally.escaped == tally.bounces() ? "all get through" : "some get through";
+  return tally.blown_up > 0 ? "all return, some too fast" : "all return";
+}
+
+Figure escape_figure(const StiffResults& results) {
+  const StiffPlan& plan = results.plan;
+  const Approach& e = plan.approach;
+  const double ratio = plan.bounce_ratios.front(), rate = e.speed / reach(e);
+  const auto at = [&](double step) { return e.mass * (step * rate) * (step * rate); };  // [N/m]
+  const auto step_at = [&](double stiffness) { return std::sqrt(stiffness / e.mass) / rate; };
+  const double soft = at(deepest(ratio));
+  Figure figure = {
+      .name = "escape",
+      .title = "Who gets through the wall",
+      .caption = fmt::format("{:g} m/s, {:g} kg, radius {:g} m, a wall of {:g} m, damping ratio {:g}. Too fast: "
+                             "more than {:g} times the incoming speed.",
+                             e.speed, e.mass, e.radius, e.thickness, ratio, e.blow_up),
+      .panels = {}};
+  for (const Scheme scheme : {Scheme::semi_implicit, Scheme::implicit_euler}) {
+    for (const Detection detection : all_detections) {
+      std::vector<Point> points;
+      for (const ContactRow& r : results.bounces) {
+        const PenaltyContact& c = r.contact;
+        if (c.scheme == scheme && c.detection == detection && c.damping_ratio == ratio)
+          points.push_back({c.step, c.stiffness, fate_of(r.tally)});
+      }
+      figure.panels.push_back(
+          plot_of(points, step_label,
+                  fmt::format("stiffness [N/m], {} {}", scheme == Scheme::implicit_euler ? "implicit" : "semi-impl.",
+                              detection == Detection::discrete ? "discrete" : "split"))
+              .height(0.75)
+              .curve("a step goes to the wall's middle", at,
+                     std::max(step_at(plan.stiffness.front()), plan.bounce_steps.front()),
+                     std::min(step_at(plan.stiffest()), plan.bounce_steps.back()))
+              .curve("too soft in continuous time", [soft](double) { return soft; }));
+    }
+  }
+  return figure;
+}
+
+/// What splitting the step changes, at the middle one of the damping ratios.
+Figure detection_figure(const StiffResults& results) {
+  constexpr double least_spread = 1e-5;  // drawn in place of one that is less, down to 0
+  const StiffPlan& plan = results.plan;
+  const double ratio = plan.bounce_ratios[plan.bounce_ratios.size() / 2];
+  Figure figure = {
+      .name = "detection",
+      .title = "Contact found at the poses, and steps split at the time of impact",
+      .caption = fmt::format("Damping ratio {:g}, {:g} N/m. Above what depends on the phase, in the middle the "
+                             "root mean square against continuous time, below the greatest depth.",
+                             ratio, plan.stiffest()),
+      .panels = {}};
+  const auto add_panel = [&](const char* label, const std::function<double(const ContactRow&)>& read) {
+    std::vector<Point> points;
+    for (const ContactRow& r : clean_rows(results, ratio)) {
+      if (read(r) > 0) points.push_back({r.contact.step, read(r), method_of(r.contact)});
+    }
+    if (!points.empty()) figure.panels.push_back(joined(plot_of(points, step_label, label)));
+  };
+  add_panel("speed ratio, greatest - least [1]",
+            [&](const ContactRow& r) { return std::max(least_spread, spread(r)); });
+  add_panel("speed ratio, error [1]", rms_error<ContactRow>);
+  add_panel("depth / depth in continuous time [1]", [&](const ContactRow& r) { return relative_depth(plan, r); });
+  return figure;
+}
+
+Figure race_figure(const StiffResults& results) {
+  Figure figure = {
+      .name = "race",
+      .title = "Error of a bounce against run time",
+      .caption = fmt::format("From the roughest step to the finest, {:g} N/m, where all bounces come back. Bars, "
+                             "mostly hidden by their points: 95 % bootstrap intervals of the median.",
+                             results.plan.stiffest()),
+      .panels = {},
+      .is_timing = true};
+  for (const double ratio : results.plan.bounce_ratios) {
+    std::vector<Point> points;
+    for (const RaceRow& r : results.racers) {
+      if (r.contact.damping_ratio != ratio || !all_returned(r) || !(r.tally.square_error > 0)) continue;
+      const Interval time = time_interval(r);
+      points.push_back({rms_error(r), time_of(r), method_of(r.contact), time.lower, time.upper});
+    }
+    if (points.empty()) continue;
+    figure.panels.push_back(joined(plot_of(points, "root mean square error of speed out over speed in [1]",
+                                           fmt::format("ns a bounce, damping ratio {:g}", ratio))));
+  }
+  return figure;
+}
+
+// What it says.
+
+std::string percent(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? fmt::format("{:.1f} %", 100 * static_cast<double>(part) / static_cast<double>(whole)) : "-";
+}
+
+/// Undamped (or least damped), at the greatest stiffness, at the poses: at up to four of the steps below 2, or at the last of them.
+std::vector<ContactRow> told_rows(const StiffResults& results) {
+  const StiffPlan& plan = results.plan;
+  std::vector<double> steps;
+  for (const double wanted : {0.1, 0.3, 1.5, 1.9}) {
+    if (is_in(plan.bounce_steps, wanted)) steps.push_back(wanted);
+  }
+  const auto last = std::ranges::lower_bound(plan.bounce_steps, 2.0);
+  if (steps.empty() && last != plan.bounce_steps.begin()) steps.push_back(*std::prev(last));
+  return chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
+    const PenaltyContact& c = r.contact;
+    return c.stiffness == plan.stiffest() && c.detection == Detection::discrete &&
+           c.damping_ratio == plan.bounce_ratios.front() && is_in(steps, c.step);
+  });
+}
+
+/// Bounces off walls that would hold in continuous time.
+struct Passage {
+  PenaltyContact contact;  ///< one of them
+  ContactTally tally;
+  double least_path = no_least;  ///< [reaches] the shortest path of a step that let one through
+};
+
+/// By scheme and detection, over the rows of the damping ratios.
+std::vector<Passage> passages(const StiffResults& results, const std::vector<double>& ratios) {
+  const Approach& e = results.plan.approach;
+  const auto stiff = chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
+    return is_stiff_enough(results.plan, r.contact) && is_in(ratios, r.contact.damping_ratio);
+  });
+  std::vector<Passage> all;
+  for (const Group<ContactRow>& group : group_by(stiff, [](const ContactRow& r) { return method_of(r.contact); })) {
+    Passage& p = all.emplace_back(group[0]->contact, total_of(group, &ContactRow::tally));
+    for (const ContactRow* r : group) {
+      if (r->tally.escaped > 0) p.least_path = std::min(p.least_path, step_path(e, r->contact) / reach(e));
+    }
+  }
+  return all;
+}
+
+std::string stiff_answer(const StiffResults& results) {
+  std::string text = fmt::format(
+      "A spring that holds both ways is stable below 2 (sqrt(1 + zeta^2) - zeta) / omega a step with semi-implicit Euler, below "
+      "2 zeta / omega (2 (zeta - sqrt(zeta^2 - 1)) / omega if overdamped) with explicit Euler, and at every step with implicit "
+      "Euler: that lies inside the measured bracket in {} of {} springs.",
+      grouped_text(std::ranges::count_if(results.limits, holds_theory)),
+      grouped_text(static_cast<std::int64_t>(results.limits.size())));
+  const auto told = chosen<ContactRow>(told_rows(results),
+                                       [](const ContactRow& r) { return r.contact.scheme == Scheme::semi_implicit; });
+  if (!told.empty() && has_returned(told.back())) {
+    text += fmt::format(
+        " Stable is not enough for a wall that only pushes: at h omega = {:g} a semi-implicit bounce leaves with {:.2f} to {:.2f} "
+        "of its speed, by phase.",
+        told.back().contact.step, told.back().tally.slowest, told.back().tally.fastest);
+  }
+  const double ratio = results.plan.bounce_ratios.front();
+  const std::vector<Passage> all = passages(results, {ratio});
+  const auto share = [&](std::string_view method) {
+    const auto found = std::ranges::find(all, method, [](const Passage& p) { return method_of(p.contact); });
+    return percent(found->tally.escaped, found->tally.bounces());
+  };
+  if (!all.empty()) {
+    text += fmt::format(
+        " At damping ratio {:g}, over all steps asked, {} of the semi-implicit bounces get through a wall that would hold in "
+        "continuous time if contact is found at the poses, and {} if steps are split at the time of impact, because at first touch "
+        "a spring does not push yet; with implicit Euler {} and {}.",
+        ratio, share("semi_implicit discrete"), share("semi_implicit toi_split"), share("implicit_euler discrete"),
+        share("implicit_euler toi_split"));
+  }
+  return text;
+}
+
+std::string passages_text(const StiffResults& results) {
+  const auto share = [](std::string name, std::int64_t ContactTally::*count) {
+    return text(std::move(name), "", [count](const Passage& p) { return percent(p.tally.*count, p.tally.bounces()); });
+  };
+  const auto columns = columns_of<Passage>(
+      contact_columns<Passage>().without({"stiffness", "damping_ratio", "step"}),
+      value("bounces", "1", "", [](const Passage& p) { return p.tally.bounces(); }),
+      share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
+      share("too_fast", &ContactTally::blown_up),
+      where([](const Passage& p) { return p.tally.escaped > 0; }, value("least_path", "1", "", &Passage::least_path)));
+  return terminal(
+      table("passages",
+            fmt::format("Walls stiff enough for continuous time. Too fast: over {:g} x the speed in. Least path: "
+                        "the shortest step that let a ball through, over the way from touch to the middle.",
+                        results.plan.approach.blow_up),
+            columns, passages(results, results.plan.bounce_ratios)));
+}
+
+std::string stiff_summary(const StiffResults& results, const std::vector<StiffClaim>& claims) {
+  constexpr double one_percent = 0.01;
+  const StiffPlan& plan = results.plan;
+  const std::vector<double> ratios = {plan.ratios.front(), 0.1, 1, plan.ratios.back()};
+  const auto springs = chosen<LimitRow>(results.limits, [&](const LimitRow& r) {
+    return r.stiffness == plan.stiffness.front() && is_in(ratios, r.ratio);
+  });
+  Table race = times_table(cheapest(results.racers, one_percent));
+  race.description = "Time a bounce, the cheapest with an error of speed out over in of at most 1 %.";
+  std::string text =
+      terminal(limits_table(springs), {"scheme", "stiffness", "damping_ratio", "limit", "stable", "unstable"}) + "\n" +
+      terminal(bounces_table(plan, told_rows(results)),
+               {"scheme", "stiffness", "damping_ratio", "step", "speed_min", "speed_max", "speed_exact"}) +
+      "\n" + passages_text(results) + "\n" +
+      terminal(race, {"damping_ratio", "scheme", "detection", "step", "speed_error", "bounce_ns"}) + "\n";
+  std::int64_t judged = 0;
+  for (const StiffClaim& claim : claims) {
+    judged += claim.judged;
+    if (!claim.passed())
+      text += wrapped(fmt::format("FAILED: {}: wrong in {} of {}.", claim.text, claim.wrong, claim.judged));
+  }
+  return text + fmt::format("Self-test: {}, {} claims on {} cells.\n", all_passed(claims) ? "passed" : "FAILED",
+                            claims.size(), grouped_text(judged));
+}
+
+std::vector<Section> stiff_sections(const StiffResults& results, const std::vector<StiffClaim>& claims) {
+  std::string tests, fronts;
+  for (const StiffClaim& c : claims)
+    tests += fmt::format("{}: {} in {} of {} cells. ", c.text, c.passed() ? "holds" : "FAILED", c.judged - c.wrong,
+                         c.judged);
+  for (const double ratio : results.plan.bounce_ratios) {
+    std::string front;
+    for (const RaceRow& r : front_of(results.racers, ratio)) {
+      front += fmt::format("{}{} at h omega {:g} (error {:.1e}, {:.0f} ns)", front.empty() ? "" : "; ",
+                           method_of(r.contact), r.contact.step, rms_error(r), time_of(r));
+    }
+    fronts += fmt::format("Damping ratio {:g}, from the finest: {}.\n\n", ratio, front);
+  }
+  return {{"Self-test", tests}, {"Who is cheapest at which error", fronts}};
+}
+
+Outcome outcome_of(const StiffResults& results) {
+  const std::vector<StiffClaim> claims = stiff_claims(results);
+  Outcome outcome = {
+      .answer = stiff_answer(results),
+      .summary = stiff_summary(results, claims),
+      .tables = {claims_table(claims), limits_table(results.limits), stability_table(results.plan, results.limits),
+                 bounces_table(results.plan, results.bounces), detection_table(results), race_table(results.racers),
+                 times_table(results.racers)},
+      .figures = {stability_figure(results), bounce_figure(results), escape_figure(results), detection_figure(results),
+                  race_figure(results)},
+      .sections = stiff_sections(results, claims),
+      .self_test_passed = all_passed(claims)};
+  std::erase_if(outcome.figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return outcome;
+}
+
+template <class Row> std::vector<Row> flat(const std::vector<std::vector<Row>>& lists) {
+  std::vector<Row> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  const auto plan = std::make_shared<const StiffPlan>(make_stiff_plan(settings, options));
+  const auto steps = static_cast<std::int64_t>(plan->steps.size());
+  const std::int64_t bounces = plan->bounces * static_cast<std::int64_t>(plan->bounce_steps.size());
+  std::vector<Task<LimitRow>> springs;
+  std::vector<Task<std::vector<ContactRow>>> walls;
+  std::vector<Task<std::vector<RaceRow>>> races;
+  for (const Scheme scheme : all_schemes) {
+    for (const double stiffness : plan->stiffness) {
+      for (const double ratio : plan->ratios) {
+        springs.push_back({fmt::format("limit {} stiffness {} ratio {}", name(scheme), stiffness, ratio), steps,
+                           [=] { return measured_spring(*plan, scheme, stiffness, ratio); }});
+      }
+    }
+    for (const double ratio : plan->bounce_ratios) {
+      for (const double stiffness : plan->stiffness) {
+        for (const Detection detection : all_detections) {
+          const PenaltyContact wall = {scheme, detection, stiffness, ratio, 0};
+          walls.push_back({fmt::format("bounce {} stiffness {} ratio {}", method_of(wall), stiffness, ratio), bounces,
+                           [=] { return measured_wall(*plan, wall); }});
+        }
+      }
+    }
+  }
+  for (const double ratio : plan->bounce_ratios) {
+    races.push_back({fmt::format("race ratio {}", ratio), plan->race_bounces * plan->rounds,
+                     [=] { return measured_race(*plan, ratio); }});
+  }
+  const auto finish = [plan](const auto& limits, const auto& contacts, const auto& racers) {
+    return outcome_of({*plan, limits.results, flat(contacts.results), flat(racers.results)});
+  };
+  return make_run(finish, std::move(springs), std::move(walls), std::move(races));
+}
+
+}  // namespace
+
+Experiment stiff_contact_experiment() {
+  return {
+      "stiff_contact",
+      "A ball held by a stiff spring at a wall: which steps are stable, what does a bounce do to the energy, and when does "
+      "the ball get through?",
+      embedded_toml("stiff_contact"), configure};
+}
+
+}  // namespace thinwall

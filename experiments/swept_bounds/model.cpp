@@ -1,0 +1,213 @@
+#include <thinwall/experiments/swept_bounds/model.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace thinwall {
+
+namespace {
+
+/// Exact at the ends, where a sine or cosine would not be.
+double cosine(double deg) { return deg == 90 ? 0 : std::cos(deg * (std::numbers::pi / 180)); }
+double sine(double deg) { return deg == 90 ? 1 : std::sin(deg * (std::numbers::pi / 180)); }
+
+/// Of the settings' values the one nearest to `wanted`.
+double nearest(const Settings& settings, std::string_view factor, double wanted) {
+  return std::ranges::min(settings.numbers(factor, {}), {}, [&](double x) { return std::abs(x - wanted); });
+}
+
+void check(const Settings& settings, const Sweep& s) {
+  if (least_path <= path_in_widths(s) && path_in_widths(s) <= longest_path) return;
+  settings.complain("speed", fmt::format("a path of {} to {} widths a step; speed {}, step {}, width {} make {}",
+                                         least_path, longest_path, s.speed, s.step, s.width, path_in_widths(s)));
+}
+
+using Real = long double;
+
+double both_signs(std::uint64_t word) { return 2 * uniform(word) - 1; }
+
+/// The moving shape's core in the frame of its center: a ball's is a point.
+struct Core {
+  Vec3<Real> half_extents;
+  Real radius;
+};
+Core core_of(const Sweep& s) {
+  if (s.form == SweptForm::sphere) return {Vec3<Real>::Zero(), static_cast<Real>(s.width) / 2};
+  return {half_extents(s).cast<Real>(), 0};
+}
+
+/// The squared distance from a point that starts at `p` and moves by -d to a box around the origin, and half its derivative.
+struct SquaredDistance {
+  Vec3<Real> p, d, half_extents;
+
+  /// Of the point, on one axis, from the box; signed.
+  Real beside(int axis, Real time) const {
+    const Real x = p[axis] - d[axis] * time, h = half_extents[axis];
+    return x > h ? x - h : x < -h ? x + h : 0;
+  }
+  Real at(Real time) const {
+    Real sum = 0;
+    for (int i = 0; i < 3; ++i) sum += beside(i, time) * beside(i, time);
+    return sum;
+  }
+  Real slope(Real time) const {
+    Real sum = 0;
+    for (int i = 0; i < 3; ++i) sum -= d[i] * beside(i, time);
+    return sum;
+  }
+};
+
+/// 0, 1, and the times in between at which the point passes the plane of a face: the slope is straight between them.
+struct Times {
+  std::array<Real, 8> sorted;
+  std::size_t count;
+};
+Times times_of_change(const SquaredDistance& f) {
+  Times times = {{0, 1}, 2};
+  for (int i = 0; i < 3; ++i) {
+    if (f.d[i] == 0) continue;
+    for (const Real side : {-f.half_extents[i], f.half_extents[i]}) {
+      const Real time = (f.p[i] - side) / f.d[i];
+      if (0 < time && time < 1) times.sorted[times.count++] = time;
+    }
+  }
+  std::sort(times.sorted.begin(), times.sorted.begin() + static_cast<std::ptrdiff_t>(times.count));
+  return times;
+}
+
+Real least_squared(const SquaredDistance& f) {
+  const Times times = times_of_change(f);
+  Real least = std::min(f.at(0), f.at(1));
+  for (std::size_t k = 0; k + 1 < times.count; ++k) {
+    const Real from = times.sorted[k], to = times.sorted[k + 1];
+    const Real falls = -f.slope(from), rises = f.slope(to);
+    least = std::min(least, f.at(to));
+    if (falls > 0 && rises > 0) least = std::min(least, f.at(from + (to - from) * (falls / (falls + rises))));
+  }
+  return least;
+}
+
+Vec3<double> uniform_direction(const RandomStream& stream, std::uint64_t trial) {
+  for (std::uint64_t draw = 2;; ++draw) {
+    const RandomWords words = random_words(stream, trial, draw);
+    const Vec3<double> v(both_signs(words[0]), both_signs(words[1]), both_signs(words[2]));
+    const double squared = v.squaredNorm();
+    if (0 < squared && squared <= 1) return v / std::sqrt(squared);
+  }
+}
+
+/// Every fourth along an axis, every fourth to a corner, the others anywhere.
+Vec3<double> outward_direction(const Vec3<double>& corner, const Mat3<double>& axes, const RandomStream& stream,
+                               std::uint64_t trial) {
+  const RandomWords words = random_words(stream, trial, 1);
+  const auto sign = [&](std::size_t i) { return words[i] >> 63 != 0 ? 1.0 : -1.0; };
+  if (trial % 4 == 0) return axes.col(static_cast<int>(3 * uniform(words[3]))) * sign(0);
+  if (trial % 4 == 1) return Vec3<double>(corner[0] * sign(0), corner[1] * sign(1), corner[2] * sign(2)).normalized();
+  return uniform_direction(stream, trial);
+}
+
+}  // namespace
+
+const Factors<Sweep>& sweep_factors() {
+  static const Factors<Sweep> all = factors(
+      choices("shape", &Sweep::form, swept_form_names, "What moves."),
+      numbers("speed", &Sweep::speed, {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"}, "Of the shape."),
+      number("step", &Sweep::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}, "Time step."),
+      number("width", &Sweep::width, {.lower = 1e-9, .upper = 1e3, .unit = "m"},  // its cube is a double
+             "Diameter of the sphere, longest edge of a box."),
+      numbers("angle_deg", &Sweep::angle_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+              "Between the motion and x, the axis of plate and rod."),
+      numbers("turn_deg", &Sweep::turn_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+              "Where to the motion leans: 0 towards y, 90 towards z."),
+      numbers("obstacle", &Sweep::obstacle, {.lower = 0, .upper = 1000, .unit = "widths"},
+              "Diameter of the balls at rest."));
+  return all;
+}
+
+SweepPlan make_sweeps(const Settings& settings, std::size_t each) {
+  std::vector<Sweep> cells = sweep_factors().cells(settings, each, {}, [&](Sweep& s) {
+    if (s.angle_deg == 0) s.turn_deg = 0;
+    check(settings, s);
+    return true;
+  });
+  std::ranges::stable_sort(cells, {}, &Sweep::form);
+  Sweep view = diagonals[1];
+  view.speed = nearest(settings, "speed", view.speed);
+  view.step = cells.front().step;
+  view.width = cells.front().width;
+  view.angle_deg = nearest(settings, "angle_deg", view.angle_deg);
+  view.turn_deg = view.angle_deg == 0 ? 0 : nearest(settings, "turn_deg", view.turn_deg);
+  view.obstacle = nearest(settings, "obstacle", view.obstacle);
+  SweepPlan plan = {.cells = {diagonals.begin(), diagonals.end()}, .view = view, .timed = {}};
+  for (const Sweep& s : cells) {
+    if (!is_diagonal(s)) plan.cells.push_back(s);
+    Sweep timed = view;
+    timed.form = s.form;
+    timed.speed = s.speed;
+    if (plan.timed.empty() || plan.timed.back() != timed) plan.timed.push_back(timed);
+  }
+  return plan;
+}
+
+bool is_diagonal(const Sweep& s) { return std::ranges::find(diagonals, s) != diagonals.end(); }
+
+double path_in_widths(const Sweep& s) { return s.speed * s.step / s.width; }
+
+double ball_radius(const Sweep& s) { return s.obstacle * s.width / 2; }
+
+Vec3<double> half_extents(const Sweep& s) {
+  constexpr double thin = 0.1;
+  const double half = s.width / 2;
+  if (s.form == SweptForm::plate) return {thin * half, half, half};
+  if (s.form == SweptForm::rod) return {half, thin * half, thin * half};
+  return {half, half, half};
+}
+
+Vec3<double> direction(const Sweep& s) {
+  const double across = sine(s.angle_deg);
+  return {cosine(s.angle_deg), across * cosine(s.turn_deg), across * sine(s.turn_deg)};
+}
+
+Vec3<double> path(const Sweep& s) { return direction(s) * (s.speed * s.step); }
+
+Moving<Sphere<double>> moving_ball(const Sweep& s) { return {{Vec3<double>::Zero(), s.width / 2}, path(s)}; }
+
+Moving<Aabb<double>> moving_box(const Sweep& s) { return {{Vec3<double>::Zero(), half_extents(s)}, path(s)}; }
+
+RandomStream random_stream(const Sweep& s, std::uint64_t seed) {
+  return {seed, stream_of(std::array{static_cast<double>(s.form), s.speed, s.step, s.width, s.angle_deg, s.turn_deg,
+                                     s.obstacle})};
+}
+
+Sphere<double> ball_in(const BallRegion& region, const Sweep& s, const RandomStream& stream, std::uint64_t trial) {
+  const RandomWords words = random_words(stream, trial, 0);
+  const Vec3<double> place(both_signs(words[0]), both_signs(words[1]), both_signs(words[2]));
+  return {region.middle + region.axes * place.cwiseProduct(region.half_extents), ball_radius(s)};
+}
+
+Sphere<double> grazing_ball(const Sweep& s, const Mat3<double>& axes, const RandomStream& stream, std::uint64_t trial) {
+  constexpr double inward = 0x1p-20;
+  const bool is_box = s.form != SweptForm::sphere;
+  const Vec3<double> half = half_extents(s), half_path = path(s) / 2;
+  const Vec3<double> outward = outward_direction(is_box ? half : Vec3<double>::Ones(), axes, stream, trial);
+  Vec3<double> reach = half_path.dot(outward) < 0 ? Vec3<double>(-half_path) : half_path;
+  double radius = ball_radius(s);
+  if (!is_box) radius += s.width / 2;
+  for (int i = 0; is_box && i < 3; ++i) reach[i] += outward[i] < 0 ? -half[i] : half[i];
+  return {half_path + (reach + outward * radius) * (1 - inward), ball_radius(s)};
+}
+
+long double least_distance(const Sweep& s, const Vec3<double>& center) {
+  const Core core = core_of(s);
+  const SquaredDistance f = {center.cast<Real>(), path(s).cast<Real>(), core.half_extents};
+  return std::max<Real>(0, std::sqrt(least_squared(f)) - core.radius);
+}
+
+bool touches(const Sweep& s, const Vec3<double>& center) {
+  return least_distance(s, center) <= static_cast<Real>(ball_radius(s));
+}
+
+}  // namespace thinwall

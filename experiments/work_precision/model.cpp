@@ -1,0 +1,104 @@
+#include <thinwall/experiments/work_precision/model.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <thinwall/swept/methods/closed_form.hpp>
+
+namespace thinwall {
+
+namespace {
+
+constexpr RandomStream resampling = {0, 0x776f726b};  // any constant: the interval depends on the times alone
+
+bool is_fine(const Racer& racer, std::string_view scalar) {
+  return finishes(racer) && racer.time.p99 <= fine_error(scalar);
+}
+
+}  // namespace
+
+Estimate nanoseconds(const Racer& racer) {
+  return {median(racer.nanoseconds), bootstrap_median(racer.nanoseconds, resampling)};
+}
+
+Estimate slowdown(const Racer& racer, const Racer& other) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < racer.nanoseconds.size(); ++i) {
+    ratios.push_back(racer.nanoseconds[i] / other.nanoseconds[i]);
+  }
+  return {median(ratios), bootstrap_median(ratios, resampling)};
+}
+
+double fine_error(std::string_view scalar) { return scalar == "float" ? 1e-6 : 1e-12; }
+
+bool finishes(const Racer& racer) { return racer.missed == 0 && racer.gave_up == 0; }
+
+std::vector<const Racer*> pareto_front(const Heat& heat) {
+  std::vector<const Racer*> all;
+  for (const Racer& racer : heat.racers) {
+    if (finishes(racer) && racer.touching > 0) all.push_back(&racer);
+  }
+  std::sort(all.begin(), all.end(), [](const Racer* a, const Racer* b) { return a->time.p99 < b->time.p99; });
+  std::vector<const Racer*> front;
+  for (const Racer* racer : all) {
+    if (front.empty() || median(racer->nanoseconds) < median(front.back()->nanoseconds)) front.push_back(racer);
+  }
+  return front;
+}
+
+std::vector<const Racer*> one_a_method(const Heat& heat) {
+  std::vector<const Racer*> chosen;
+  const auto better = [&](const Racer& a, const Racer& b) {
+    const bool a_fine = is_fine(a, heat.scalar), b_fine = is_fine(b, heat.scalar);
+    if (a_fine != b_fine) return a_fine;
+    if (a_fine) return false;  // the first is the roughest
+    if (finishes(a) != finishes(b)) return finishes(a);
+    return finishes(a) ? a.time.p99 < b.time.p99 : a.missed + a.gave_up < b.missed + b.gave_up;
+  };
+  for (const Racer& racer : heat.racers) {
+    const auto rival =
+        std::find_if(chosen.begin(), chosen.end(), [&](const Racer* r) { return r->method == racer.method; });
+    if (rival == chosen.end()) {
+      chosen.push_back(&racer);
+    } else if (better(racer, **rival)) {
+      *rival = &racer;
+    }
+  }
+  return chosen;
+}
+
+std::optional<double> false_share(const std::vector<Heat>& heats, const Heat& heat, const Racer& racer) {
+  for (const Heat& other : heats) {
+    if (other.set != heat.set || other.scalar != heat.scalar || other.kind != QueryClass::miss) continue;
+    for (const Racer& r : other.racers) {
+      if (r.method != racer.method || r.setting != racer.setting || r.queries == 0) continue;
+      return static_cast<double>(r.false_hits) / static_cast<double>(r.queries);
+    }
+  }
+  return {};
+}
+
+const Racer* closed_form_of(const Heat& heat) {
+  for (const Racer& racer : heat.racers) {
+    if (racer.method == ClosedForm<double>::name) return &racer;
+  }
+  return nullptr;
+}
+
+std::vector<const Racer*> fine_and_faster(const Heat& heat) {
+  std::vector<const Racer*> faster;
+  const Racer* exact = closed_form_of(heat);
+  if (exact == nullptr) return faster;
+  for (const Racer& racer : heat.racers) {
+    if (&racer == exact || !is_fine(racer, heat.scalar) || racer.touching == 0) continue;
+    if (slowdown(racer, *exact).interval.upper < 1) faster.push_back(&racer);
+  }
+  return faster;
+}
+
+bool keeps_contract(const Heat& heat) {
+  const Racer* exact = closed_form_of(heat);
+  return exact == nullptr || (exact->is_sound() && exact->forward <= 4);
+}
+
+}  // namespace thinwall

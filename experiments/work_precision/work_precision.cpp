@@ -1,0 +1,453 @@
+/// What error does each way to find a time of impact make, and what time does it take? See docs/work_precision.md.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/figure.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/work_precision/model.hpp>
+#include <thinwall/swept/methods.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+/// A racer of a heat.
+struct Row {
+  const Heat* heat;
+  const Racer* racer;
+  Estimate time;  ///< [ns] a query
+  bool is_on_front = false;
+  std::optional<double> false_share{};
+  std::optional<Estimate> slowdown{};  ///< against the closed form, if that takes part
+};
+const Racer& racer_of(const Row& row) { return *row.racer; }
+
+/// Every racer of every heat.
+std::vector<Row> all_rows(const std::vector<Heat>& heats) {
+  std::vector<Row> rows;
+  for (const Heat& heat : heats) {
+    const std::vector<const Racer*> front = pareto_front(heat);
+    for (const Racer& racer : heat.racers)
+      rows.push_back({&heat, &racer, nanoseconds(racer), std::ranges::find(front, &racer) != front.end()});
+  }
+  return rows;
+}
+
+/// Of every race on hits one racer a method: what fine answers cost, against the closed form.
+std::vector<Row> trailing_rows(const std::vector<Heat>& heats) {
+  std::vector<Row> rows;
+  for (const Heat& heat : heats) {
+    if (heat.kind != QueryClass::hit) continue;
+    const Racer* exact = closed_form_of(heat);
+    for (const Racer* r : one_a_method(heat))
+      rows.push_back({&heat, r, nanoseconds(*r), false, false_share(heats, heat, *r),
+                      exact != nullptr ? std::optional(slowdown(*r, *exact)) : std::nullopt});
+  }
+  return rows;
+}
+
+// What the tables show.
+
+/// An error: missing where nothing touches, or where so many are missed that it is infinite.
+template <class Get> auto finite(std::string name, std::string unit, std::string description, Get get) {
+  return value(std::move(name), std::move(unit), std::move(description), [get](const Row& r) -> std::optional<double> {
+    const double x = get(*r.racer);
+    return r.racer->touching > 0 && std::isfinite(x) ? std::optional(x) : std::nullopt;
+  });
+}
+auto median_error() {
+  return finite("error_median", "step", "Median error of the time of impact.",
+                [](const Racer& r) { return r.time.median; });
+}
+
+Columns<Row> key_columns() {
+  return columns_of<Row>(
+      text("set", "The pair of shapes.", [](const Row& r) { return r.heat->set->name; }),
+      text("class", "Hits, misses or grazes.", [](const Row& r) { return name(r.heat->kind); }),
+      text("scalar", "Floating-point type of the shapes.", [](const Row& r) { return r.heat->scalar; }),
+      text("method", "Way to find the time of impact.", [](const Row& r) { return r.racer->method; }),
+      fields(racer_of, {"option"}));
+}
+
+Table errors_table(const std::vector<Row>& rows) {
+  const auto columns = columns_of<Row>(
+      key_columns(), fields(racer_of, {"queries", "touching", "missed", "false_hits", "gave_up"}), median_error(),
+      finite("error_p99", "step", "99th percentile of the same.", [](const Racer& r) { return r.time.p99; }),
+      finite("error_max", "step", "Largest of the same.", [](const Racer& r) { return r.time.max; }),
+      finite("length_median", "m", "Median error along the relative path.",
+             [](const Racer& r) { return r.length.median; }),
+      finite("length_p99", "m", "99th percentile of the same.", [](const Racer& r) { return r.length.p99; }),
+      finite("length_max", "m", "Largest of the same.", [](const Racer& r) { return r.length.max; }),
+      finite("latest", "step", "Answer that is latest after first contact; negative: all are before.",
+             [](const Racer& r) { return r.latest; }),
+      finite("earliest", "step", "Answer that is earliest; positive: all are after.",
+             [](const Racer& r) { return r.earliest; }),
+      fields(racer_of, {"evaluations", "most_evaluations"}));
+  return table(
+      "errors",
+      "Verdicts and errors of the time of impact against the oracle at 50 digits, and evaluations, for every method "
+      "and setting. A contact that is missed counts as an infinite error; a quantile that is infinite is left out.",
+      columns, rows);
+}
+
+Table times_table(const std::vector<Row>& rows) {
+  const auto columns = columns_of<Row>(
+      key_columns(),
+      ValueColumn{"nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.median; },
+                  "lower", "upper"},
+      value("lower", "ns", "Lower end of its interval.", [](const Row& r) { return r.time.interval.lower; }),
+      value("upper", "ns", "Upper end of its interval.", [](const Row& r) { return r.time.interval.upper; }),
+      value("rounds", "1", "Rounds timed.", [](const Row& r) { return r.racer->nanoseconds.size(); }),
+      value("on_front", "", "Nobody is both finer and faster.", &Row::is_on_front));
+  return timing(table(
+      "timings", "Time a query on this machine: the median over interleaved rounds, with its 95 % bootstrap interval.",
+      columns, rows));
+}
+
+Table trailing_table(const std::vector<Row>& rows) {
+  const auto has_ratio = [](const Row& r) { return r.slowdown.has_value(); };
+  const auto columns = columns_of<Row>(
+      key_columns(),
+      value("missed", "1", "Contacts that it does not see.", [](const Row& r) { return r.racer->missed; }),
+      value("false_share", "1", "Share of the misses, asked apart, that it calls a hit.", &Row::false_share),
+      median_error(),
+      finite("error_p99", "step", "99th percentile of the same; missing: it misses more than 1 %.",
+             [](const Racer& r) { return r.time.p99; }),
+      value("evaluations", "1", "A query, on average.", [](const Row& r) { return r.racer->evaluations; }),
+      value("nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.median; }),
+      where(has_ratio, columns_of<Row>(ValueColumn{"times_closed_form", "1",
+                                                   "Its time over that of the closed form, round by round; median.",
+                                                   [](const Row& r) { return r.slowdown->median; }, "lower", "upper"},
+                                       value("lower", "1", "Lower end of the 95 % bootstrap interval of the same.",
+                                             [](const Row& r) { return r.slowdown->interval.lower; }),
+                                       value("upper", "1", "Upper end of the same.",
+                                             [](const Row& r) { return r.slowdown->interval.upper; }))));
+  return in_report(timing(
+      table("trailing",
+            "Each method at its roughest setting with a 99th percentile error of at most 1e-12 of a step (1e-6 in "
+            "float), or else its finest; and how many times as long as the closed form it takes. Hits alone.",
+            columns, rows)));
+}
+
+// What the pictures show.
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double least_error = 0x1p-60;  // drawn in place of an error that is less, down to 0
+
+double shown(double error) { return std::isfinite(error) ? std::max(error, least_error) : nan; }
+
+/// Points of one method, from rough to fine, and the line that joins them.
+void add_method(const Heat& heat, std::string_view method, bool by_time, std::vector<Series>& panel) {
+  Series points = {.label = std::string(method), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  for (const Racer& r : heat.racers) {
+    if (r.method != method || !std::isfinite(r.time.median)) continue;
+    const Estimate time = by_time ? nanoseconds(r) : Estimate{r.evaluations, {r.evaluations, r.evaluations}};
+    points.x.push_back(shown(r.time.median));
+    points.x_lower.push_back(shown(r.time.median));
+    points.x_upper.push_back(shown(std::isfinite(r.time.p99) ? r.time.p99 : 1));
+    points.y.push_back(time.median);
+    points.lower.push_back(time.interval.lower);
+    points.upper.push_back(time.interval.upper);
+  }
+  if (points.x.empty()) return;
+  Series line = {.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}};
+  panel.push_back(std::move(line));
+  panel.push_back(std::move(points));
+}
+
+/// Corners at the 99th percentile errors of those nobody beats: below and left of it there is nobody.
+Series front_line(const Heat& heat) {
+  Series line = {.label = "Pareto front", .mark = Mark::dashes, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  double above = nan;
+  for (const Racer* r : pareto_front(heat)) {
+    const double x = shown(r->time.p99), y = median(r->nanoseconds);
+    if (!line.x.empty()) {
+      line.x.push_back(x);
+      line.y.push_back(above);
+    }
+    line.x.push_back(x);
+    line.y.push_back(y);
+    above = y;
+  }
+  if (!line.x.empty()) {
+    line.x.push_back(1);
+    line.y.push_back(above);
+  }
+  return line;
+}
+
+/// One panel for each set of a class and scalar.
+std::vector<Panel> panels_of(const std::vector<Heat>& heats, QueryClass kind, std::string_view scalar, bool by_time) {
+  std::vector<Panel> panels;
+  for (const Heat& heat : heats) {
+    if (heat.kind != kind || heat.scalar != scalar) continue;
+    Panel panel;
+    panel.x_label = "error of the time of impact [step]: median, with a bar to the 99th percentile";
+    panel.y_label = fmt::format("{}, {}", heat.set->name, by_time ? "ns a query" : "evaluations");
+    panel.log_x = panel.log_y = true;
+    panel.height = 0.9;
+    if (by_time) panel.series.push_back(front_line(heat));
+    for_each_type(Methods<double>{},
+                  [&]<class Method>(TypeTag<Method>) { add_method(heat, Method::name, by_time, panel.series); });
+    const auto has_points = [](const Series& s) { return s.mark == Mark::points; };
+    if (std::any_of(panel.series.begin(), panel.series.end(), has_points)) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+Figure figure(const std::vector<Heat>& heats, QueryClass kind, std::string_view scalar, bool by_time) {
+  const char* what = kind == QueryClass::hit ? "hits" : "grazes";
+  Figure figure;
+  figure.name = fmt::format("{}_{}_{}", what, scalar, by_time ? "time" : "evaluations");
+  figure.title = fmt::format("Error against {}: {} in {}", by_time ? "run time" : "evaluations", what, scalar);
+  figure.caption = fmt::format(
+      "Each method along its option, from rough (right) to fine (left). {}A method that misses half of the contacts has no point; "
+      "a bar that ends at 1 stands for one that misses more than 1 %. Errors below 1e-18 are drawn there.",
+      by_time
+          ? "Vertical bars, mostly hidden by their points: 95 % bootstrap intervals of the median time over interleaved "
+            "rounds. The front joins the 99th percentile errors of those that nobody beats in both. "
+          : "Evaluations are separations, overlap tests, rays or closed forms: a cost that no machine changes. ");
+  figure.panels = panels_of(heats, kind, scalar, by_time);
+  figure.is_timing = by_time;
+  return figure;
+}
+
+std::vector<Figure> figures_of(const std::vector<Heat>& heats) {
+  std::vector<Figure> figures = {
+      figure(heats, QueryClass::hit, "double", true), figure(heats, QueryClass::graze, "double", true),
+      figure(heats, QueryClass::hit, "float", true), figure(heats, QueryClass::hit, "double", false)};
+  std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
+  return figures;
+}
+
+// What it says.
+
+std::string full_name(const Racer& r) { return r.setting.empty() ? r.method : r.method + " (" + r.setting + ")"; }
+
+std::string between(const char* format, const Interval& i) {
+  return fmt::format(fmt::runtime(format), i.lower) + " to " + fmt::format(fmt::runtime(format), i.upper);
+}
+
+std::string error_text(double error) { return std::isfinite(error) ? fmt::format("{:.1e}", error) : "-"; }
+
+/// Who is the cheapest at which error.
+std::string front_text(const Heat& heat) {
+  const std::vector<const Racer*> front = pareto_front(heat);
+  if (front.empty()) return "Every method misses some contact. ";
+  std::string text = fmt::format("{} is the finest (99th percentile error {} of a step) and ", full_name(*front[0]),
+                                 error_text(front[0]->time.p99));
+  text += front.size() == 1 ? std::string("the cheapest at every error that a method reaches without a miss")
+                            : std::string("the cheapest");
+  const Estimate time = nanoseconds(*front[0]);
+  text += fmt::format(", at {:.0f} ns a query ({})", time.median, between("{:.0f}", time.interval));
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    const Estimate gain = slowdown(*front[i], *front[i - 1]);
+    text += fmt::format("; where {} is good enough the curves cross and {} is, in {:.2f} of that ({})",
+                        error_text(front[i]->time.p99), full_name(*front[i]), gain.median,
+                        between("{:.2f}", gain.interval));
+  }
+  return text + ". ";
+}
+
+/// By how much the others trail the closed form.
+std::string trailing_text(const Heat& heat) {
+  const Racer* exact = closed_form_of(heat);
+  if (exact == nullptr) return "";
+  const double fine = fine_error(heat.scalar);
+  std::string reach, coarse, miss;
+  for (const Racer* r : one_a_method(heat)) {
+    if (r == exact) continue;
+    const Estimate ratio = slowdown(*r, *exact);
+    const std::string name = full_name(*r);
+    if (!finishes(*r)) {
+      miss += fmt::format("{}{} ({} of {})", miss.empty() ? "" : ", ", name, r->missed + r->gave_up, r->touching);
+    } else if (r->time.p99 <= fine) {
+      reach += fmt::format("{}{} {:.1f} times as long ({})", reach.empty() ? "" : ", ", name, ratio.median,
+                           between("{:.1f}", ratio.interval));
+    } else {
+      coarse += fmt::format("{}{} ends at {}, for {:.1f} times the time", coarse.empty() ? "" : ", ", name,
+                            error_text(r->time.p99), ratio.median);
+    }
+  }
+  std::string text;
+  if (!reach.empty())
+    text += fmt::format("For an error of at most {:g}, against the closed form's time, it takes {}. ", fine, reach);
+  if (!coarse.empty()) text += "Of those that never get there, " + coarse + ". ";
+  if (!miss.empty()) text += "Contacts are missed by " + miss + ". ";
+  const std::vector<const Racer*> faster = fine_and_faster(heat);
+  for (const Racer* r : faster) text += full_name(*r) + " is as fine and faster than the closed form. ";
+  if (faster.empty() && heat.racers.size() > 1)
+    text += fmt::format("None that reaches {:g} is faster than the closed form. ", fine);
+  return text;
+}
+
+/// The races on hits in double, or in float if there are no others.
+std::string summary_of(const std::vector<Heat>& heats, const std::vector<Row>& trailing) {
+  const bool any_double = std::ranges::find(heats, "double", &Heat::scalar) != heats.end();
+  std::string text;
+  for (const Heat& heat : heats) {
+    if (heat.kind != QueryClass::hit || (heat.scalar == "double") != any_double) continue;
+    std::vector<Row> rows = trailing;
+    std::erase_if(rows, [&](const Row& row) { return row.heat != &heat; });
+    Table table = trailing_table(rows);
+    table.description = fmt::format("{}: hits in {}.", heat.set->name, heat.scalar);
+    text += terminal(table, {"method", "option", "missed", "false_share", "error_p99", "evaluations", "nanoseconds",
+                             "times_closed_form"}) +
+            "\n";
+  }
+  return text +
+         wrapped(
+             "Each method at its roughest setting with a p99 error of at most 1e-12 of a step (in float 1e-6), or its "
+             "finest; missing: infinite. False share: of misses, asked apart, that it calls a hit.");
+}
+
+/// The closed form's contract, race by race.
+std::string self_test_words(const std::vector<Heat>& heats) {
+  std::string broken;
+  for (const Heat& heat : heats) {
+    if (!keeps_contract(heat))
+      broken += fmt::format(" FAILED: {}, {} in {}.", heat.set->name, name(heat.kind), heat.scalar);
+  }
+  return fmt::format("The closed form keeps its contract in {} of {} races.{}",
+                     std::ranges::count_if(heats, keeps_contract), heats.size(), broken);
+}
+
+Outcome outcome_of(const std::vector<Heat>& heats) {
+  const std::vector<Row> rows = all_rows(heats), trailing = trailing_rows(heats);
+  std::string cheapest;
+  for (const Heat& heat : heats) {
+    if (heat.kind == QueryClass::hit) cheapest += heat_text(heat) + "\n\n";
+  }
+  return {.answer = work_precision_answer(heats),
+          .summary = summary_of(heats, trailing) + "\n" + wrapped("Self-test: " + self_test_words(heats)),
+          .tables = {trailing_table(trailing), errors_table(rows), times_table(rows)},
+          .figures = figures_of(heats),
+          .sections = {{"Who is cheapest at which error", cheapest}, {"Self-test", self_test_words(heats)}},
+          .self_test_passed = std::ranges::all_of(heats, keeps_contract)};
+}
+
+/// What is chosen under a key, and whether by "all".
+struct Choice {
+  std::vector<std::string> names;
+  bool all;
+  bool has(std::string_view name) const { return std::ranges::find(names, name) != names.end(); }
+};
+
+Choice choice_of(const Settings& settings, std::string_view key, std::vector<std::string_view> allowed) {
+  const std::vector<std::string> names = settings.choices_or_all(key, allowed);
+  allowed.emplace_back("all");
+  const std::vector<std::string> said = settings.choices(key, allowed);
+  return {names, std::ranges::find(said, "all") != said.end()};
+}
+
+/// A pair that a method does not serve is left out where all are asked for, and refused where it is named.
+void check_served(const Settings& settings, const QuerySet& set, const Choice& sets, const Choice& methods) {
+  if (sets.all || methods.all) return;
+  for (const std::string& method : methods.names) {
+    if (std::find(set.methods.begin(), set.methods.end(), method) != set.methods.end()) continue;
+    settings.complain("method", fmt::format("for the set \"{}\" one of {}; \"{}\" does not serve that pair of shapes",
+                                            set.name, fmt::join(set.methods, ", "), method));
+  }
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  std::vector<std::string_view> set_names, method_names;
+  for (const QuerySet& set : query_sets()) set_names.push_back(set.name);
+  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) { method_names.push_back(Method::name); });
+  const Choice sets = choice_of(settings, "set", set_names), methods = choice_of(settings, "method", method_names);
+  static constexpr std::array<std::string_view, 2> all_scalars = {"float", "double"};
+  const std::vector<std::string> scalars = settings.choices("scalar", all_scalars);
+
+  RaceOptions race;
+  race.methods = methods.names;
+  race.ladder.tolerances = settings.numbers("tolerance", {.lower = std::numeric_limits<double>::epsilon(), .upper = 1});
+  std::sort(race.ladder.tolerances.begin(), race.ladder.tolerances.end(), std::greater<>());
+  race.ladder.poses = settings.integers("substeps", 1, 1 << 20);
+  std::sort(race.ladder.poses.begin(), race.ladder.poses.end());
+  race.queries = settings.trials("queries", 1, 1 << 24, options.trials);
+  race.rounds = settings.integer("rounds", 1, 1 << 20);
+  race.seed = options.seed;
+  if (std::ranges::find(scalars, "float") != scalars.end() &&
+      race.ladder.tolerances.front() < double{std::numeric_limits<float>::epsilon()}) {
+    settings.complain("tolerance", fmt::format("for scalar \"float\" at least one of {:g} to 1, which it can resolve",
+                                               std::numeric_limits<float>::epsilon()));
+  }
+
+  std::vector<Heat> heats;
+  std::vector<Task<std::vector<Racer>>> tasks;
+  for (const QuerySet& set : query_sets()) {
+    if (!sets.has(set.name)) continue;
+    check_served(settings, set, sets, methods);
+    if (std::ranges::none_of(set.methods, [&](auto method) { return methods.has(method); })) continue;
+    for (const std::string& scalar : scalars) {
+      for (const QueryClass kind : all_query_classes) {
+        heats.push_back({&set, kind, scalar, {}});
+        const auto run = scalar == "float" ? set.in_float : set.in_double;
+        tasks.push_back({fmt::format("{} {} {}", set.name, name(kind), scalar), race.queries,
+                         [run, kind, race] { return run(kind, race); }});
+      }
+    }
+  }
+  if (heats.empty()) settings.complain("method", "at least one that serves a pair of the sets");
+  const auto finish = [heats](const Done<std::vector<Racer>>& done) {
+    std::vector<Heat> run = heats;
+    for (std::size_t i = 0; i < run.size(); ++i) run[i].racers = done.results[i];
+    return outcome_of(run);
+  };
+  return make_run(finish, std::move(tasks));
+}
+
+}  // namespace
+
+std::string heat_text(const Heat& heat) {
+  if (heat.kind != QueryClass::hit) return "";
+  return fmt::format("Of {}, hits in {}: ", heat.set->title, heat.scalar) + front_text(heat) + trailing_text(heat);
+}
+
+std::string work_precision_answer(const std::vector<Heat>& heats) {
+  std::int64_t races = 0, races_won = 0;
+  std::string faster;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const Heat& heat : heats) {
+    const Racer* exact = closed_form_of(heat);
+    if (heat.kind != QueryClass::hit || exact == nullptr) continue;
+    ++races;
+    const auto rivals = fine_and_faster(heat);
+    races_won += rivals.empty() ? 1 : 0;
+    for (const Racer* r : rivals)
+      faster += fmt::format(" {} is faster on {} in {}.", full_name(*r), heat.set->name, heat.scalar);
+    for (const Racer* r : one_a_method(heat)) {
+      if (r == exact || !finishes(*r) || r->time.p99 > fine_error(heat.scalar)) continue;
+      least = std::min(least, slowdown(*r, *exact).median);
+      most = std::max(most, slowdown(*r, *exact).median);
+    }
+  }
+  if (races == 0) return "The closed form, which the others are held against, did not take part: see the tables.";
+  std::string text = fmt::format(
+      "In {} of {} races on hits no method is as fine as 1e-12 of a step (1e-6 in float) and faster than the closed form.{}",
+      races_won, races, faster);
+  if (most > 0) {
+    text += fmt::format(" The other methods that get there take {:.1f} to {:.0f} times its time at equal error.", least,
+                        most);
+  }
+  return text;
+}
+
+Experiment work_precision_experiment() {
+  return {"work_precision", "What error does each way to find a time of impact make, and what time does it take?",
+          embedded_toml("work_precision"), configure};
+}
+
+}  // namespace thinwall

@@ -1,0 +1,124 @@
+/// The rules of the house, for every experiment of the list, on its small configuration.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/tables/csv.hpp>
+#include <thinwall/experiments/text/file_text.hpp>
+#include <thinwall_embedded.hpp>
+
+#include "support/described_tables.hpp"
+#include "support/experiment_run.hpp"
+
+namespace thinwall {
+namespace {
+
+class EveryExperiment : public testing::TestWithParam<std::string_view> {
+ protected:
+  const Experiment& experiment() const { return *std::ranges::find(experiments(), GetParam(), &Experiment::name); }
+  std::string small() const {
+    const std::filesystem::path folder = std::filesystem::path(THINWALL_SOURCE) / "tests/results/small";
+    return file_text(folder / (std::string(GetParam()) + ".toml"));
+  }
+  std::unique_ptr<thinwall::Run> configured(const std::string& text, RunOptions options = {.seed = 1, .trials = {}}) const {
+    return run_of(experiment(), text, options);
+  }
+  /// It times programs that stand beside our own: tests/experiments/speed_test.cpp has some for it.
+  bool needs_programs() const { return GetParam() == "speed"; }
+};
+
+#define SKIP_IF_IT_NEEDS_PROGRAMS() \
+  if (needs_programs()) GTEST_SKIP() << "it asks benchmark programs, which its own tests stand in for"
+
+TEST_P(EveryExperiment, asks_a_question_and_has_defaults_and_a_page) {
+  EXPECT_TRUE(experiment().question.ends_with('?'));
+  EXPECT_FALSE(experiment().default_toml.empty());
+  const std::string_view page = embedded_page(GetParam());
+  for (const char* heading : {"\n## What is asked\n", "\n## Limits\n"})
+    EXPECT_NE(page.find(heading), std::string_view::npos) << heading;
+}
+
+TEST_P(EveryExperiment, names_every_unit_apart) {
+  SKIP_IF_IT_NEEDS_PROGRAMS();
+  std::set<std::string> keys;
+  for (const Unit& unit : configured(small())->units()) {
+    EXPECT_TRUE(keys.insert(unit.key).second) << unit.key;
+    EXPECT_EQ(unit.key.find_first_of("\t\n"), std::string::npos) << unit.key;
+    EXPECT_GT(unit.trials, 0) << unit.key;
+  }
+}
+
+TEST_P(EveryExperiment, lets_an_option_choose_the_trials) {
+  SKIP_IF_IT_NEEDS_PROGRAMS();
+  const auto trials = [](const thinwall::Run& run) {
+    std::int64_t most = 0;
+    for (const Unit& unit : run.units()) most = std::max(most, unit.trials);
+    return most;
+  };
+  const auto few = configured(small(), {.seed = 1, .trials = 60}),
+             more = configured(small(), {.seed = 1, .trials = 6000});
+  EXPECT_LT(trials(*few), trials(*more));
+  EXPECT_THROW(configured(small(), {.seed = 1, .trials = 0}), UsageError);
+}
+
+/// Computed in whatever order, by whatever thread: tables without times are the same to the byte. And what they hold is described.
+TEST_P(EveryExperiment, does_not_depend_on_the_order_of_its_units) {
+  SKIP_IF_IT_NEEDS_PROGRAMS();
+  const auto run = configured(small());
+  std::vector<Unit> units = run->units();
+  const std::vector<double> seconds(units.size(), 1e-3);
+  const Outcome forward = run->finish(results_of(units), seconds);
+  std::ranges::reverse(units);
+  std::vector<std::string> results = results_of(units);
+  std::ranges::reverse(results);
+  const Outcome backward = run->finish(results, seconds);
+  ASSERT_EQ(forward.tables.size(), backward.tables.size());
+  for (std::size_t i = 0; i < forward.tables.size(); ++i) {
+    if (forward.tables[i].is_timing) continue;
+    EXPECT_EQ(csv_text(forward.tables[i]), csv_text(backward.tables[i])) << forward.tables[i].name;
+  }
+  expect_described_tables(forward);
+  EXPECT_FALSE(forward.answer.empty());
+  std::istringstream summary(forward.summary);
+  for (std::string line; std::getline(summary, line);) {
+    const auto letters =
+        std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+    EXPECT_LE(letters, 100) << line;
+  }
+}
+
+TEST_P(EveryExperiment, refuses_by_name_what_a_key_may_not_be) {
+  const toml::table keys = toml::parse(experiment().default_toml);
+  for (const auto& [key, value] : keys) {
+    if (key.str() == "experiment" || value.is_string()) continue;
+    for (const char* wrong :
+         {"nan", "[nan]", "[]", "'no such thing'", "['no such thing']", "-1e99", "[-1e99]", "1979-05-27"}) {
+      if (value.is_boolean() && std::string_view(wrong) == "nan") continue;
+      const std::string text = std::string(key.str()) + " = " + wrong;
+      try {
+        configured(text);
+        ADD_FAILURE() << text << " is taken";
+      } catch (const UsageError& error) {
+        EXPECT_NE(std::string_view(error.what()).find(std::string(key.str())), std::string_view::npos) << error.what();
+      }
+    }
+  }
+  EXPECT_THROW(configured("no_such_key = 1"), UsageError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lab, EveryExperiment, testing::ValuesIn([] {
+                           std::vector<std::string_view> names;
+                           for (const Experiment& experiment : experiments()) names.push_back(experiment.name);
+                           return names;
+                         }()),
+                         [](const auto& one) { return std::string(one.param); });
+
+}  // namespace
+}  // namespace thinwall

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# contributed.sh PROGRAM FOLDER: does what CONTRIBUTING.md promises of an experiment follow from its text?
+set -euo pipefail
+program=$1 folder=$2
+fail() {
+  echo "contributed: $*" >&2
+  exit 1
+}
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+"$program" run chord --out whole >whole.log
+grep -q '^chords,longer\|,chords,longer,share,lower,upper,theory$' whole/data/cells.csv || fail "its columns are $(head -n 1 whole/data/cells.csv)"
+(($(wc -l <whole/data/cells.csv) == 4)) || fail "not a row for each circle"
+grep -q '<h3 id="chord.theory">Theory</h3>' whole/report.html || fail "the report does not say what its page does"
+"$program" check whole >check.log || fail "$(cat check.log)"
+
+"$program" run chord --trials 0 --out refused 2>refused.log && fail "no trials are taken"
+grep -q 'chords' refused.log || fail "a refusal that does not name the key: $(cat refused.log)"
+
+# Killed while it computes, it goes on where it was, and ends with the same bytes.
+cat >many.toml <<'TOML'
+experiment = "chord"
+radius = [1, 2, 3, 4, 5, 6, 7, 8]
+chords = 3_000_000
+TOML
+"$program" run many.toml --seed 3 --out undisturbed >undisturbed.log
+"$program" run many.toml --seed 3 --threads 1 --out killed >killed.log 2>&1 &
+pid=$!
+until [[ -s killed/journal.tsv ]] && (($(wc -l <killed/journal.tsv) >= 3)); do
+  kill -0 $pid 2>/dev/null || fail "it ended before it could be killed: $(cat killed.log)"
+done
+kill -9 $pid
+wait $pid 2>/dev/null || true
+"$program" run many.toml --seed 3 --out killed >resumed.log 2>&1
+cmp undisturbed/data/cells.csv killed/data/cells.csv || fail "a killed run ends otherwise"
+"$program" check killed >check.log || fail "$(cat check.log)"
