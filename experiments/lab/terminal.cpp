@@ -44,11 +44,6 @@ std::string padded(const std::string& text, std::size_t to, bool right) {
   return right ? spaces + text : text + spaces;
 }
 
-std::string without_spaces_at_end(std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line + "\n";
-}
-
 }  // namespace
 
 std::string wrapped(std::string_view text) {
@@ -93,27 +88,30 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
     std::size_t widest = 0;
     for (const auto& row : all.rows) widest = std::max(widest, width(row[j].text));
     for (const std::string& word : words_of(all.columns[j].header)) widest = std::max(widest, width(word));
+    whole += widest + (j > 0 ? 2 : 0);
+    if (j > 0 && whole > terminal_width) break;  // the file has them all
     headers.push_back(broken(all.columns[j].header, widest));
     height = std::max(height, headers.back().size());
     widths.push_back(widest);
-    whole += widest + (j > 0 ? 2 : 0);
   }
-  if (whole > terminal_width) throw std::logic_error("table '" + table.name + "' is too wide for a terminal");
-  std::string caption = all.caption.substr(0, all.caption.find(" Brackets hold "));
-  std::string out = wrapped(caption);
+  const auto line = [&](const auto& text_of) {
+    std::string out;
+    for (std::size_t j = 0; j < widths.size(); ++j)
+      out += (j > 0 ? "  " : "") + padded(text_of(j), widths[j], all.columns[j].right);
+    out.erase(out.find_last_not_of(' ') + 1);
+    return out + "\n";
+  };
+  std::string out = wrapped(all.caption.substr(0, all.caption.find(" Brackets hold ")));
   for (std::size_t k = 0; k < height; ++k) {
-    std::string line;
-    for (std::size_t j = 0; j < headers.size(); ++j) {
+    out += line([&](std::size_t j) {
       const std::size_t first = height - headers[j].size();  // the last words stand on the rows
-      line += (j > 0 ? "  " : "") + padded(k < first ? "" : headers[j][k - first], widths[j], all.columns[j].right);
-    }
-    out += without_spaces_at_end(line);
+      return k < first ? std::string() : headers[j][k - first];
+    });
   }
-  for (const auto& row : all.rows) {
-    std::string line;
-    for (std::size_t j = 0; j < row.size(); ++j)
-      line += (j > 0 ? "  " : "") + padded(one_line(row[j].text), widths[j], all.columns[j].right);
-    out += without_spaces_at_end(line);
+  for (const auto& row : all.rows) out += line([&](std::size_t j) { return one_line(row[j].text); });
+  if (widths.size() < all.columns.size()) {
+    out += wrapped("And " + std::to_string(all.columns.size() - widths.size()) + " columns that data/" + table.name +
+                   ".csv has.");
   }
   return out;
 }

@@ -36,8 +36,8 @@ add_custom_command(OUTPUT "${embedded}"
           "-DOUT=${embedded}" -P "${PROJECT_SOURCE_DIR}/cmake/embed.cmake"
   DEPENDS "${contributed}/experiments/chord.toml" "${contributed}/docs/chord.md" "${PROJECT_SOURCE_DIR}/cmake/embed.cmake"
   VERBATIM)
-add_executable(contributed "${contributed}/main.cpp" "${contributed}/experiments/chord/chord.cpp" "${embedded}")
-target_link_libraries(contributed PRIVATE thinwall::experiments thinwall_options)
-target_compile_options(contributed PRIVATE $<$<CONFIG:Release>:-O1>)
+add_executable(thinwall_contributed "${contributed}/main.cpp" "${contributed}/experiments/chord/chord.cpp" "${embedded}")
+target_link_libraries(thinwall_contributed PRIVATE thinwall::experiments thinwall_options)
+target_compile_options(thinwall_contributed PRIVATE $<$<CONFIG:Release>:-O1>)
 add_test(NAME house/contributed
-  COMMAND "${CMAKE_CURRENT_LIST_DIR}/contributed.sh" "$<TARGET_FILE:contributed>" "${work}/contributed")
+  COMMAND "${CMAKE_CURRENT_LIST_DIR}/contributed.sh" "$<TARGET_FILE:thinwall_contributed>" "${work}/contributed")
