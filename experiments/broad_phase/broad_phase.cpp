@@ -109,17 +109,6 @@ Table times_by_count(const Group<SurveyRow>& kind, const std::vector<Course>& al
 
 // What the pictures show: a panel for each kind of world, a series for each broad phase.
 
-/// Joins the points of each series.
-Panel joined(Panel panel) {
-  std::vector<Series> all;
-  for (const Series& points : panel.series) {
-    all.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}});
-    all.push_back(points);
-  }
-  panel.series = all;
-  return panel;
-}
-
 std::vector<Panel> panels_by_kind(const std::vector<SurveyRow>& rows, const std::string& quantity,
                                   const std::function<std::optional<Measured>(const FindingRow&)>& get) {
   const auto columns =
