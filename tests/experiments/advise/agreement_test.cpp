@@ -7,8 +7,10 @@
 #include <thinwall/experiments/statistics.hpp>
 #include <thinwall/swept/certified.hpp>
 
+#include <thinwall/experiments/experiment_list.hpp>
 #include "experiments/advise/given_costs.hpp"
-#include "experiments/thin_wall_run.hpp"
+
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
 namespace {
@@ -25,7 +27,8 @@ class Fired {
  public:
   explicit Fired(const Wish& wish)
       : wish_(wish),
-        outcome_(outcome_of(*configured(check_config(wish, candidates(wish)), {.seed = 3, .trials = shots}))) {}
+        outcome_(outcome_of(
+            *run_of(thin_wall_experiment(), check_config(wish, candidates(wish)), {.seed = 3, .trials = shots}))) {}
 
   bool self_test_passed() const { return outcome_.self_test_passed; }
 

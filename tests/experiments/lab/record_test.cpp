@@ -130,17 +130,17 @@ TEST(Record, a_mean_is_exact_to_its_unit) {
   EXPECT_EQ(*sum.mean(), 0.625 / 3);
 }
 
-struct Row {
+struct Named {
   std::string method;
   Inner inner;
 };
 
 TEST(Groups, are_in_the_order_of_their_first_rows_and_add_up) {
-  const std::vector<Row> rows = {{"b", {1}}, {"a", {10}}, {"b", {100}}};
-  const auto groups = group_by(rows, &Row::method);
+  const std::vector<Named> rows = {{"b", {1}}, {"a", {10}}, {"b", {100}}};
+  const auto groups = group_by(rows, &Named::method);
   ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[0], (Group<Row>{&rows[0], &rows[2]}));
-  EXPECT_EQ(total_of(groups[0], &Row::inner).count, 101);
+  EXPECT_EQ(groups[0], (Group<Named>{&rows[0], &rows[2]}));
+  EXPECT_EQ(total_of(groups[0], &Named::inner).count, 101);
   EXPECT_EQ(groups[1][0]->method, "a");
 }
 
