@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/advise/check_config.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/statistics.hpp>
 #include <thinwall/swept/certified.hpp>
 
-#include <thinwall/experiments/experiment_list.hpp>
 #include "experiments/advise/given_costs.hpp"
-
 #include "support/experiment_run.hpp"
 
 namespace thinwall {
@@ -66,7 +66,7 @@ Interval counts_of(double chance) {
 double rounded_up(double length, const Cell& cell) { return length + 0x1p-20 * (length + 1e-6 * step_length(cell)); }
 
 void expect_agreement(const Wish& wish) {
-  SCOPED_TRACE(key(wish.cell));
+  SCOPED_TRACE(cell_factors().key(wish.cell));
   const Fired fired(wish);
   EXPECT_TRUE(fired.self_test_passed());
   const Advice advice = advice_on(wish);
@@ -132,16 +132,15 @@ TEST(AdviceAgreement, a_start_in_contact_is_lost_on_tested_poses_alone) {
   const Target aimed = target(cell);
   const std::vector<std::string_view> names = method_names();
   const std::vector<std::string> methods(names.begin(), names.end()), scalars = {"double"};
-  for (const Detector& detector : detectors(methods, std::vector<std::int64_t>{2}, scalars)) {
+  for (const ThinWallMethod& method : thin_wall_methods(methods, std::vector<std::int64_t>{2}, scalars)) {
     Tally tally;
     for (std::uint64_t i = 0; i < shots; ++i) {
       const double share = uniform(random_words({7, 7}, i, 0)[0]);
       const Vec3<double> start = {-aimed.half_extents[0] - aimed.radius + share * slab_chord(cell), 0, 0};
-      detector.fire(aimed, start, tally);
+      method.fire(aimed, start, tally);
     }
-    const double lost = detector.poses_per_step > 0 ? 0.5 / detector.poses_per_step : 0;
-    EXPECT_TRUE(counts_of(lost).contains(static_cast<double>(tally.tunneled)))
-        << detector.method << ": " << tally.tunneled;
+    const double lost = method.poses_per_step > 0 ? 0.5 / method.poses_per_step : 0;
+    EXPECT_TRUE(counts_of(lost).contains(static_cast<double>(tally.tunneled))) << method.name << ": " << tally.tunneled;
   }
 }
 
