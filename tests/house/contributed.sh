@@ -14,9 +14,9 @@ cd "$folder"
 grep -q '^chords,longer\|,chords,longer,share,lower,upper,theory$' whole/data/cells.csv || fail "its columns are $(head -n 1 whole/data/cells.csv)"
 (($(wc -l <whole/data/cells.csv) == 4)) || fail "not a row for each circle"
 grep -q '<h3 id="chord.theory">Theory</h3>' whole/report.html || fail "the report does not say what its page does"
-"$program" check whole >check.log || fail "$(cat check.log)"
+"$program" report whole --check >check.log 2>&1 || fail "$(cat check.log)"
 
-"$program" run chord --trials 0 --out refused 2>refused.log && fail "no trials are taken"
+"$program" run chord --trials 2000000000000 --out refused 2>refused.log && fail "more trials are taken than are allowed"
 grep -q 'chords' refused.log || fail "a refusal that does not name the key: $(cat refused.log)"
 
 # Killed while it computes, it goes on where it was, and ends with the same bytes.
@@ -35,4 +35,4 @@ kill -9 $pid
 wait $pid 2>/dev/null || true
 "$program" run many.toml --seed 3 --out killed >resumed.log 2>&1
 cmp undisturbed/data/cells.csv killed/data/cells.csv || fail "a killed run ends otherwise"
-"$program" check killed >check.log || fail "$(cat check.log)"
+"$program" report killed --check >check.log 2>&1 || fail "$(cat check.log)"
