@@ -12,10 +12,11 @@ namespace {
 /// What a report is made of, and the pictures in it; none of it runs, or loads anything but by `href`.
 bool is_plain(const std::string& element) {
   static const std::set<std::string> html = {
-      "html", "head", "meta",   "title",  "style", "link",    "body",       "main",  "section", "h1", "h2",
-      "h3",   "p",    "figure", "strong", "div",   "caption", "figcaption", "table", "thead",   "tr", "tbody",
-      "th",   "td",   "a",      "ul",     "li",    "dl",      "dt",         "dd",    "pre",     "em", "code",
-      "span", "sup",  "sub",    "b",      "i",     "br",      "hr",         "ol"};
+      "html",  "head",  "meta", "title", "style",  "link",   "body",       "main",    "section",
+      "h1",    "h2",    "h3",   "p",     "figure", "strong", "div",        "caption", "figcaption",
+      "table", "thead", "tr",   "tbody", "th",     "td",     "a",          "ul",      "li",
+      "dl",    "dt",    "dd",   "pre",   "em",     "code",   "span",       "sup",     "sub",
+      "b",     "i",     "br",   "hr",    "ol",     "h4",     "blockquote", "details", "summary"};
   static const std::set<std::string> svg = {
       "svg",    "g",    "defs",    "desc",        "use",     "text",        "tspan",          "path",          "rect",
       "circle", "line", "ellipse", "polyline",    "polygon", "clippath",    "mask",           "pattern",       "symbol",

@@ -186,6 +186,25 @@ Table methods_table(const std::vector<Total>& totals) {
                          columns, totals));
 }
 
+/// For the terminal: the counts of `methods_table` as shares.
+Table shares_table(const std::vector<Total>& totals) {
+  const auto share = [](double count, const Total& t) -> std::optional<double> {
+    return t.unseen.shots > 0 ? std::optional(count / static_cast<double>(t.unseen.shots)) : std::nullopt;
+  };
+  const auto columns = columns_of<Total>(
+      text("method", "Way of detecting the hit.", &Total::method),
+      text("scalar", "Floating-point type the query is asked in.", &Total::scalar),
+      fields(&Total::tally, {"shots", "tunneled"}),
+      value("share", "1", "Tunneled, of the shots for which there is a theory.",
+            [=](const Total& t) { return share(static_cast<double>(t.unseen.counted), t); }),
+      value("theory", "1", "Of the same, by theory.", [=](const Total& t) { return share(t.unseen.expected, t); }),
+      value("worst_residual", "1", "Standard errors from theory, in the cell where that is most.",
+            &Total::worst_residual));
+  return table("methods",
+               "Each method over all of its cells; share and theory: of the shots for which there is a formula.",
+               columns, totals);
+}
+
 Table bounce_table(const std::vector<Total>& totals) {
   const auto columns = columns_of<Total>(
       text("method", "Way of detecting the hit.", &Total::method),
@@ -511,10 +530,7 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTes
   std::string summary =
       terminal(bullet_table(of_one_scalar(bullets)), {"method", "scalar", "probability", "theory", "lateness_mean",
                                                       "lateness_mean_theory", "lateness_max", "lateness_max_theory"}) +
-      "\n" +
-      terminal(methods_table(of_one_scalar(totals)),
-               {"method", "scalar", "shots", "tunneled", "theory_tunneled", "theory_expected", "worst_residual"}) +
-      "\n" + scalars_text(rows);
+      "\n" + terminal(shares_table(of_one_scalar(totals))) + "\n" + scalars_text(rows);
   for (const Total& t : of_one_scalar(totals)) {
     if (t.is_clean())
       summary += wrapped(fmt::format("{}: none of {}; chance per shot below {} (95 %, Clopper-Pearson).", t.method,

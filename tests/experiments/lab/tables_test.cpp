@@ -67,8 +67,8 @@ const std::vector<Row> rows = {{"closed_form", {10, 0.5, "infinite"}, {100, 0, 0
 TEST(Columns, a_field_stands_where_it_is_named_and_the_others_where_all_are) {
   EXPECT_EQ(csv_text(table("cells", "All.", columns(), rows)),
             "method,speed,step,wall,shots,tunneled,probability,lower,upper,latest,theory\n"
-            "closed_form,10,0.5,infinite,100,0,0,0,0.03699480747600191,0.25,0\n"
-            "end_of_step,10,0.5,infinite,100,25,0.25,0.17545158449660116,0.3430456330615172,,\n"
+            "closed_form,10,0.5,infinite,100,0,0,0,0.03699349820698568,0.25,0\n"
+            "end_of_step,10,0.5,infinite,100,25,0.25,0.17545211362287674,0.34304463548061603,,\n"
             "nothing,20,0.5,finite,0,0,,,,,\n");
 }
 
@@ -155,7 +155,7 @@ TEST(Plot, draws_a_series_for_each_value_with_the_intervals_of_its_column) {
   EXPECT_TRUE(panel.log_x);
   EXPECT_EQ(panel.series[1].label, "end_of_step");
   EXPECT_EQ(panel.series[1].y, std::vector{0.25});
-  EXPECT_EQ(panel.series[1].lower, std::vector{0.17545158449660116});
+  EXPECT_EQ(panel.series[1].lower, std::vector{0.17545211362287674});
   EXPECT_EQ(panel.series[2].mark, Mark::line);
   EXPECT_DOUBLE_EQ(panel.series[2].x[200], 10);
 }
