@@ -82,7 +82,9 @@ template <class Link> std::string for_report(std::string html, const std::string
   }
   return changed(html, "a href", [&](std::string_view element, std::string_view words) {
     const std::size_t from = element.find('"') + 1;
-    const std::string target = link(element.substr(from, element.find('"', from) - from));
+    const std::string_view address = element.substr(from, element.find('"', from) - from);
+    if (address.starts_with("http")) return fmt::format("{} ({})", words, address);  // a report stands alone
+    const std::string target = link(address);
     return target.empty() ? std::string(words) : fmt::format("<a href=\"{}\">{}</a>", target, words);
   });
 }
@@ -101,9 +103,7 @@ Target target_of(std::string_view address, const std::string& own_page) {
   return embedded_page(page).empty() ? Target() : Target{page, anchor};
 }
 
-bool is_of_another_run(std::string_view heading) {
-  return heading == "Results" || heading == "What to read from it";
-}
+bool is_of_another_run(std::string_view heading) { return heading == "Results" || heading == "What to read from it"; }
 
 }  // namespace
 
@@ -112,7 +112,6 @@ Prose prose_of(std::string_view experiment) {
   std::vector<std::string> linked;
   const auto in_report = [&](bool follow, const std::string& page) {
     return [&, follow, page](std::string_view address) -> std::string {
-      if (address.starts_with("http")) return std::string(address);
       const Target target = target_of(address, page);
       if (target.page.empty()) return "";
       if (follow && target.page != own && std::ranges::find(linked, target.page) == linked.end())

@@ -12,7 +12,8 @@ struct Prose {
   std::string pages;   ///< HTML of the pages that those link to, folded: a report needs no other file
 };
 
-/// Links lead to the section or the page in the report, or to the web; one to another file of the project becomes its words.
+/// Links lead to the section or the page in the report; one to another file of the project becomes its words, one to the web its
+/// words and the address.
 /// Empty where there is no such page.
 Prose prose_of(std::string_view experiment);
 

@@ -109,8 +109,8 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
   return fmt::format(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
-             "<title>{0}: {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<main id=\"top\">\n"
-             "<p class=\"kicker\">thinwall {3} &middot; {0} &middot; {4}</p>\n<h1>{1}</h1>\n",
+             "<title>{0}: {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<main>\n"
+             "<p class=\"kicker\" id=\"top\">thinwall {3} &middot; {0} &middot; {4}</p>\n<h1>{1}</h1>\n",
              html_escaped(run.experiment), html_escaped(run.question), report_style, html_escaped(run.build.version),
              utc_text(run.finished).substr(0, 10)) +
          paragraphs(outcome.answer, " class=\"answer\"") + verdict(outcome.self_test_passed) +
