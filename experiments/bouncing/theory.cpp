@@ -46,7 +46,7 @@ double BounceTheory::mean() const { return c0 + c2 / 3; }
 double BounceTheory::sigma() const { return std::sqrt(c1 * c1 / 3 + 4 * c2 * c2 / 45); }
 double BounceTheory::rms() const { return std::hypot(mean(), sigma()); }
 double BounceTheory::kurtosis() const {
-  const auto fourth = [&](double u) { return std::pow(at(u) - mean(), 4); };
+  const auto fourth = [&](double x) { return std::pow(at(x) - mean(), 4); };
   const double moment =
       boost::math::quadrature::gauss<double, 7>::integrate(fourth, -1.0, 1.0) / 2;  // exact to degree 13
   return moment / std::pow(sigma(), 4);

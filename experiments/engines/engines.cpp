@@ -271,7 +271,8 @@ Figure time_figure(const Rows& rows) {
     panel.y_label = "time a step [ns]";
     panel.log_y = true;
     Rows some = chosen(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
-    std::ranges::stable_partition(some, looks_at_poses);  // in the other pictures' order, and so with their marks
+    std::stable_partition(some.begin(), some.end(),
+                          looks_at_poses);  // in the other pictures' order, and so with their marks
     for (const Row& row : some) {
       const Interval time = time_interval(row), share = percent_interval(row);
       panel.series.push_back({.label = label_of(row),

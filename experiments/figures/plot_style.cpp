@@ -56,8 +56,8 @@ void set_look(std::vector<SeriesStyle>& styles) {
     style.color = look->color;
     style.point_type = style.label.ends_with(" float") ? look->filled : look->point_type;
     if (look->name != "substeps") continue;
-    constexpr std::array marks = {8, 10, 3, 9, 11};
-    style.point_type = marks[steps++ % marks.size()];
+    constexpr std::array of_substeps = {8, 10, 3, 9, 11};
+    style.point_type = of_substeps[steps++ % of_substeps.size()];
   }
   std::size_t lines = 0, colors = 0;
   for (SeriesStyle& style : styles) {

@@ -310,7 +310,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   std::vector<Task<GateTally>> shots;
   for (const auto& [cell, empty] : cells) {
     shots.push_back({fmt::format("gate {} {} {}", gate_target_name(cell.target), cell.path, cell.gate), cell.shots,
-                     [cell, how, seed = options.seed] { return shoot_at_gate(cell, how.rounds, seed); }});
+                     [cell = cell, how, seed = options.seed] { return shoot_at_gate(cell, how.rounds, seed); }});
   }
   const auto finish = [cells](const Done<PlanRace>& raced, const Done<GateTally>& shot) {
     std::vector<GateRow> rows = cells;

@@ -439,7 +439,7 @@ std::vector<Passage> passages(const StiffResults& results, const std::vector<dou
   });
   std::vector<Passage> all;
   for (const Group<ContactRow>& group : group_by(stiff, [](const ContactRow& r) { return method_of(r.contact); })) {
-    Passage& p = all.emplace_back(group[0]->contact, total_of(group, &ContactRow::tally));
+    Passage& p = all.emplace_back(Passage{group[0]->contact, total_of(group, &ContactRow::tally)});
     for (const ContactRow* r : group) {
       if (r->tally.escaped > 0) p.least_path = std::min(p.least_path, step_path(e, r->contact) / reach(e));
     }
