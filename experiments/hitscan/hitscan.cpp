@@ -38,7 +38,7 @@ std::string_view rule_name(const Row& row) { return row.rule.name; }
 // Of a row, or of a total.
 constexpr auto is_timed = [](const auto& row) { return row.tally.lateness.count > 0; };
 constexpr auto missed = [](const auto& row) { return row.tally.missed; };
-constexpr auto touched = [](const auto& row) { return row.tally.touching; };
+constexpr auto true_hits = [](const auto& row) { return row.tally.touching; };
 constexpr auto false_hits = [](const auto& row) { return row.tally.false_hits; };
 constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 
@@ -48,7 +48,7 @@ std::optional<double> quotient(double part, double whole) {
 std::optional<double> quotient(std::int64_t part, std::int64_t whole) {
   return quotient(static_cast<double>(part), static_cast<double>(whole));
 }
-std::optional<double> missed_share(const Row& row) { return quotient(missed(row), touched(row)); }
+std::optional<double> missed_share(const Row& row) { return quotient(missed(row), true_hits(row)); }
 std::optional<double> missed_share_theory(const Row& row) { return quotient(row.expected.missed, row.expected.touch); }
 std::optional<double> false_share_theory(const Row& row) {
   return quotient(row.expected.false_hits, row.expected.reported);
@@ -87,7 +87,7 @@ Columns<Row> row_columns() {
              value("touching_theory", "1", "Expected number of them.",
                    [](const Row& r) { return r.expected.touch * static_cast<double>(r.tally.shots); }),
              fields(&Row::tally, {"missed"}),
-             share("missed_share", "missed / touching; missing if nothing touches.", missed, touched, "missed_"),
+             share("missed_share", "missed / touching; missing if nothing touches.", missed, true_hits, "missed_"),
              value("missed_theory", "1", "The share by theory.", missed_share_theory),
              value("reported", "1", "Hits that the rule reports.", reported), fields(&Row::tally, {"false_hits"}),
              share("false_share", "false_hits / reported; missing if nothing is reported.", false_hits, reported,
@@ -248,7 +248,7 @@ Plot drawn(const Rows& rows) {
       text("rule", "", rule_name),
       text("bullet", "", [](const Row& r) { return fmt::format("bullet radius {:g} mm", 1e3 * r.cell.radius); }),
       value("off", "", "", off), value("time", "", "", time_of), value("speed", "", "", speed_there),
-      value("path_error", "", "", mean_path_error), share("missed", "", missed, touched, "missed_"),
+      value("path_error", "", "", mean_path_error), share("missed", "", missed, true_hits, "missed_"),
       share("false", "", false_hits, reported, "false_"),
       where(is_judged,
             value("residual", "", "",
@@ -451,7 +451,7 @@ std::string total_answer(const Total& t) {
     return fmt::format(
         "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; it "
         "misses {} of the true hits, and {} of its own are false. ",
-        t.lateness(), t.latest, percent(quotient(missed(t), touched(t))),
+        t.lateness(), t.latest, percent(quotient(missed(t), true_hits(t))),
         percent(quotient(false_hits(t), reported(t))));
   }
   if (t.rule == swept_steps.name) {
@@ -468,7 +468,7 @@ std::string answer_of(const Rows& rows, const std::vector<Total>& totals) {
   if (!text.empty()) return text;
   const Total& first = totals.front();
   return fmt::format("{} misses {} of {} true hits and makes {} false ones.", first.rule, grouped_text(missed(first)),
-                     grouped_text(touched(first)), grouped_text(false_hits(first)));
+                     grouped_text(true_hits(first)), grouped_text(false_hits(first)));
 }
 
 Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {

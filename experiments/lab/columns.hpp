@@ -112,6 +112,10 @@ template <class Get> struct ValueColumn {
                  }});
   }
 };
+template <class Get> ValueColumn(std::string, std::string, std::string, Get) -> ValueColumn<Get>;
+template <class Get>
+ValueColumn(std::string, std::string, std::string, Get, std::string, std::string) -> ValueColumn<Get>;
+
 template <class Get> ValueColumn<Get> value(std::string name, std::string unit, std::string description, Get get) {
   return {std::move(name), std::move(unit), std::move(description), std::move(get)};
 }
