@@ -6,6 +6,7 @@
 
 namespace thinwall {
 
+// NOLINTBEGIN(bugprone-macro-parentheses): what they are given are types.
 #define THINWALL_OF_SCALAR(S)                                                                                       \
   THINWALL_INSTANTIATION Entry<S> rounded_segment_entry_rescaled<S>(const Vec3<S>&, const Vec3<S>&, const Vec3<S>&, \
                                                                     const S&);                                      \
@@ -24,5 +25,6 @@ THINWALL_OF_SCALAR(float);
 THINWALL_OF_SCALAR(double);
 THINWALL_OF_SCALAR(long double);
 #undef THINWALL_OF_SCALAR
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace thinwall

@@ -13,6 +13,7 @@
 
 namespace thinwall {
 
+// NOLINTBEGIN(bugprone-macro-parentheses): what they are given are types.
 #define THINWALL_OF_SCALAR(S)                                                                              \
   THINWALL_INSTANTIATION S norm_out_of_range<S>(const Vec3<S>&);                                           \
   THINWALL_INSTANTIATION Vec3<S> unit_out_of_range<S>(const Vec3<S>&);                                     \
@@ -40,5 +41,6 @@ THINWALL_OF_SCALAR(float);
 THINWALL_OF_SCALAR(double);
 THINWALL_OF_SCALAR(long double);
 #undef THINWALL_OF_SCALAR
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace thinwall

@@ -7,6 +7,7 @@
 
 namespace thinwall {
 
+// NOLINTBEGIN(bugprone-macro-parentheses): what they are given are types.
 #define THINWALL_OF_SCALAR(S)                                                                                        \
   THINWALL_INSTANTIATION Entry<S> walk_around_box<S>(const SlabTimes<S>&, const Vec3<S>&, const Vec3<S>&, const S&); \
   THINWALL_INSTANTIATION Entry<S> rounded_box_entry_rescaled<S>(const Vec3<S>&, const Vec3<S>&, const Vec3<S>&,      \
@@ -54,5 +55,6 @@ THINWALL_SETTLED(Aabb, Sphere);
 THINWALL_SETTLED(Aabb, Aabb);
 THINWALL_SETTLED(Obb, Sphere);
 #undef THINWALL_SETTLED
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace thinwall

@@ -338,9 +338,10 @@ std::string confirm_answer(const std::vector<Row>& rows, const Total& total) {
       grouped_text(t.touching), percent(share_of(t.missed, t.touching)),
       percent(share_of(total.missed_theory, t.touching)), percent(total.least_missed), percent(total.most_missed));
   for (const Row& row : rows) {
-    if (row.cell == head_on && row.rule == total.rule)
+    if (row.cell == head_on && row.rule == total.rule) {
       text += fmt::format(", and {} where two bullets meet head-on",
                           percent(share_of(row.tally.missed, row.tally.touching)));
+    }
   }
   text += fmt::format(
       ". It looks once, when a ray from the faster center enters the slower one's track. In {} of the misses the ray, which "

@@ -490,10 +490,11 @@ std::string foil_answer(const std::vector<Row>& rows) {
       asked = true;
       if (row.tally.far_wrong > 0) first = std::min(first.value_or(row.place.value), row.place.value);
     }
-    if (asked)
+    if (asked) {
       parts.push_back(
           (first ? fmt::format("from {} R {}", spoken(*first), parts.empty() ? "apart " : "") : "at no distance ") +
           in_precision(p));
+    }
   }
   return parts.empty() ? "" : fmt::format("The textbook's formula gets two balls wrong {}. ", listed(parts));
 }
@@ -514,9 +515,10 @@ std::string others_answer(const std::vector<Row>& rows, const std::vector<Rung>&
     others.push_back(fmt::format("{} {}on {}", rung.method, others.empty() ? "breaks " : "",
                                  broken > 0 ? std::to_string(broken) : "none"));
   }
-  if (at_once > 0)
+  if (at_once > 0) {
     clauses.push_back(fmt::format("{} {} where nothing is extreme", plural_text(at_once, "other method"),
                                   at_once == 1 ? "breaks" : "break"));
+  }
   if (!others.empty())
     clauses.push_back(fmt::format("of {} {}", plural_text(ways, "way") + " outward", listed(others)));
   if (clauses.empty()) return "";
@@ -547,19 +549,21 @@ std::string ladder_text(const std::vector<Rung>& rungs, std::size_t precision, P
   std::string text;
   if (!shown.empty())
     text = terminal(table("ladder", fmt::format("{}, {}.", title_of(precision), pairs_name(pairs)), columns, shown));
-  if (!at_once.empty())
+  if (!at_once.empty()) {
     text += wrapped(fmt::format(
         "{}: {}", shown.empty() ? fmt::format("{}, {}, at once", title_of(precision), pairs_name(pairs)) : "At once",
         fmt::join(at_once, ", ")));
+  }
   return text.empty() ? text : text + "\n";
 }
 
 std::string self_test_words(const std::vector<LadderTest>& tests) {
   std::string failed;
   for (const LadderTest& t : tests) {
-    if (!t.passed())
+    if (!t.passed()) {
       failed += fmt::format("FAILED: {}, {}: {:.3g}, allowed {:.3g} to {:.3g}, at {}.\n", t.what, title_of(t.precision),
                             t.measured, t.least, t.most, t.where);
+    }
   }
   return fmt::format("{} of {} passed.\n{}", std::ranges::count_if(tests, &LadderTest::passed), tests.size(), failed);
 }

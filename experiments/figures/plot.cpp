@@ -48,13 +48,13 @@ void require_drawable(const Figure& figure) {
 }
 
 /// Half a unit beyond all values: cells side by side.
-Axis axis_of_names(std::span<const double> values) {
+DrawnAxis axis_of_names(std::span<const double> values) {
   if (values.empty()) return {};
   const auto [least, most] = std::ranges::minmax(values);
   return {false, least - 0.6, most + 0.6};
 }
 
-Axis x_axis(std::span<const Panel> panels) {
+DrawnAxis x_axis(std::span<const Panel> panels) {
   std::vector<double> values;
   for (const Panel& panel : panels) {
     for (const Series& series : panel.series) {
@@ -72,7 +72,7 @@ Axis x_axis(std::span<const Panel> panels) {
   return axis_around(values, panels[0].log_x);
 }
 
-Axis y_axis(const Panel& panel) {
+DrawnAxis y_axis(const Panel& panel) {
   std::vector<double> values;
   for (const Series& series : panel.series) {
     for (const auto* list : {&series.y, &series.lower, &series.upper}) {
@@ -86,7 +86,7 @@ Axis y_axis(const Panel& panel) {
   return axis_around(values, panel.log_y);
 }
 
-std::string axis_lines(char name, const Axis& axis, double pixels, double spacing, bool labeled) {
+std::string axis_lines(char name, const DrawnAxis& axis, double pixels, double spacing, bool labeled) {
   const bool powers = axis.log && axis.upper / axis.lower >= 1e4;
   const std::string steps = tics(axis, pixels, spacing);
   return fmt::format(
@@ -99,7 +99,8 @@ std::string axis_lines(char name, const Axis& axis, double pixels, double spacin
 }
 
 /// The same for an axis whose tics have names, or are named on the other side, as x2.
-std::string named_axis_lines(std::string_view name, const Axis& axis, const std::vector<Tic>& named, bool labeled) {
+std::string named_axis_lines(std::string_view name, const DrawnAxis& axis, const std::vector<Tic>& named,
+                             bool labeled) {
   std::vector<std::string> list;
   for (const Tic& tic : named) {
     list.push_back(fmt::format("{} {}", spelled(labeled ? tic.label : ""), rounded_text(tic.at, 9)));
@@ -193,7 +194,7 @@ std::string plot_script(const Figure& figure) {
   require_drawable(figure);
   const auto styles = series_styles(figure);
   const PlotLayout layout = plot_layout(figure, styles);
-  const Axis shared_x = x_axis(figure.panels);
+  const DrawnAxis shared_x = x_axis(figure.panels);
   std::string out = preamble(figure, styles, layout);
   std::size_t block = 0;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
@@ -203,7 +204,7 @@ std::string plot_script(const Figure& figure) {
     const auto up = [&](double y) { return 1 - y / layout.height; };
     out += fmt::format("\n# Panel {}\nset tmargin at screen {:.5f}; set bmargin at screen {:.5f}\n", p + 1, up(box.top),
                        up(box.bottom));
-    const Axis x = layout.shared_x ? shared_x : x_axis({&panel, 1});
+    const DrawnAxis x = layout.shared_x ? shared_x : x_axis({&panel, 1});
     out += panel.x_tics.empty() ? axis_lines('x', x, layout.right - layout.left, 80, x_labeled)
                                 : named_axis_lines("x", x, panel.x_tics, x_labeled);
     out += panel.y_tics.empty() ? axis_lines('y', y_axis(panel), box.bottom - box.top, 44, true)

@@ -20,7 +20,7 @@ double round_step(double step) {
 }
 
 /// 1, 2 and 5 in each decade, as a list.
-std::string one_two_five(const Axis& axis) {
+std::string one_two_five(const DrawnAxis& axis) {
   std::string list;
   for (int power = static_cast<int>(std::floor(std::log10(axis.lower))); std::pow(10, power) <= axis.upper; ++power) {
     for (const int factor : {1, 2, 5}) {
@@ -33,7 +33,7 @@ std::string one_two_five(const Axis& axis) {
 
 }  // namespace
 
-Axis axis_around(std::span<const double> values, bool log) {
+DrawnAxis axis_around(std::span<const double> values, bool log) {
   constexpr double air = 0.04;            // [1] of the length of the axis
   constexpr double least_drawn = 1e-300;  // gnuplot divides an axis, and must not come upon subnormal numbers
   std::vector<double> shown;
@@ -54,7 +54,7 @@ Axis axis_around(std::span<const double> values, bool log) {
   return {false, lower, upper};
 }
 
-std::string tics(const Axis& axis, double pixels, double spacing) {
+std::string tics(const DrawnAxis& axis, double pixels, double spacing) {
   const double most = std::max(2.0, pixels / spacing);
   if (!axis.log) return rounded_text(round_step((axis.upper - axis.lower) / most), 3);
   const double decades = std::log10(axis.upper / axis.lower);

@@ -10,15 +10,15 @@ namespace thinwall {
 /// Significant digits of the ends of an axis in a script.
 inline constexpr int axis_digits = 6;
 
-struct Axis {
+struct DrawnAxis {
   bool log = false;
   double lower = 0, upper = 1;
 };
 
 /// An axis that shows every finite value (on a logarithmic one: every positive value) with a little air around them.
-Axis axis_around(std::span<const double> values, bool log);
+DrawnAxis axis_around(std::span<const double> values, bool log);
 
 /// What follows `set xtics` in gnuplot, for an axis of so many pixels that `spacing` of them are enough between two tics.
-std::string tics(const Axis& axis, double pixels, double spacing);
+std::string tics(const DrawnAxis& axis, double pixels, double spacing);
 
 }  // namespace thinwall

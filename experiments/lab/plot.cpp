@@ -112,9 +112,10 @@ Plot::operator Panel() const {
     most = std::max(most, *at);
     const std::string label = by_.empty() ? label_ : exact_text(row[place_of(by_)]);
     auto series = std::ranges::find(panel.series, label, &Series::label);
-    if (series == panel.series.end())
+    if (series == panel.series.end()) {
       series = panel.series.insert(panel.series.end(),
                                    {.label = label, .mark = mark_, .x = {}, .y = {}, .lower = {}, .upper = {}});
+    }
     series->x.push_back(*at);
     series->y.push_back(*value);
     if (!has_bars) continue;

@@ -98,6 +98,7 @@ template <Record T> T& operator+=(T& into, const T& more);
 
 namespace detail {
 
+// NOLINTBEGIN(bugprone-branch-clone): branches of `if constexpr` are alike in words, not in types.
 template <class V> void merge(Merge how, V& into, const V& more) {
   if (how == Merge::kept) {
     if constexpr (std::equality_comparable<V>) {
@@ -159,6 +160,8 @@ template <class V> void read(JournalReader& in, V& value) {
     value = in.text();
   }
 }
+
+// NOLINTEND(bugprone-branch-clone)
 
 }  // namespace detail
 

@@ -230,9 +230,10 @@ std::string savings_text(const PlanRace& race) {
   if (best == nullptr || full == nullptr) return "";
   std::string text =
       fmt::format(" {}: {} times as long without any omission", race.scene, rounded_text(full->ratio(), 3));
-  if (best->ratio() > 1 + noise)
+  if (best->ratio() > 1 + noise) {
     text += fmt::format(", {} times with the omission of {} alone taken back", rounded_text(best->ratio(), 3),
                         best->way.name);
+  }
   return text + ".";
 }
 

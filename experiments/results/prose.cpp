@@ -130,8 +130,7 @@ Prose prose_of(std::string_view experiment) {
     if (is_limits) markdown = markdown.substr(markdown.find('\n') + 1);  // the report has a heading for it
     (is_limits ? prose.limits : prose.method) += for_report(html_of(markdown), own, in_report(true, own));
   }
-  for (std::size_t i = 0; i < linked.size(); ++i) {
-    const std::string page = linked[i];
+  for (const std::string& page : linked) {
     const std::string_view text = embedded_page(page);
     const std::string_view title = text.substr(2, text.find('\n') - 2);  // after `# `
     std::string html;

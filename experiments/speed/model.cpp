@@ -233,9 +233,10 @@ std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds) {
         auto found = std::ranges::find_if(all, [&](const TimedWay& c) {
           return c.program == program && c.kind == row.kind && c.subject == row.subject && c.way == row.way;
         });
-        if (found == all.end())
+        if (found == all.end()) {
           found = all.insert(
               all.end(), {.program = std::string(program), .kind = row.kind, .subject = row.subject, .way = row.way});
+        }
         add_round(*found, row);
       }
     }

@@ -524,9 +524,10 @@ std::string stiff_summary(const StiffResults& results, const std::vector<StiffCl
 
 std::vector<Section> stiff_sections(const StiffResults& results, const std::vector<StiffClaim>& claims) {
   std::string tests, fronts;
-  for (const StiffClaim& c : claims)
+  for (const StiffClaim& c : claims) {
     tests += fmt::format("{}: {} in {} of {} cells. ", c.text, c.passed() ? "holds" : "FAILED", c.judged - c.wrong,
                          c.judged);
+  }
   for (const double ratio : results.plan.bounce_ratios) {
     std::string front;
     for (const RaceRow& r : front_of(results.racers, ratio)) {

@@ -354,13 +354,14 @@ Figure probability_figure(const std::vector<Row>& infinite) {
   const std::vector<Row> judged = chosen(infinite, is_judged);
   const Panel top = points(thinned(infinite, step_ratio), step_ratio, "probability", "tunneling probability [1]");
   Panel bottom = points(judged, step_ratio, "residual", "residual [std. errors]").height(0.45);
-  for (const double y : {-1.96, 1.96})
+  for (const double y : {-1.96, 1.96}) {
     bottom.series.push_back({.label = "95 % of residuals",
                              .mark = Mark::dashes,
                              .x = {left, right},
                              .y = {y, y},
                              .lower = {},
                              .upper = {}});
+  }
   return {
       .name = "probability",
       .title = "How often a ball passes a thin wall unseen",
@@ -532,9 +533,10 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTes
                                                       "lateness_mean_theory", "lateness_max", "lateness_max_theory"}) +
       "\n" + terminal(shares_table(of_one_scalar(totals))) + "\n" + scalars_text(rows);
   for (const Total& t : of_one_scalar(totals)) {
-    if (t.is_clean())
+    if (t.is_clean()) {
       summary += wrapped(fmt::format("{}: none of {}; chance per shot below {} (95 %, Clopper-Pearson).", t.method,
                                      grouped_text(t.tally.shots), rounded_text(t.upper(), 2)));
+    }
   }
   summary += fmt::format("Self-test: counts {}, evenly spread phases {}, lateness {}.\n", verdict(counts_pass),
                          verdict(stratified_pass), verdict(lateness_pass));

@@ -51,9 +51,10 @@ std::vector<Row> trailing_rows(const std::vector<Heat>& heats) {
   for (const Heat& heat : heats) {
     if (heat.kind != QueryClass::hit) continue;
     const Racer* exact = closed_form_of(heat);
-    for (const Racer* r : one_a_method(heat))
+    for (const Racer* r : one_a_method(heat)) {
       rows.push_back({&heat, r, nanoseconds(*r), false, false_share(heats, heat, *r),
                       exact != nullptr ? std::optional(slowdown(*r, *exact)) : std::nullopt});
+    }
   }
   return rows;
 }
