@@ -174,10 +174,10 @@ TEST(PlotStyle, is_one_look_a_label) {
 
 TEST(PlotAxis, shows_every_value_and_skips_what_it_cannot_show) {
   const std::vector<double> values = {0, 1, std::nan(""), 100};
-  const Axis linear = axis_around(values, false);
+  const DrawnAxis linear = axis_around(values, false);
   EXPECT_LT(linear.lower, 0);
   EXPECT_GT(linear.upper, 100);
-  const Axis log = axis_around(values, true);
+  const DrawnAxis log = axis_around(values, true);
   EXPECT_LT(log.lower, 1);
   EXPECT_GT(log.lower, 0.5);
   EXPECT_GT(log.upper, 100);
