@@ -13,8 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/broad_phase/crowd.hpp>
-#include <thinwall/experiments/broad_phase/finder.hpp>
+#include <thinwall/experiments/broad_phase/model.hpp>
 
 #include "median_times.hpp"
 
@@ -30,7 +29,7 @@ struct Steps {
 };
 
 Steps steps_of(std::int64_t count, double speed) {
-  const Crowd crowd = make_crowd({.clustered = false, .speed = speed, .density = 0.1, .count = count}, 1);
+  const Crowd crowd = make_crowd({.placement = "uniform", .speed = speed, .count = count, .density = 0.1}, 1);
   return {proxies_of(crowd), proxies_of(next_step(crowd))};
 }
 

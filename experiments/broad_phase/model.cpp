@@ -44,6 +44,8 @@ template <class Method> class OwnFinder final : public Finder {
   std::vector<ProxyPair> pairs_;
 };
 
+}  // namespace
+
 std::unique_ptr<Finder> make_finder(std::string_view name) {
   if (name == bullet_build_name) return make_bullet_finder(false);
   if (name == bullet_step_name) return make_bullet_finder(true);
@@ -53,6 +55,8 @@ std::unique_ptr<Finder> make_finder(std::string_view name) {
   });
   return finder;
 }
+
+namespace {
 
 /// Both sorted.
 std::int64_t count_in_first_only(const std::vector<ProxyPair>& a, const std::vector<ProxyPair>& b) {

@@ -63,6 +63,9 @@ class Finder {
 /// All that this program has, in the order of tables.
 std::vector<std::string_view> finder_names();
 
+/// `name` is one of those.
+std::unique_ptr<Finder> make_finder(std::string_view name);
+
 /// The names of Bullet's, in the program or not.
 inline constexpr std::string_view bullet_build_name = "bullet_build";  ///< its tree built anew
 inline constexpr std::string_view bullet_step_name = "bullet_step";    ///< its tree moved on from the last call
