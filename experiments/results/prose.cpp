@@ -80,6 +80,9 @@ template <class Link> std::string for_report(std::string html, const std::string
       return fmt::format("<h{0} id=\"{1}\">{2}</h{0}>", lower, page + "." + anchor_of(words), words);
     });
   }
+  html = changed(html, "table", [](std::string_view, std::string_view rows) {  // scrolls where the screen is narrow
+    return fmt::format("<div class=\"wide\" tabindex=\"0\"><table>{}</table></div>", rows);
+  });
   return changed(html, "a href", [&](std::string_view element, std::string_view words) {
     const std::size_t from = element.find('"') + 1;
     const std::string_view address = element.substr(from, element.find('"', from) - from);
