@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/world.hpp>
 
 #include "floors.hpp"

@@ -5,7 +5,7 @@
 
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/scene.hpp>
-#include <thinwall/experiments/scenes/compare_results.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/figure.hpp>
-#include <thinwall/experiments/table.hpp>
+#include <thinwall/experiments/lab/figure.hpp>
+#include <thinwall/experiments/lab/table.hpp>
 
 namespace thinwall {
 

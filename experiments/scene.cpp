@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/tasks.hpp>
-#include <thinwall/experiments/scenes/playback.hpp>
-#include <thinwall/experiments/scenes/scene_results.hpp>
-#include <thinwall/experiments/scenes/trace.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

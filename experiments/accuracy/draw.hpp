@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/experiments/accuracy/judge.hpp>
-
 namespace thinwall {
 
 namespace {

@@ -1,15 +1,83 @@
 #pragma once
-/// Which method to take. Nothing is measured or printed in here: costs come in, the advice goes out.
+/// What to use under given conditions: `advise`, and what a run's configuration should be warned of.
 
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include <thinwall/experiments/advise/candidates.hpp>
-#include <thinwall/experiments/advise/cost.hpp>
-#include <thinwall/experiments/advise/wish.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/thin_wall/methods.hpp>
+#include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
+
+// ---- What the user of `thinwall advise` says: how the ball flies, and what must not happen to it.
+
+/// [1] What a chance or a ratio may be off by for rounding; a chance no larger is none.
+inline constexpr double no_chance = 0x1p-50;
+
+struct Wish {
+  Cell cell;                        ///< the wall is infinite
+  double miss = 0;                  ///< [1] the largest acceptable chance that a shot tunnels, 0 to 1
+  std::optional<double> late = {};  ///< [m] >= 0: the farthest a ball may get past first contact before it is seen
+};
+
+/// The words behind the options, where given.
+struct WishWords {
+  std::optional<std::string> speed, radius, thickness, angle, step, fps, miss, late;
+};
+
+/// Throws UsageError.
+Wish read_wish(const WishWords& words);
+
+// ---- Whom the advice chooses from: every method of the method list, as the thin wall fires it in double, and the certified
+// answers. A method added to the list is here by itself; without a theory in thin_wall/methods.cpp it is never
+// advised.
+
+struct Candidate {
+  std::string name;  ///< as the thin wall calls it: substeps_8
+  int poses;         ///< [1] that it tests a step and nothing else; 0 if it does more
+  bool fired;        ///< the thin wall can fire it
+  std::function<Theory(const Cell&)> theory;
+  std::function<void(std::span<const ShotStep>)> ask;  ///< to be timed
+};
+
+/// The numbers of poses a step that are offered: 2, 8, and the fewest that meet the wish if they are 2 to 1000.
+std::vector<std::int64_t> offered_poses(const Wish& wish);
+
+std::vector<Candidate> candidates(const Wish& wish);
+
+// ---- What a step costs on this machine, method by method.
+
+struct QueryTime {
+  double median;    ///< [ns]
+  Interval spread;  ///< [ns] 95 %, of the median
+};
+
+/// Of one query. Which of the two kinds of steps is dearer differs from method to method.
+struct StepCost {
+  QueryTime clear;    ///< a step that ends before the wall
+  QueryTime contact;  ///< the next one, in which the ball touches it
+
+  const QueryTime& dearer() const { return clear.median > contact.median ? clear : contact; }
+};
+
+struct TimingEffort {
+  std::int64_t queries = 2048;  ///< of each kind
+  std::int64_t rounds = 61;
+  double round_ns = 1e6;  ///< a method's turn in a round takes at most about this long
+};
+
+/// `result[i]` is of `candidates[i]`. Takes about a second at most.
+std::vector<StepCost> measure_costs(const Cell& cell, std::span<const Candidate> candidates,
+                                    const TimingEffort& effort = {});
+
+// ---- Which method to take. Nothing is measured or printed in here: costs come in, the advice goes out.
 
 struct AdviceRow {
   Candidate method;
@@ -35,5 +103,38 @@ std::optional<double> longest_step(const Wish& wish, const std::function<Theory(
 /// Advised is the cheapest that meets the wish, by the dearer of its two kinds of steps. Of those whose cost cannot be told
 /// from its cost, because the intervals overlap, it is the one that is least late.
 Advice advise(const Wish& wish, std::span<const Candidate> candidates, std::span<const StepCost> costs);
+
+// ---- Numbers in the words of the advice.
+
+std::string percent_text(double chance);       ///< "70 %", "0"
+std::string tunnel_words(double chance);       ///< "no shot tunnels", "1 % of the shots tunnel"
+std::string question_words(const Wish& wish);  ///< two sentences, a line each: what flies, and its measures
+std::string wanted_words(const Wish& wish);    ///< "no shot tunnels, and ..."
+
+/// As rounded_text, but never more than `value` > 0: a bound that is safe to keep to.
+std::string rounded_down_text(double value, int digits);
+
+/// `text` in lines of at most `width` columns, broken between words, each ended by a newline.
+std::string wrapped(const std::string& text, std::size_t width = 100);
+
+// ---- The advice in words, for a terminal, and as JSON, for a script.
+
+/// The advice itself: a sentence or two, of one line.
+std::string advice_sentence(const Advice& advice);
+
+/// All of it, at most 100 columns wide, ended by a newline.
+std::string advice_text(const Advice& advice);
+
+/// Every number, keys in order.
+nlohmann::ordered_json advice_json(const Advice& advice);
+
+// ---- The configuration of the thin wall that puts the advice to the test.
+
+/// The first line of it.
+inline constexpr const char* check_config_title = "# Puts an advice of `thinwall advise` to the test.";
+
+/// TOML with the wish's very cell and every candidate that the experiment can fire; what theory expects of each is a
+/// comment. Throws UsageError if the experiment refuses the cell.
+std::string check_config(const Wish& wish, std::span<const Candidate> candidates);
 
 }  // namespace thinwall

@@ -1,14 +1,124 @@
-#include <thinwall/experiments/advise/advice_text.hpp>
+#include <thinwall/experiments/advise/advice.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/advise/words.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
+
+std::string percent_text(double chance) { return chance <= no_chance ? "0" : rounded_text(100 * chance, 3) + " %"; }
+
+std::string tunnel_words(double chance) {
+  if (chance <= no_chance) return "no shot tunnels";
+  if (chance == 1) return "every shot tunnels";
+  return percent_text(chance) + " of the shots tunnel";
+}
+
+std::string question_words(const Wish& wish) {
+  const Cell& cell = wish.cell;
+  const auto number = [](double x) { return rounded_text(x, 4); };
+  const std::string angle =
+      cell.angle_deg == 0 ? "head-on" : fmt::format("at {} deg from its normal", exact_text(cell.angle_deg));
+  std::string text = wrapped(fmt::format(
+      "A ball of radius {} m flies at {} m/s at a wall {} m thick, {}, {} steps a second.", exact_text(cell.radius),
+      exact_text(cell.speed), exact_text(cell.thickness), angle, number(1 / cell.step)));
+  const double contact = slab_chord(cell);
+  if (contact == 0) {
+    return text + wrapped(
+                      "A point and a wall of no thickness are in contact for an instant: every pose that is tested "
+                      "misses it, and a method that wants to see the contact again at the time it found does so or not "
+                      "as rounding has it.");
+  }
+  const double steps = contact / step_length(cell);
+  return text +
+         wrapped(fmt::format("A step is {} s and {} m long; of its path, {} m are in contact with the wall: {}.",
+                             number(cell.step), number(step_length(cell)), number(contact),
+                             steps < 1 ? percent_text(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
+}
+
+std::string wanted_words(const Wish& wish) {
+  std::string text = wish.miss == 0   ? "no shot tunnels"
+                     : wish.miss == 1 ? "whatever: any number of shots may tunnel"
+                                      : fmt::format("at most {} of the shots tunnel", percent_text(wish.miss));
+  if (wish.late) text += fmt::format(", and none is seen more than {} m past first contact", exact_text(*wish.late));
+  return text;
+}
+
+std::string rounded_down_text(double value, int digits) {
+  const double near = std::stod(rounded_text(value, digits));
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
+  return rounded_text(near <= value ? near : near - unit, digits);
+}
+
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::istringstream words(text);
+  std::string out, line;
+  for (std::string word; words >> word;) {
+    if (!line.empty() && line.size() + 1 + word.size() > width) {
+      out += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return out + line + "\n";
+}
+
+namespace {
+
+std::string seen(const AdviceRow& row) {
+  const double latest = row.theory.largest_lateness().value_or(-1);
+  if (latest < 0) return "how late it is seen has no formula";
+  if (latest == 0) return "none is seen late";
+  return fmt::format("none is seen more than {} m late", rounded_text(latest, 3));
+}
+
+/// The least, or as little as the measurement can tell.
+std::string how_cheap(const Advice& advice) {
+  const auto meeting = std::ranges::count_if(advice.rows, [](const AdviceRow& row) { return row.meets; });
+  const double own = advice.advised()->cost.dearer().median;
+  const bool tied = std::ranges::any_of(
+      advice.rows, [&](const AdviceRow& row) { return row.meets && row.cost.dearer().median < own; });
+  if (meeting == 1) return "no other method here meets the wish";
+  return fmt::format("{} of the {} methods here that meet the wish", tied ? "as little as any" : "the least", meeting);
+}
+
+/// Seen is not saved: docs/tunneling_theory.md.
+std::string pushed_through(const Advice& advice) {
+  const std::optional<double>& through = advice.advised()->theory.through;
+  if (!through || *through <= advice.wish.miss + no_chance) return "";
+  return fmt::format(" If a ball in the wall is pushed out the shorter way, {} go through, seen or not.",
+                     percent_text(*through));
+}
+
+/// What would become of the simplest method.
+std::string simplest(const Advice& advice) {
+  const auto end = std::ranges::find_if(advice.rows, [](const AdviceRow& row) { return row.method.poses == 1; });
+  if (end == advice.rows.end() || end->meets) return "";
+  if (!end->longest_step) return " Testing only the end of each step would not do at any step.";
+  const double longest = *end->longest_step;
+  if (longest > 0.5) {
+    return fmt::format(" Testing only the end of each step would do at steps of {} s and less.",
+                       rounded_down_text(longest, 4));
+  }
+  return fmt::format(" Testing only the end of each step would do from {} steps a second on.",
+                     longest > 1e-12 ? grouped_text(std::llround(std::ceil(1 / longest))) : exact_text(1 / longest));
+}
+
+}  // namespace
+
+std::string advice_sentence(const Advice& advice) {
+  const AdviceRow* best = advice.advised();
+  if (best == nullptr) return "No method here meets the wish at this step.";
+  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
+                     tunnel_words(best->theory.probability.value_or(0)), seen(*best),
+                     rounded_text(best->cost.dearer().median, 3), how_cheap(advice), pushed_through(advice),
+                     simplest(advice));
+}
 
 namespace {
 
@@ -80,6 +190,50 @@ std::string advice_text(const Advice& advice) {
              "A clear step ends before the wall, in the next is contact; a query of each, on this machine: the median and a "
              "95 % interval. A method counts by the dearer of the two.") +
          "\n" + formulas_text(advice) + "\n" + wrapped(limits);
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json optional_number(const std::optional<double>& number) {
+  return number ? ordered_json(*number) : ordered_json();
+}
+
+ordered_json time_json(const QueryTime& time) {
+  return {{"median", time.median}, {"lower", time.spread.lower}, {"upper", time.spread.upper}};
+}
+
+ordered_json row_json(const AdviceRow& row, double step_length) {
+  const std::optional<double>& chance = row.theory.probability;
+  const std::optional<double> latest = row.theory.largest_lateness();
+  return {{"method", row.method.name},
+          {"meets", row.meets},
+          {"chance", optional_number(chance)},
+          {"chance_formula", chance ? ordered_json(row.theory.why) : ordered_json()},
+          {"latest_m", optional_number(latest)},
+          {"latest_steps", latest ? ordered_json(*latest / step_length) : ordered_json()},
+          {"latest_formula", latest ? ordered_json(row.theory.why_late) : ordered_json()},
+          {"longest_step_s", optional_number(row.longest_step)},
+          {"clear_ns", time_json(row.cost.clear)},
+          {"contact_ns", time_json(row.cost.contact)},
+          {"in_experiment", row.method.fired}};
+}
+
+}  // namespace
+
+ordered_json advice_json(const Advice& advice) {
+  const Cell& cell = advice.wish.cell;
+  ordered_json json = {
+      {"speed_m_s", cell.speed},       {"radius_m", cell.radius},  {"thickness_m", cell.thickness},
+      {"angle_deg", cell.angle_deg},   {"step_s", cell.step},      {"step_m", step_length(cell)},
+      {"contact_m", slab_chord(cell)}, {"miss", advice.wish.miss}, {"late_m", optional_number(advice.wish.late)}};
+  const AdviceRow* best = advice.advised();
+  json["method"] = best == nullptr ? ordered_json() : ordered_json(best->method.name);
+  json["advice"] = advice_sentence(advice);
+  json["methods"] = ordered_json::array();
+  for (const AdviceRow& row : advice.rows) json["methods"].push_back(row_json(row, step_length(cell)));
+  return json;
 }
 
 }  // namespace thinwall

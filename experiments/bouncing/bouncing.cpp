@@ -15,12 +15,12 @@
 #include <thinwall/experiments/bouncing/theory.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
-#include <thinwall/experiments/lab/rounds.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

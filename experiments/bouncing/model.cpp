@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 

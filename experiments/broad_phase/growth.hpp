@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <thinwall/experiments/broad_phase/model.hpp>
-#include <thinwall/experiments/lab/rounds.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 
 namespace thinwall {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <thinwall/discrete/broad_phase.hpp>
-#include <thinwall/experiments/lab/rounds.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 

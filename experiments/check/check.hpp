@@ -1,13 +1,48 @@
 #pragma once
-/// Whether a result folder is what its manifest says, and what a result owes its reader.
+/// Whether a folder is whole: its data, its pages, its figures.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include <thinwall/experiments/lab/result_folder.hpp>
+
 namespace thinwall {
+
+// ---- Whether a result folder is what its manifest says, and what a result owes its reader.
 
 /// What is wrong, a line each, beginning with the file; empty if nothing is. Reads every file of the folder.
 std::vector<std::string> check_result(const std::filesystem::path& folder);
+
+// ---- The parts of a check. Each adds what it finds wrong to `faults`, a line each, beginning with the file.
+
+inline constexpr const char* page_file = "report.html";
+
+using Faults = std::vector<std::string>;
+
+/// datapackage.json against the rules of a Tabular Data Package, and each of its tables against it. Returns the paths of the
+/// tables.
+std::vector<std::string> check_data(const std::filesystem::path& folder, Faults& faults);
+
+/// The script, the data and the SVG of each figure.
+void check_figures(const std::filesystem::path& folder, Faults& faults);
+
+/// The title of the figure that a script draws; empty if it has none.
+std::string title_of_script(const std::string& script);
+
+/// report.html: whole, it shows what the folder holds, and it stands alone.
+void check_page(const KeptResult& result, Faults& faults);
+
+/// Each SVG that the manifest names stands in the page.
+void check_page_figures(const KeptResult& result, const std::string& page, Faults& faults);
+
+/// Each table of tables/ stands in the page, cell for cell.
+void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults);
+
+/// Nothing in the page asks a host for anything, or runs; every link leads to something.
+void check_stands_alone(const KeptResult& result, const std::string& page, Faults& faults);
+
+/// resolved.toml and cite.bib.
+void check_texts(const KeptResult& result, Faults& faults);
 
 }  // namespace thinwall

@@ -1,12 +1,19 @@
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
-#include <thinwall/experiments/check/parts.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/file_text.hpp>
+#include <thinwall/experiments/check/check.hpp>
+#include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
+#include <thinwall/experiments/lab/svg.hpp>
 
 namespace thinwall {
+
 namespace {
 
 void check_content(const KeptResult& result, const std::string& page, Faults& faults) {
@@ -49,6 +56,306 @@ void check_page(const KeptResult& result, Faults& faults) {
   check_page_figures(result, page, faults);
   check_page_tables(result, page, faults);
   check_stands_alone(result, page, faults);
+}
+
+namespace {
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// `1.5e-07` as `1.5e-7`.
+std::string short_exponents(const std::string& text) {
+  std::string out;
+  const auto is_digit = [](char letter) { return '0' <= letter && letter <= '9'; };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    out += text[at];
+    if (text[at] != 'e' || at == 0 || !is_digit(text[at - 1])) continue;
+    const std::string sign = at + 1 < text.size() && text[at + 1] == '-' ? "-" : "";
+    std::size_t next = at + 1;
+    if (next < text.size() && (text[next] == '-' || text[next] == '+')) ++next;
+    if (next == text.size() || !is_digit(text[next])) continue;
+    while (next + 1 < text.size() && text[next] == '0' && is_digit(text[next + 1])) ++next;
+    out += sign;
+    at = next - 1;
+  }
+  return out;
+}
+
+/// A cell as its Markdown has it.
+std::string markdown_of(std::string cell) {
+  replace_all(cell, "&times;10<sup>", "e");
+  replace_all(cell, "&minus;", "-");
+  std::string words;
+  for (std::size_t at = 0; at < cell.size(); ++at) {
+    if (cell[at] != '<') {
+      words += cell[at];
+    } else if ((at = cell.find('>', at)) == std::string::npos) {
+      break;
+    }
+  }
+  return markdown_escaped(html_unescaped(words));
+}
+
+/// Every row of every table of the page, a line each.
+std::string rows_of_page(const std::string& page) {
+  std::string out;
+  constexpr std::string_view cell_begin = "<td", cell_end = "</td>", row_end = "</tr>";
+  for (auto at = page.find(cell_begin); at != std::string::npos;) {
+    const auto begin = page.find('>', at), end = page.find(cell_end, at);
+    if (end == std::string::npos || begin > end) break;
+    if (out.empty() || out.back() == '\n') out += "|";
+    out += " " + markdown_of(page.substr(begin + 1, end - begin - 1)) + " |";
+    at = page.find(cell_begin, end);
+    if (page.find(row_end, end) < at) out += "\n";
+  }
+  return short_exponents(out);
+}
+
+/// The captions of the page's tables as their Markdown has them, a line each.
+std::string captions_of_page(const std::string& page) {
+  std::string out = "\n";
+  constexpr std::string_view begin = "<p class=\"caption\">", end = " <a href=\"data/";
+  for (auto at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    const auto from = at + begin.size(), to = page.find(end, from);
+    if (to != std::string::npos) out += markdown_escaped(html_unescaped(page.substr(from, to - from))) + "\n";
+  }
+  return out;
+}
+
+/// A Markdown table: its caption, and its rows.
+struct MarkdownTable {
+  std::string caption, rows;
+};
+
+MarkdownTable read_markdown(const std::string& text) {
+  MarkdownTable out;
+  std::istringstream in(text);
+  std::getline(in, out.caption);
+  bool in_rows = false;
+  for (std::string line; std::getline(in, line);) {
+    if (in_rows) out.rows += line + "\n";
+    in_rows |= line.starts_with("| :--") || line.starts_with("| ---");
+  }
+  out.rows = short_exponents(out.rows);
+  return out;
+}
+
+}  // namespace
+
+void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults) {
+  const std::string rows = rows_of_page(page), captions = captions_of_page(page);
+  for (const auto& [file, hash] : result.hashes) {
+    if (!file.starts_with("tables/") || !file.ends_with(".md")) continue;
+    const MarkdownTable table = read_markdown(file_text(result.folder / file));
+    if (rows.find(table.rows) == std::string::npos || captions.find("\n" + table.caption + "\n") == std::string::npos)
+      faults.push_back(fmt::format("{}: does not show the rows and the caption of {}", page_file, one_line(file)));
+  }
+}
+
+void check_page_figures(const KeptResult& result, const std::string& page, Faults& faults) {
+  const auto check = [&](const std::string& file) {
+    if (!file.starts_with("plots/") || !file.ends_with(".svg")) return;
+    const std::filesystem::path path = result.folder / file;
+    const std::string svg = file_text(path);
+    const std::string title = title_of_script(file_text(std::filesystem::path(path).replace_extension(".gp")));
+    if (svg.empty() || title.empty()) return;  // said of the figures
+    if (page.find(inline_svg(svg, path.stem().string(), title)) == std::string::npos)
+      faults.push_back(fmt::format("{}: does not show {}", page_file, one_line(file)));
+  };
+  for (const auto& [file, hash] : result.hashes) check(file);
+  for (const std::string& file : result.unhashed) check(file);
+}
+
+namespace {
+
+/// What a report is made of, and the pictures in it; none of it runs, or loads anything but by `href`.
+bool is_plain(const std::string& element) {
+  static const std::set<std::string> html = {
+      "html",  "head",  "meta", "title", "style",  "link",   "body",       "main",    "section",
+      "h1",    "h2",    "h3",   "p",     "figure", "strong", "div",        "caption", "figcaption",
+      "table", "thead", "tr",   "tbody", "th",     "td",     "a",          "ul",      "li",
+      "dl",    "dt",    "dd",   "pre",   "em",     "code",   "span",       "sup",     "sub",
+      "b",     "i",     "br",   "hr",    "ol",     "h4",     "blockquote", "details", "summary"};
+  static const std::set<std::string> svg = {
+      "svg",    "g",    "defs",    "desc",        "use",     "text",        "tspan",          "path",          "rect",
+      "circle", "line", "ellipse", "polyline",    "polygon", "clippath",    "mask",           "pattern",       "symbol",
+      "filter", "stop", "feflood", "fecomposite", "femerge", "femergenode", "lineargradient", "radialgradient"};
+  return html.contains(element) || svg.contains(element);
+}
+
+struct AloneCheck {
+  const KeptResult& result;
+  Faults& faults;
+  std::set<std::string> said = {};  // once each
+
+  void add(const std::string& what) {
+    if (said.insert(what).second) faults.push_back(fmt::format("{}: {}", page_file, one_line(what)));
+  }
+
+  /// A link within the page or the folder; for the page's icon, which is empty, also `data:`.
+  void check_link(const HtmlTag& tag, const std::string& value) {
+    if (value.empty() || value.starts_with('#') || (tag.name == "link" && value == "data:,")) return;
+    const std::string target = html_unescaped(value);
+    if (tag.name != "a" || target.find(':') != std::string::npos || target.starts_with('/') ||
+        target.find("..") != std::string::npos) {
+      add(fmt::format("asks for '{}'", clipped(target, 60)));
+    } else if (!std::filesystem::exists(result.folder / target)) {
+      add(fmt::format("links to '{}', which is not there", clipped(target, 60)));
+    }
+  }
+
+  void check_tag(const HtmlTag& tag) {
+    static const std::set<std::string> loading = {"src",        "srcset", "poster", "action", "formaction",
+                                                  "background", "ping",   "data",   "srcdoc"};
+    if (!is_plain(tag.name)) add(fmt::format("'<{}' in a page that stands alone", clipped(tag.name, 40)));
+    for (const auto& [name, value] : tag.attributes) {
+      if (name == "href" || name.ends_with(":href")) check_link(tag, value);
+      if (loading.contains(name)) add(fmt::format("asks for '{}'", clipped(value, 60)));
+      if (name.starts_with("on") || name == "http-equiv")
+        add(fmt::format("attribute '{}' in a page that stands alone", clipped(name, 40)));
+    }
+  }
+
+  /// Style sheets load by these, and old ones run.
+  void check_styles(const std::string& lower) {
+    for (const char* never : {"<script", "@import", "image-set(", "javascript:", "expression("}) {
+      if (lower.find(never) != std::string::npos) add(fmt::format("'{}' in a page that stands alone", never));
+    }
+    for (auto at = lower.find("url("); at != std::string::npos; at = lower.find("url(", at + 1)) {
+      const std::string target = lower.substr(at + 4, 6);
+      if (target.find('#') > 1) add(fmt::format("'url({}...' in a page that stands alone", target));
+    }
+  }
+};
+
+}  // namespace
+
+void check_stands_alone(const KeptResult& result, const std::string& page, Faults& faults) {
+  AloneCheck check{result, faults};
+  for (const HtmlTag& tag : tags_of(page)) check.check_tag(tag);
+  check.check_styles(lower_case(page));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The string that follows `at`.
+std::string quoted_after(const std::string& script, std::size_t at) {
+  return gnuplot_unquoted(std::string_view(script).substr(at));
+}
+
+/// The title and the labels of the axes, which the script sets as labels 1, 2 and 3.
+std::set<std::string> words_of(const std::string& script) {
+  std::set<std::string> out;
+  for (const char* label : {"\nset label 1 ", "\nset label 2 ", "\nset label 3 "}) {
+    for (auto at = script.find(label); at != std::string::npos; at = script.find(label, at + 1))
+      out.insert(quoted_after(script, at));
+  }
+  out.erase("");
+  return out;
+}
+
+void check_svg(const std::string& svg, const std::string& script, const std::string& file, Faults& faults) {
+  const auto last = svg.find_last_not_of(" \n");
+  if (svg.find("<svg") == std::string::npos || last == std::string::npos ||
+      !svg.substr(0, last + 1).ends_with("</svg>")) {
+    faults.push_back(file + ": not a whole SVG");
+    return;
+  }
+  if (const std::string fault = xml_fault(svg); !fault.empty()) {
+    faults.push_back(file + ": not well-formed: " + fault);
+    return;
+  }
+  const std::string shown = html_unescaped(svg);  // gnuplot escapes some of what could be
+  const std::set<std::string> words = words_of(script);
+  if (words.size() < 3) faults.push_back(file + ": its script does not label both axes");
+  for (const std::string& word : words) {
+    if (shown.find(word) == std::string::npos)
+      faults.push_back(fmt::format("{}: does not show '{}'", file, one_line(word)));
+  }
+}
+
+}  // namespace
+
+std::string title_of_script(const std::string& script) {
+  const auto at = script.find("\nset label 1 ");
+  return at == std::string::npos ? "" : quoted_after(script, at);
+}
+
+void check_figures(const fs::path& folder, Faults& faults) {
+  if (!fs::is_directory(folder / "plots")) return;
+  std::set<fs::path> scripts;
+  for (const auto& entry : fs::directory_iterator(folder / "plots")) {
+    if (entry.path().extension() == ".gp") scripts.insert(entry.path());
+  }
+  for (const fs::path& script : scripts) {
+    const std::string name = "plots/" + script.stem().string();
+    if (!fs::exists(folder / (name + ".dat"))) faults.push_back(one_line(name) + ".dat: missing; the script reads it");
+    if (!fs::exists(folder / (name + ".svg"))) {
+      faults.push_back(fmt::format("{}.svg: was not drawn; to draw it: cd plots && gnuplot {}.gp", one_line(name),
+                                   one_line(script.stem().string())));
+      continue;
+    }
+    check_svg(file_text(folder / (name + ".svg")), file_text(script), one_line(name) + ".svg", faults);
+  }
+}
+
+namespace {
+
+constexpr const char* toml_file = "resolved.toml";
+constexpr const char* bib_file = "cite.bib";
+
+/// The manifest's configuration as its file should have it.
+toml::table config_of(const KeptResult& result) {
+  RunRecord run;
+  run.experiment = result.citation.experiment;
+  run.config = result.config;
+  return toml::parse(resolved_toml(run));
+}
+
+void check_toml(const KeptResult& result, Faults& faults) {
+  const std::string text = file_text(result.folder / toml_file);
+  if (text.empty()) return;  // said of the files that are missing
+  try {
+    const toml::table table = toml::parse(text);
+    const std::string experiment = table["experiment"].value_or(std::string());
+    if (experiment != result.citation.experiment) {
+      faults.push_back(fmt::format("{}: is of experiment '{}', the manifest of '{}'", toml_file, one_line(experiment),
+                                   one_line(result.citation.experiment)));
+    }
+    if (table != config_of(result))
+      faults.push_back(fmt::format("{}: is not the configuration that the manifest records", toml_file));
+    if (text.find("\n# " + result.reproduce + "\n") == std::string::npos)
+      faults.push_back(fmt::format("{}: does not give the manifest's line that reproduces the result", toml_file));
+  } catch (const toml::parse_error& error) {
+    faults.push_back(
+        fmt::format("{}:{}: not TOML: {}", toml_file, error.source().begin.line, one_line(error.description())));
+  }
+}
+
+/// Braces open and close in turn (BibTeX counts escaped ones too), and there is an entry for the software and one for the result.
+void check_bib(const KeptResult& result, Faults& faults) {
+  const std::string text = file_text(result.folder / bib_file);
+  if (text.empty()) return;
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size() && depth >= 0; ++i) {
+    depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
+  }
+  if (depth != 0) faults.push_back(fmt::format("{}: its braces are not balanced", bib_file));
+  if (text.find("@software{thinwall,") == std::string::npos)
+    faults.push_back(fmt::format("{}: does not cite the software", bib_file));
+  if (text.find(bibtex(result.citation)) == std::string::npos)
+    faults.push_back(fmt::format("{}: does not cite the result as its manifest says", bib_file));
+}
+
+}  // namespace
+
+void check_texts(const KeptResult& result, Faults& faults) {
+  check_toml(result, faults);
+  check_bib(result, faults);
 }
 
 }  // namespace thinwall

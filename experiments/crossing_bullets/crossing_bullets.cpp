@@ -15,7 +15,7 @@
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/swept/methods.hpp>
 #include <thinwall_embedded.hpp>
 

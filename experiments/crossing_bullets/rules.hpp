@@ -10,8 +10,8 @@
 
 #include <thinwall/experiments/crossing_bullets/model.hpp>
 #include <thinwall/experiments/crossing_bullets/theory.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/self_test.hpp>
 
 namespace thinwall {
 

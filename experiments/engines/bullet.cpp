@@ -6,7 +6,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 

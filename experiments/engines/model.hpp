@@ -10,7 +10,7 @@
 #include <thinwall/experiments/engines/engine.hpp>
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
-#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 
 namespace thinwall {
 

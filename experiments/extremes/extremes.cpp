@@ -13,11 +13,11 @@
 #include <thinwall/experiments/extremes/theory.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/statistics.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 

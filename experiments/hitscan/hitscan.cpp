@@ -18,7 +18,7 @@
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <thinwall/experiments/hitscan/model.hpp>
-#include <thinwall/experiments/self_test.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
 

@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/self_test.hpp>
-#include <thinwall/experiments/statistics.hpp>
-#include <thinwall/experiments/table.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/lab/table.hpp>
 
 namespace thinwall {
 

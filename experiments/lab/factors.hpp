@@ -27,9 +27,9 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/columns.hpp>
-#include <thinwall/experiments/random.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/tables/csv.hpp>
+#include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 namespace thinwall {
 

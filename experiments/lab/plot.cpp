@@ -6,8 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include <thinwall/experiments/tables/csv.hpp>
-#include <thinwall/experiments/tables/shown.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 namespace thinwall {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
-#include <thinwall/experiments/figure.hpp>
-#include <thinwall/experiments/table.hpp>
+#include <thinwall/experiments/lab/figure.hpp>
+#include <thinwall/experiments/lab/table.hpp>
 
 namespace thinwall {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
 
 namespace thinwall {
 

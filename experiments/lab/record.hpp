@@ -1,18 +1,5 @@
 #pragma once
-/// The fields of a record, stated once: adding two records, their text in a journal, and their columns follow.
-///
-///   struct Tally {
-///     std::int64_t shots = 0, tunneled = 0;
-///     double latest = no_most;  // [m]
-///     static constexpr auto fields() {
-///       return record(sum("shots", &Tally::shots, "1", "Shots fired."),
-///                     sum("tunneled", &Tally::tunneled, "1", "Shots that nothing saw."),
-///                     most("latest", &Tally::latest, "m", "The latest detection."));
-///     }
-///   };
-///   tally += more;                                    // exact, in any order and grouping
-///   tally = from_text<Tally>(to_text(tally));         // no bit is lost
-///   columns_of<Row>(fields(&Row::tally));             // lab/columns.hpp
+/// Values as one line of text for a run's journal: every bit is kept, and none is a tab or a newline.
 
 #include <algorithm>
 #include <array>
@@ -28,9 +15,52 @@
 #include <utility>
 #include <vector>
 
-#include <thinwall/experiments/lab/journal_text.hpp>
-
 namespace thinwall {
+
+class JournalWriter {
+ public:
+  void put(std::int64_t number);
+  void put(double number);
+  void put(std::string_view text);
+  std::string text() && { return std::move(out_); }
+
+ private:
+  std::string& next();
+  std::string out_;
+};
+
+/// Every function throws std::runtime_error, which quotes the text, if it does not read on as it should.
+class JournalReader {
+ public:
+  explicit JournalReader(std::string_view text) : whole_(text), rest_(text) {}
+
+  std::int64_t integer();
+  std::size_t size();  ///< of a list whose entries follow; no more than there is text left for
+  double real();
+  std::string text();
+  bool at_end() const { return rest_.empty(); }
+  void require(bool condition) const;
+
+ private:
+  std::string_view word();
+
+  std::string_view whole_, rest_;
+};
+
+// ---- The fields of a record, stated once: adding two records, their text in a journal, and their columns follow.
+//
+//   struct Tally {
+//     std::int64_t shots = 0, tunneled = 0;
+//     double latest = no_most;  // [m]
+//     static constexpr auto fields() {
+//       return record(sum("shots", &Tally::shots, "1", "Shots fired."),
+//                     sum("tunneled", &Tally::tunneled, "1", "Shots that nothing saw."),
+//                     most("latest", &Tally::latest, "m", "The latest detection."));
+//     }
+//   };
+//   tally += more;                                    // exact, in any order and grouping
+//   tally = from_text<Tally>(to_text(tally));         // no bit is lost
+//   columns_of<Row>(fields(&Row::tally));             // lab/columns.hpp
 
 /// What `least` and `most` are of nothing.
 inline constexpr double no_least = std::numeric_limits<double>::infinity(), no_most = -no_least;

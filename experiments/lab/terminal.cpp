@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include <thinwall/experiments/tables/shown.hpp>
-#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 namespace thinwall {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <thinwall/experiments/table.hpp>
+#include <thinwall/experiments/lab/table.hpp>
 
 namespace thinwall {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <mutex>
 
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/self_test.hpp>
 
 namespace thinwall {
 

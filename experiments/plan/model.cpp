@@ -7,9 +7,9 @@
 #include <iterator>
 #include <mutex>
 
-#include <thinwall/experiments/lab/rounds.hpp>
-#include <thinwall/experiments/random.hpp>
-#include <thinwall/experiments/scenes/missed.hpp>
+#include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/world/body.hpp>
-#include <thinwall/experiments/world/options.hpp>
+#include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
 

@@ -8,13 +8,13 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
-#include <thinwall/experiments/lab/rounds.hpp>
+#include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/plan/gate.hpp>
 #include <thinwall/experiments/plan/model.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

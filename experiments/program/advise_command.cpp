@@ -1,4 +1,4 @@
-#include <thinwall/experiments/program/advise_command.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
 #include <cerrno>
 #include <filesystem>
@@ -11,12 +11,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/advise/advice_text.hpp>
-#include <thinwall/experiments/advise/check_config.hpp>
-#include <thinwall/experiments/program/exit_codes.hpp>
-#include <thinwall/experiments/program/options.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/advise/advice.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 namespace {

@@ -1,20 +1,36 @@
 #pragma once
-/// What a command of the program is: a name, a word on what it is for, and the options it declares.
-/// A new command is a file of its own and a line in command_list.cpp.
+/// What can be typed: the commands, their options, what they return, and how what they say is kept harmless.
 
+#include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
+#include <ostream>
 #include <span>
+#include <streambuf>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
+
+// ---- What the program says to the shell.
 
 namespace CLI {
 class App;
 }
 
 namespace thinwall {
+
+inline constexpr int exit_done = 0;           ///< done, and nothing was found wrong
+inline constexpr int exit_failed = 1;         ///< it ran and found something wrong, or the system failed it
+inline constexpr int exit_bad_input = 2;      ///< the command line, a configuration or a file of the user's
+inline constexpr int exit_interrupted = 130;  ///< Ctrl-C; what was done is kept
+
+// ---- What a command of the program is: a name, a word on what it is for, and the options it declares.
+// A new command is declared at the end and listed in commands().
 
 /// What a command is given when it runs.
 struct Call {
@@ -37,5 +53,100 @@ struct Command {
 
 /// Every command, in the order of `thinwall --help`.
 std::span<const Command> commands();
+
+// ---- Options that several commands share: one spelling, one meaning, one complaint.
+
+/// The text of an option, if it was given at all.
+using OptionText = std::optional<std::string>;
+
+void add_flag(CLI::App& command, const std::string& name, bool& flag, const std::string& meaning);
+void add_text(CLI::App& command, const std::string& name, OptionText& text, const std::string& meaning,
+              const std::string& form);
+
+void add_json(CLI::App& command, bool& json);
+void add_seed(CLI::App& command, OptionText& seed);
+void add_threads(CLI::App& command, OptionText& threads);
+void add_out(CLI::App& command, OptionText& out);
+void add_benchmarks(CLI::App& command, OptionText& folder);
+
+/// The word after the command: the help calls it `name` and gives its `form`. Empty if it is missing.
+void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,
+                const std::string& form);
+
+// All throw UsageError, naming the option and what is allowed.
+std::uint64_t parse_seed(const OptionText& text);  ///< 0 if not given
+int parse_threads(const OptionText& text);         ///< every core if not given
+std::string parse_folder(const OptionText& text);  ///< empty if not given
+std::int64_t parse_positive(std::string_view option, const std::string& text, std::int64_t most);
+std::string parse_choice(std::string_view option, const OptionText& text,
+                         std::span<const std::string_view> allowed);  ///< empty if not given
+
+// ---- From the words of the command line to the command that they name.
+
+/// What to do: a command's action, or one that prints a help text or the version. Throws UsageError.
+Action parse_command_line(const std::vector<std::string>& argv);
+
+// ---- Output that drives no terminal, whatever text it is given: a name, a manifest or a file may hold escape sequences.
+
+/// Hands letters on to `out`. Of control characters the end of a line and the tab pass; others are spelled out, `\x1b` or, where
+/// JSON may hold them, `\u009b`, which stays JSON and means the same.
+class HarmlessOutput final : public std::ostream {
+ public:
+  explicit HarmlessOutput(std::ostream& to) : std::ostream(nullptr), buffer_(to) { rdbuf(&buffer_); }
+
+ private:
+  class Buffer final : public std::streambuf {
+   public:
+    explicit Buffer(std::ostream& out) : out_(out) {}
+
+   private:
+    int_type overflow(int_type value) override;
+    int sync() override;
+
+    std::ostream& out_;
+    bool after_c2_ = false;  // the first byte of U+0080 to U+00BF in UTF-8 was held back
+  };
+
+  Buffer buffer_;
+};
+
+// ---- What `--json` prints: one object or array, ended by a newline.
+
+std::string list_reply(std::span<const Experiment> experiments);
+std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const RunEstimate& told);
+std::string list_cells_reply(const RunRecord& run, const std::string& out, std::span<const Unit> units);
+std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard);
+std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report);
+
+// ---- The commands.
+
+Command advise_command();
+Command cite_command();
+Command compare_command();
+Command completion_command();
+Command list_command();
+Command merge_command();
+Command plan_command();
+Command report_command();
+Command reproduce_command();
+Command validate_command();  ///< its exit code is 1 if any verdict is wrong
+
+// ---- `thinwall report`, and the option --figures that `thinwall run` shares with it.
+
+void add_figures(CLI::App& self, OptionText& figures);
+
+/// The formats in `pdf,tex`; none if it was not given. Throws UsageError.
+std::vector<std::string> parse_figures(const OptionText& figures);
+
+// ---- `thinwall plan`, and the options of every command that takes a scene.
+
+void add_scene_target(CLI::App& self, std::string& target);
+void add_plan_kind(CLI::App& self, OptionText& plan);
+
+/// Throws UsageError if `target` is empty.
+void require_scene_target(const char* command, const std::string& target);
+
+/// "lean", "full", or empty if it was not given. Throws UsageError.
+std::string parse_plan_kind(const OptionText& plan);
 
 }  // namespace thinwall

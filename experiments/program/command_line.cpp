@@ -1,19 +1,28 @@
-#include <thinwall/experiments/program/command_line.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <memory>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/program/exit_codes.hpp>
-#include <thinwall/experiments/results/record.hpp>
-#include <thinwall/experiments/run/ranks.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/spelling.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
+#include <thinwall/experiments/lab/ranks.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/program/run.hpp>
 
 namespace thinwall {
+
 namespace {
 
 constexpr const char* root_help = R"(thinwall runs experiments on tunneling and continuous collision detection.
@@ -138,6 +147,225 @@ Action parse_command_line(const std::vector<std::string>& argv) {
   if (&chosen() == &app) throw UsageError(fmt::format("a command is missing; {}, see thinwall --help", every_name()));
   if (launch_of_this_process().rank > 0 && !commands()[index()].by_all_ranks) return print("");
   return actions[index()];
+}
+
+namespace {
+
+constexpr int most_threads = 4096;
+
+}  // namespace
+
+void add_flag(CLI::App& command, const std::string& name, bool& flag, const std::string& meaning) {
+  command.add_flag(name, flag, meaning)->disable_flag_override();
+}
+
+void add_text(CLI::App& command, const std::string& name, OptionText& text, const std::string& meaning,
+              const std::string& form) {
+  command.add_option(name, text, meaning)->option_text(form);
+}
+
+void add_json(CLI::App& command, bool& json) { add_flag(command, "--json", json, "Print one JSON value on stdout"); }
+
+void add_seed(CLI::App& command, OptionText& seed) {
+  add_text(command, "--seed", seed, "Chooses the random numbers (default: 0)", "N");
+}
+
+void add_threads(CLI::App& command, OptionText& threads) {
+  add_text(command, "--threads", threads, "Threads to compute with (default: all cores)", "N");
+}
+
+void add_out(CLI::App& command, OptionText& out) {
+  add_text(command, "--out", out, "The result folder (default: results/NAME)", "DIR");
+}
+
+void add_benchmarks(CLI::App& command, OptionText& folder) {
+  add_text(command, "--benchmarks", folder, "Of speed: the folder of the programs to start (default: beside this one)",
+           "DIR");
+}
+
+void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,
+                const std::string& form) {
+  command.add_option(name, target, meaning)->option_text(form);
+}
+
+std::uint64_t parse_seed(const OptionText& text) {
+  if (!text) return 0;
+  std::uint64_t seed = 0;
+  const auto [stop, error] = std::from_chars(text->data(), text->data() + text->size(), seed);
+  if (error != std::errc{} || stop != text->data() + text->size()) {
+    throw UsageError(fmt::format("--seed: '{}' is not allowed; a whole number from 0 to {}", one_line(*text),
+                                 std::numeric_limits<std::uint64_t>::max()));
+  }
+  return seed;
+}
+
+int parse_threads(const OptionText& text) {
+  return text ? static_cast<int>(parse_positive("--threads", *text, most_threads)) : default_threads();
+}
+
+std::string parse_folder(const OptionText& text) {
+  if (text && text->empty()) throw UsageError("--out: '' is not allowed; a folder");
+  return text.value_or("");
+}
+
+std::int64_t parse_positive(std::string_view option, const std::string& text, std::int64_t most) {
+  const auto count = parse_count(text);
+  if (!count || *count < 1 || *count > most) {
+    throw UsageError(fmt::format("{}: '{}' is not allowed; a whole number from 1 to {}", option, one_line(text), most));
+  }
+  return *count;
+}
+
+std::string parse_choice(std::string_view option, const OptionText& text, std::span<const std::string_view> allowed) {
+  if (!text) return "";
+  if (std::ranges::find(allowed, *text) == allowed.end()) {
+    throw UsageError(
+        fmt::format("{}: '{}' is not allowed; {}", option, one_line(*text), spelling_hint(*text, allowed)));
+  }
+  return *text;
+}
+
+std::streambuf::int_type HarmlessOutput::Buffer::overflow(int_type value) {
+  if (traits_type::eq_int_type(value, traits_type::eof())) return traits_type::not_eof(value);
+  const char letter = traits_type::to_char_type(value);
+  const auto code = static_cast<unsigned char>(letter);
+  const bool after_c2 = std::exchange(after_c2_, code == 0xc2);
+  const bool is_c1 = after_c2 && 0x80 <= code && code < 0xa0;
+  if (after_c2 && !is_c1) out_.put('\xc2');
+  if (is_c1 || code == 0x7f) {
+    out_ << fmt::format("\\u{:04x}", code);
+  } else if (code < 0x20 && letter != '\n' && letter != '\t') {
+    out_ << fmt::format("\\x{:02x}", code);
+  } else if (!after_c2_) {
+    out_.put(letter);
+  }
+  return out_ ? value : traits_type::eof();
+}
+
+int HarmlessOutput::Buffer::sync() {
+  if (std::exchange(after_c2_, false)) out_.put('\xc2');
+  return out_.flush() ? 0 : -1;
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json size_of(const RunRecord& run, const std::string& out) {
+  return {{"experiment", run.experiment}, {"out", out},       {"units", run.units},
+          {"trials", run.total_trials},   {"seed", run.seed}, {"threads", run.threads}};
+}
+
+std::string line(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string list_reply(std::span<const Experiment> experiments) {
+  ordered_json out = ordered_json::array();
+  for (const Experiment& experiment : experiments) {
+    out.push_back({{"name", experiment.name}, {"question", experiment.question}});
+  }
+  return line(out);
+}
+
+std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const RunEstimate& told) {
+  ordered_json reply = size_of(run, out);
+  reply["dry_run"] = true;
+  reply["estimated_seconds"] = told.tried() > 0 ? ordered_json(seconds) : ordered_json();
+  reply["units_left_out_of_estimate"] = told.unknown;
+  reply["estimated_from"] = basis_text(told);
+  return line(reply);
+}
+
+std::string list_cells_reply(const RunRecord& run, const std::string& out, std::span<const Unit> units) {
+  ordered_json reply = size_of(run, out);
+  reply["cells"] = ordered_json::array();
+  for (const Unit& unit : units) reply["cells"].push_back({{"key", unit.key}, {"trials", unit.trials}});
+  return line(reply);
+}
+
+std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard) {
+  ordered_json reply = size_of(run, out);
+  reply["shard"] = shard;
+  reply["resumed_units"] = run.resumed_units;
+  return line(reply);
+}
+
+std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report) {
+  ordered_json reply = size_of(run, out);
+  reply["resumed_units"] = run.resumed_units;
+  reply["answer"] = outcome.answer;
+  reply["self_test_passed"] = outcome.self_test_passed;
+  reply["report"] = report;
+  return line(reply);
+}
+
+std::span<const Command> commands() {
+  static const std::array all = {
+      list_command(),        //
+      run_command(),         //
+      compare_command(),     //
+      plan_command(),        //
+      advise_command(),      //
+      validate_command(),    //
+      merge_command(),       //
+      report_command(),      //
+      reproduce_command(),   //
+      cite_command(),        //
+      completion_command(),  //
+  };
+  return all;
+}
+
+namespace {
+
+std::string list_text(std::span<const Experiment> experiments) {
+  std::size_t longest = 0;
+  for (const Experiment& experiment : experiments) longest = std::max(longest, experiment.name.size());
+  std::string out;
+  for (const Experiment& experiment : experiments) {
+    out += fmt::format("{:<{}}  {}\n", experiment.name, longest, experiment.question);
+  }
+  return out;
+}
+
+Action declare_list(CLI::App& self) {
+  const auto json = std::make_shared<bool>(false);
+  add_json(self, *json);
+  return [json](const Call& call) {
+    call.out << (*json ? list_reply(call.experiments) : list_text(call.experiments));
+    return exit_done;
+  };
+}
+
+constexpr const char* list_examples = R"(  thinwall list
+  thinwall list --json
+)";
+
+}  // namespace
+
+Command list_command() { return {"list", "Print every experiment and its question", list_examples, declare_list}; }
+
+int run_program(const std::vector<std::string>& argv, std::span<const Experiment> experiments, std::ostream& to_stdout,
+                std::ostream& to_stderr) {
+  HarmlessOutput out(to_stdout), err(to_stderr);
+  std::ostream nowhere(nullptr);
+  const bool quiet = launch_of_this_process().rank > 0;  // of the ranks that mpirun started, one speaks
+  std::ostream& notes = quiet ? nowhere : err;
+  try {
+    const int status = parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, notes});
+    if (out.flush()) return status;
+    notes << "failed: stdout cannot be written" << std::endl;  // a full disk, where it goes to a file
+    return exit_failed;
+  } catch (const UsageError& error) {
+    notes << error.what() << std::endl;
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    notes << "failed: " << one_line(error.what()) << std::endl;
+    return exit_failed;
+  }
 }
 
 }  // namespace thinwall

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/program/perform_run.hpp>
+#include <thinwall/experiments/program/run.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -11,19 +11,14 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/program/crew.hpp>
-#include <thinwall/experiments/program/exit_codes.hpp>
-#include <thinwall/experiments/program/json_reply.hpp>
-#include <thinwall/experiments/program/progress_bar.hpp>
-#include <thinwall/experiments/results/drawn_figures.hpp>
-#include <thinwall/experiments/results/results.hpp>
-#include <thinwall/experiments/results/shard_seal.hpp>
-#include <thinwall/experiments/run/estimate.hpp>
-#include <thinwall/experiments/run/runner.hpp>
-#include <thinwall/experiments/run/stop_signal.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/shards.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
 namespace thinwall {
 namespace {

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/program/reproduce_command.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -9,16 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/program/exit_codes.hpp>
-#include <thinwall/experiments/program/options.hpp>
-#include <thinwall/experiments/program/perform_run.hpp>
-#include <thinwall/experiments/results/manifest.hpp>
-#include <thinwall/experiments/results/rerun_comparison.hpp>
-#include <thinwall/experiments/results/resolved_toml.hpp>
-#include <thinwall/experiments/results/result_folder.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/file_text.hpp>
+#include <thinwall/experiments/lab/comparison.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/program/run.hpp>
 
 namespace thinwall {
 namespace {

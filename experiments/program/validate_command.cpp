@@ -1,4 +1,4 @@
-#include <thinwall/experiments/program/validate_command.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -8,10 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/program/exit_codes.hpp>
-#include <thinwall/experiments/program/options.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/validate/validate.hpp>
 
 namespace thinwall {

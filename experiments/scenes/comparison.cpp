@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/scenes/playback.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 namespace thinwall {
 

@@ -1,20 +1,24 @@
 #pragma once
-/// One scene under many time policies and steps, each held against the finest exact run.
-///
-/// The exact run is stepped by events, with steps `finer` times shorter than the shortest compared. What it is exact about
-/// is the motion within a step; under gravity its path is still that of the integrator, which errs by g t dt / 2. Of each
-/// pair of bodies the first meeting is compared, and no later one: after a bounce at another time two runs part, in a scene
-/// of many bodies for good.
+/// A scene under several policies beside the exact run.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
+#include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
+
+// ---- One scene under many time policies and steps, each held against the finest exact run.
+//
+// The exact run is stepped by events, with steps `finer` times shorter than the shortest compared. What it is exact about
+// is the motion within a step; under gravity its path is still that of the integrator, which errs by g t dt / 2. Of each
+// pair of bodies the first meeting is compared, and no later one: after a bounce at another time two runs part, in a scene
+// of many bodies for good.
 
 /// One way to step the scene.
 struct Contender {
@@ -96,5 +100,38 @@ struct Contest {
 };
 
 Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration);
+
+// ---- A comparison as tables, pictures and words.
+
+Table compare_table(const std::vector<Contest>& contests);
+Table compare_timings_table(const Comparison& comparison, const std::vector<Contest>& contests);
+
+/// Tunneled pairs and time error against the step, one series a policy.
+Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests);
+/// Time error against run time.
+Figure error_against_time_figure(const Comparison& comparison, const std::vector<Contest>& contests);
+
+Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const std::vector<Contest>& contests);
+
+// ---- What became of a scene, as tables and pictures.
+
+/// What a body is called, by its id.
+std::string name_in(const Scene& scene, std::uint32_t id);
+
+Table steps_table(const Playback& playback);                       ///< a row a step
+Table events_table(const Scene& scene, const Playback& playback);  ///< begins and ends, in order
+Table missed_table(const Scene& scene, const Playback& playback);  ///< who went through whom
+Table bodies_table(const Scene& scene, const Playback& playback);  ///< where each is at the end
+Table plan_table(const Plan& plan);                                ///< what was left out, and why
+Table phases_table(const Playback& playback);                      ///< time a step by phase
+
+Figure tracks_figure(const Scene& scene, const Playback& playback);
+Figure course_figure(const Playback& playback);
+
+/// Everything a run of a scene hands over but the trace.
+Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback);
+
+/// True if what this policy claims held: one that looks at all of the motion misses nothing.
+bool claims_held(const Scene& scene, const Playback& playback);
 
 }  // namespace thinwall

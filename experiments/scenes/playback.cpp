@@ -1,10 +1,154 @@
-#include <thinwall/experiments/scenes/playback.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
 
-#include <thinwall/experiments/scenes/bodies.hpp>
+#include <fmt/format.h>
+
+#include <thinwall/discrete/broad_phase/uniform_grid.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/world/world.hpp>
+#include <thinwall/swept/dispatch.hpp>
 
 namespace thinwall {
+
+namespace {
+
+std::string vector_text(const Vec3<double>& v) {
+  return fmt::format("[{},{},{}]", exact_text(v[0]), exact_text(v[1]), exact_text(v[2]));
+}
+
+/// The shape around its own center: a body's place in a frame is where that center is.
+struct ShapeText {
+  std::string operator()(const std::monostate&) const { return "null"; }
+  std::string operator()(const Sphere<double>& s) const {
+    return fmt::format(R"({{"type":"sphere","radius":{}}})", exact_text(s.radius));
+  }
+  std::string operator()(const Aabb<double>& b) const {
+    return fmt::format(R"({{"type":"box","size":{}}})", vector_text(2 * b.half_extents));
+  }
+  std::string operator()(const Obb<double>& b) const {
+    return fmt::format(R"({{"type":"turned_box","size":{},"axes":[{},{},{}]}})", vector_text(2 * b.half_extents),
+                       vector_text(b.axes.col(0)), vector_text(b.axes.col(1)), vector_text(b.axes.col(2)));
+  }
+  std::string operator()(const Capsule<double>& c) const {
+    const Vec3<double> half = (c.b - c.a) / 2;
+    return fmt::format(R"({{"type":"capsule","radius":{},"half_core":{}}})", exact_text(c.radius), vector_text(half));
+  }
+};
+
+std::string header(const Scene& scene, const World& world) {
+  std::string bodies;
+  for (const Body& body : world.bodies()) {
+    bodies += fmt::format(R"({}{{"id":{},"name":{},"static":{},"shape":{},"at":{}}})", bodies.empty() ? "" : ",",
+                          body.id, json_string(body.name), body.is_static, std::visit(ShapeText{}, body.shape),
+                          vector_text(box_of(body).center));
+  }
+  return fmt::format("{{\"scene\":{},\"dt\":{},\"bodies\":[{}]}}\n", json_string(scene.name), exact_text(scene.dt),
+                     bodies);
+}
+
+std::string frame(const World& world) {
+  std::string at, events;
+  for (const Body& body : world.bodies()) {
+    if (can_move(body)) at += (at.empty() ? "" : ",") + vector_text(box_of(body).center);
+  }
+  for (const CollisionEvent& event : world.events().events()) {
+    if (event.kind == CollisionEventKind::stay) continue;
+    const char* const kind = event.kind == CollisionEventKind::begin ? "begin" : "end";
+    events += fmt::format(R"({}["{}",{},{},{}])", events.empty() ? "" : ",", kind, event.first, event.second,
+                          exact_text(event.time));
+  }
+  return fmt::format("{{\"time\":{},\"at\":[{}],\"events\":[{}]}}\n", exact_text(world.time()), at, events);
+}
+
+}  // namespace
+
+std::string trace_of(const Scene& scene) {
+  std::string text;
+  std::int64_t step = 0;
+  play(scene, [&](const World& world) {
+    if (step == 0) text += header(scene, world);
+    if (step % scene.trace_every == 0 || step == scene.steps) text += frame(world);
+    ++step;
+  });
+  return text;
+}
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The box of both poses, rounded outward.
+Proxy way_of(const Body& before, const Body& after) {
+  const Aabb<double> a = box_of(before), b = box_of(after);
+  Proxy proxy;
+  for (int i = 0; i < 3; ++i) {
+    const double low = std::min(a.center[i] - a.half_extents[i], b.center[i] - b.half_extents[i]);
+    const double high = std::max(a.center[i] + a.half_extents[i], b.center[i] + b.half_extents[i]);
+    const double room = 4 * std::numeric_limits<double>::epsilon() *
+                        (std::abs(a.center[i]) + std::abs(b.center[i]) + a.half_extents[i] + b.half_extents[i]);
+    proxy.low[i] = std::nextafter(low - room, -infinity);
+    proxy.high[i] = std::nextafter(high + room, infinity);
+  }
+  proxy.group = after.group;
+  proxy.mask = after.mask;
+  proxy.is_static = after.is_static;
+  proxy.skipped = std::holds_alternative<std::monostate>(after.shape);
+  return proxy;
+}
+
+}  // namespace
+
+struct MissedContacts::Memory {
+  std::vector<Body> before;
+  std::vector<Proxy> proxies;
+  std::vector<ProxyPair> pairs;
+};
+
+MissedContacts::MissedContacts(const World& world) : memory_(std::make_unique<Memory>()) {
+  memory_->before = world.bodies();
+}
+MissedContacts::~MissedContacts() = default;
+
+std::vector<MissedContact> MissedContacts::after_step(const World& world, double dt) {
+  const std::vector<Body>& after = world.bodies();
+  std::vector<Body>& before = memory_->before;
+  std::vector<bool> touched(after.size());
+  const auto index_of = [&after](std::uint32_t id) {
+    const auto found = std::lower_bound(after.begin(), after.end(), id,
+                                        [](const Body& body, std::uint32_t wanted) { return body.id < wanted; });
+    return static_cast<std::size_t>(found - after.begin());
+  };
+  for (const Hit& hit : world.hits()) {
+    for (const std::uint32_t id : {hit.first, hit.second}) {
+      const std::size_t i = index_of(id);
+      if (i < after.size() && can_move(after[i])) touched[i] = true;
+    }
+  }
+  memory_->proxies.clear();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    Proxy& proxy = memory_->proxies.emplace_back(way_of(before[i], after[i]));
+    proxy.skipped |= touched[i];
+  }
+  find_pairs(UniformGrid{}, memory_->proxies, memory_->pairs);
+  std::vector<MissedContact> missed;
+  const double start = world.time() - dt;
+  for (const ProxyPair& pair : memory_->pairs) {
+    const Body &a = before[pair.first], &b = before[pair.second];
+    const auto way = [&](std::size_t i) { return Vec3<double>(box_of(after[i]).center - box_of(before[i]).center); };
+    const Moving<AnyShape> first{a.shape, way(pair.first)}, second{b.shape, way(pair.second)};
+    const Toi<double> toi = time_of_impact(first, second);
+    if (toi.status != ToiStatus::hit || overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
+    missed.push_back({a.id, b.id, start + toi.time * dt});
+  }
+  before = after;
+  return missed;
+}
 
 namespace {
 

@@ -2,20 +2,200 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <string>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <thinwall_embedded.hpp>
 
-#include <thinwall/experiments/scenes/bodies.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/scenes/comparison.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/spelling.hpp>
-#include <thinwall/experiments/world/plan.hpp>
-#include <thinwall/experiments/world/step/pair_finder.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> shape_names = {"sphere", "box", "turned_box", "capsule", "none"};
+constexpr std::array<std::string_view, 3> motion_names = {"free", "driven", "static"};
+constexpr std::int64_t most_bodies = 2'000'000;
+constexpr Range length_range = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
+
+Vec3<double> vector3(const Settings& settings, std::string_view key, const Range& range) {
+  const std::vector<double> values = settings.vector(key, 3, range);
+  return {values[0], values[1], values[2]};
+}
+
+/// The keys that one shape has and another has not.
+struct ShapeKey {
+  std::string_view key;
+  bool fits, needed;
+};
+
+void check_keys(const Settings& body, const std::string& shape) {
+  const bool round = shape == "sphere" || shape == "capsule", box = shape == "box" || shape == "turned_box";
+  for (const ShapeKey& k :
+       {ShapeKey{"radius", round, round}, ShapeKey{"size", box, box},
+        ShapeKey{"turn_deg", shape == "turned_box", false}, ShapeKey{"height", shape == "capsule", shape == "capsule"},
+        ShapeKey{"axis", shape == "capsule", false}}) {
+    if (k.needed) body.require(k.key, fmt::format("a {} needs it", shape));
+    if (!k.fits && body.given(k.key)) body.complain(k.key, fmt::format("it is not of shape '{}'", shape));
+  }
+}
+
+Mat3<double> turned(const Vec3<double>& degrees) {
+  const Vec3<double> angles = degrees * (std::numbers::pi / 180);
+  using Eigen::AngleAxisd;
+  return (AngleAxisd(angles[2], Vec3<double>::UnitZ()) * AngleAxisd(angles[1], Vec3<double>::UnitY()) *
+          AngleAxisd(angles[0], Vec3<double>::UnitX()))
+      .toRotationMatrix();
+}
+
+AnyShape read_shape(const Settings& body, const Vec3<double>& at) {
+  body.require("shape", "\"sphere\", \"box\", \"turned_box\", \"capsule\" or \"none\"");
+  const std::string shape = body.choice("shape", shape_names);
+  check_keys(body, shape);
+  if (shape == "sphere") return Sphere<double>{at, body.number("radius", length_range)};
+  if (shape == "box") return Aabb<double>{at, vector3(body, "size", length_range) / 2};
+  if (shape == "turned_box") {
+    return Obb<double>{at, vector3(body, "size", length_range) / 2, turned(vector3(body, "turn_deg", {.unit = "deg"}))};
+  }
+  if (shape == "capsule") {
+    const double radius = body.number("radius", length_range), height = body.number("height", length_range);
+    if (height < 2 * radius) body.complain("height", fmt::format("at least twice the radius, {} m", 2 * radius));
+    const Vec3<double> axis = vector3(body, "axis", {.lower = -1e6, .upper = 1e6});
+    if (axis == Vec3<double>::Zero()) body.complain("axis", "not zero");
+    const Vec3<double> half = axis.stableNormalized() * (height / 2 - radius);
+    return Capsule<double>{at - half, at + half, radius};
+  }
+  return std::monostate{};
+}
+
+AnyShape moved(const AnyShape& shape, const Vec3<double>& by) {
+  return std::visit(
+      [&by](auto held) -> AnyShape {
+        if constexpr (requires { held.a; }) {
+          held.a += by;
+          held.b += by;
+        } else if constexpr (requires { held.center; }) {
+          held.center += by;
+        }
+        return held;
+      },
+      shape);
+}
+
+/// Uniform in a box around zero of these widths.
+Vec3<double> shaken(const Vec3<double>& widths, const RandomStream& stream, std::uint64_t copy, std::uint64_t draw) {
+  const RandomWords words = random_words(stream, copy, draw);
+  Vec3<double> by;
+  for (int i = 0; i < 3; ++i) by[i] = widths[i] * (uniform(words[static_cast<std::size_t>(i)]) - 0.5);
+  return by;
+}
+
+constexpr std::int64_t most_id = std::numeric_limits<std::uint32_t>::max();
+
+/// The ids that are taken: the first of each range by its last.
+using TakenIds = std::map<std::int64_t, std::int64_t>;
+
+/// Takes `count` ids in a row, and returns the first: the one that is given, or the next from which on all are free.
+std::uint32_t take_ids(const Settings& body, std::int64_t count, std::int64_t next, TakenIds& taken) {
+  const std::int64_t given = body.integer("id", 0, most_id);
+  std::int64_t first = given > 0 ? given : next;
+  for (auto at = taken.lower_bound(first); at != taken.end() && at->second < first + count; ++at) {
+    if (given > 0) body.complain("id", fmt::format("a body before it has id {}", std::max(first, at->second)));
+    first = at->first + 1;
+  }
+  if (first + count - 1 > most_id)
+    body.complain("id", fmt::format("it takes {} from {} on, and the last there is is {}", count, first, most_id));
+  taken[first + count - 1] = first;
+  return static_cast<std::uint32_t>(first);
+}
+
+/// One [[body]] and its copies, appended.
+void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bodies, TakenIds& taken) {
+  settings.reject_unknown_keys();
+  const Vec3<double> at = vector3(settings, "at", scene_coordinate);
+  Body body;
+  body.shape = read_shape(settings, at);
+  const std::string name = settings.text("name"), motion = settings.choice("motion", motion_names);
+  body.is_static = motion == "static";
+  body.velocity = vector3(settings, "velocity", scene_speed);
+  if (body.is_static && settings.given("velocity") && body.velocity != Vec3<double>::Zero())
+    settings.complain("velocity", "zero: the body is static");
+  if (motion != "free" && settings.given("mass"))
+    settings.complain("mass", fmt::format("none: the body is {}", motion));
+  const double mass = settings.number("mass", {.lower = 1e-30, .upper = most_of_a_scene, .unit = "kg"});
+  body.mass = motion == "free" ? mass : std::numeric_limits<double>::infinity();
+  body.restitution = settings.number("restitution", {.lower = 0, .upper = 1});
+  body.gravity_scale = settings.number("gravity_scale", {.lower = -most_of_a_scene, .upper = most_of_a_scene});
+  body.group = static_cast<std::uint32_t>(settings.integer("group", 0, most_id));
+  body.mask = static_cast<std::uint32_t>(settings.integer("mask", 0, most_id));
+
+  std::array<std::int64_t, 3> copies{};
+  const std::vector<double> counts = settings.vector("copies", 3, {.lower = 1, .upper = 1e6});
+  for (std::size_t i = 0; i < 3; ++i) {
+    copies[i] = static_cast<std::int64_t>(counts[i]);
+    if (static_cast<double>(copies[i]) != counts[i]) settings.complain("copies", "three whole numbers");
+  }
+  const double total = counts[0] * counts[1] * counts[2] + static_cast<double>(bodies.size());
+  if (total > static_cast<double>(most_bodies))
+    settings.complain("copies", fmt::format("at most {} bodies in all", most_bodies));
+  const Vec3<double> every = vector3(settings, "every", scene_coordinate),
+                     jitter = vector3(settings, "jitter", length_range);
+  const Vec3<double> speeds =
+      vector3(settings, "velocity_jitter", {.lower = 0, .upper = most_of_a_scene, .unit = "m/s"});
+  const Vec3<double> size = size_of(body);
+  const RandomStream stream{seed, stream_of(std::array{at[0], at[1], at[2], size[0], size[1], size[2], counts[0],
+                                                       counts[1], counts[2], every[0], every[1], every[2]})};
+
+  const std::int64_t count = copies[0] * copies[1] * copies[2];
+  std::uint32_t id = take_ids(settings, count, bodies.empty() ? 1 : std::int64_t{bodies.back().id} + 1, taken);
+  const bool alone = count == 1;
+  std::uint64_t copy = 0;
+  for (std::int64_t k = 0; k < copies[2]; ++k) {
+    for (std::int64_t j = 0; j < copies[1]; ++j) {
+      for (std::int64_t i = 0; i < copies[0]; ++i, ++copy) {
+        const Vec3<double> cell(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+        Body& added = bodies.emplace_back(body);
+        added.id = id++;
+        added.name = alone || name.empty() ? name : fmt::format("{} {}", name, copy + 1);
+        added.shape = moved(body.shape, Vec3<double>(cell.cwiseProduct(every) + shaken(jitter, stream, copy, 0)));
+        added.velocity += shaken(speeds, stream, copy, 1);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
+  std::vector<Body> bodies;
+  TakenIds taken;
+  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies, taken);
+  return bodies;
+}
+
+Aabb<double> box_of(const Body& body) {
+  return std::visit(
+      [](const auto& held) -> Aabb<double> {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>) {
+          return {Vec3<double>::Zero(), Vec3<double>::Zero()};
+        } else {
+          return {center(held), half_widths(held)};
+        }
+      },
+      body.shape);
+}
+
+Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
 
 namespace {
 

@@ -1,16 +1,41 @@
 #pragma once
-/// A scene as its file describes it: bodies, how they are stepped, for how long, and what is pushed by hand.
+/// A scene: its file, its bodies, its playback with a trace, and the referee of what a step did not see.
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/world/body.hpp>
-#include <thinwall/experiments/world/options.hpp>
+#include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
+
+// ---- The bodies that a scene file describes.
+
+/// What a scene may say of a length [m], a speed [m/s], an acceleration [m/s^2] or a mass [kg]: within the longest run no place
+/// leaves the world, and no energy the range of doubles.
+inline constexpr double most_of_a_scene = 1e30;
+inline constexpr Range scene_coordinate = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
+inline constexpr Range scene_speed = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
+
+/// Every [[body]] of the file, copies made: a grid, and random numbers that depend on the seed, on the body's own place,
+/// size and grid, and on the copy's place in it alone. Ids count up from 1, in the order of the file.
+/// Throws UsageError: a key out of range, missing, or not of the shape; more than two million bodies.
+std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed);
+
+/// [m] From face to face. Zero without a shape.
+Vec3<double> size_of(const Body& body);
+
+/// [m] The closed box that holds it where it is, not rounded. Empty extents without a shape.
+Aabb<double> box_of(const Body& body);
+
+// ---- A scene as its file describes it: bodies, how they are stepped, for how long, and what is pushed by hand.
 
 /// A hand that sets a body's velocity before the first step that begins at `time` or later.
 struct Push {
@@ -40,5 +65,149 @@ Scene read_scene(const Settings& settings, const RunOptions& options);
 /// The policies a scene may name, in the order of TimePolicy.
 std::vector<std::string_view> policy_names();
 TimePolicy policy_named(std::string_view name);
+
+// ---- What a viewer needs: JSON lines, one object each. The first line names the bodies and their shapes; every further one
+// is a frame, with the places of the bodies that move, in the order of their ids.
+
+/// Plays the scene once more, which gives the same bits, and writes down every `trace_every`-th step and the last.
+std::string trace_of(const Scene& scene);
+
+// ---- The referee of a scene: contacts that a step went through and did not see.
+//
+//
+// Between two steps a body that nothing touched moved straight, from where it was to where it is. Of two such bodies,
+// apart at both ends, the closed form says whether they touched on the way. If they did and the step told no contact of
+// theirs, one went through the other: it tunneled. Bodies that were in any contact in the step are not judged against
+// others, for their way may have a corner. Under substeps gravity bends the way, by g dt^2 / 8 at most: a contact less deep
+// than that may be judged wrong.
+
+/// Two bodies that passed through each other.
+struct MissedContact {
+  std::uint32_t first = 0, second = 0;  ///< ids, first < second
+  double time = 0;                      ///< [s] when they first touched
+
+  static constexpr auto fields() {
+    using M = MissedContact;
+    return record(kept("time", &M::time, "s", "When they first touched."), kept("first_id", &M::first),
+                  kept("second_id", &M::second));
+  }
+};
+
+class MissedContacts {
+ public:
+  explicit MissedContacts(const World& world);
+  ~MissedContacts();
+  MissedContacts(const MissedContacts&) = delete;
+  MissedContacts& operator=(const MissedContacts&) = delete;
+
+  /// After a step of `dt` [s]: what it missed since the last call, by id.
+  std::vector<MissedContact> after_step(const World& world, double dt);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+// ---- A scene stepped from its beginning to its end, and everything its results need to know of that.
+
+/// What is kept of each step.
+struct StepRow {
+  std::int64_t step = 0;
+  double time = 0;  ///< [s] at its end
+  std::int64_t pairs = 0, sweeps = 0, gated = 0, hits = 0, impulses = 0, waiting = 0;
+  std::int64_t begins = 0, ends = 0;
+  std::int64_t tunneled = 0;  ///< pairs that went through each other
+  double energy = 0;          ///< [J]
+
+  static constexpr auto fields() {
+    using R = StepRow;
+    return record(
+        kept("step", &R::step, "1", "Number of the step, from 1."), kept("time", &R::time, "s", "Time at its end."),
+        sum("pairs", &R::pairs, "1", "Pairs whose boxes meet, as the broad phase found them."),
+        sum("sweeps", &R::sweeps, "1", "Pairs that were asked, those after a hit included."),
+        sum("gated", &R::gated, "1", "Of those, tested at an instant because both moved less than the gate."),
+        sum("hits", &R::hits, "1", "Contacts."), sum("impulses", &R::impulses, "1", "Impulses exchanged."),
+        sum("waiting", &R::waiting, "1", "Bodies that stopped before the end of the step."),
+        sum("begins", &R::begins, "1", "Contacts that began."), sum("ends", &R::ends, "1", "Contacts that ended."),
+        sum("tunneled", &R::tunneled, "1", "Pairs that went through each other unseen."),
+        kept("energy", &R::energy, "J", "Kinetic, and of height, at its end."));
+  }
+};
+
+/// A contact that began or ended.
+struct LoggedEvent {
+  double time = 0;  ///< [s]
+  std::int64_t step = 0;
+  bool begins = false;
+  std::uint32_t first = 0, second = 0;  ///< ids
+
+  static constexpr auto fields() {
+    using E = LoggedEvent;
+    return record(kept("time", &E::time), kept("step", &E::step), kept("begins", &E::begins), kept("first", &E::first),
+                  kept("second", &E::second));
+  }
+  bool operator==(const LoggedEvent&) const = default;
+};
+
+/// The way of one body in the plane of the picture.
+struct Track {
+  std::uint32_t id = 0;
+  std::vector<double> x, y;  ///< [m]
+  static constexpr auto fields() { return record(kept("id", &Track::id), kept("x", &Track::x), kept("y", &Track::y)); }
+};
+
+/// Where a body is at the end.
+struct FinalPlace {
+  std::int64_t id = 0;
+  double x = 0, y = 0, z = 0;
+
+  static constexpr auto fields() {
+    return record(kept("id", &FinalPlace::id, "1", "Id."), kept("x", &FinalPlace::x, "m", "Of its center."),
+                  kept("y", &FinalPlace::y, "m", "The same."), kept("z", &FinalPlace::z, "m", "The same."));
+  }
+};
+
+/// [s] over all steps, of wall clock.
+struct PhaseTime {
+  double total = 0, most = 0;
+  static constexpr auto fields() { return record(kept("total", &PhaseTime::total), kept("most", &PhaseTime::most)); }
+};
+
+/// The phases of a step, in order, and all of it.
+inline constexpr std::array<std::string_view, 6> phase_names = {"integrate", "broad",  "narrow",
+                                                                "response",  "events", "step"};
+
+struct Playback {
+  std::vector<StepRow> rows;
+  std::vector<LoggedEvent> events;  ///< begins and ends, the first `most_kept`
+  std::int64_t all_events = 0;
+  std::vector<MissedContact> missed;  ///< the first `most_kept`
+  std::int64_t all_missed = 0;
+  std::int64_t live = 0;  ///< contacts that had not ended
+  std::vector<Track> tracks;
+  std::vector<FinalPlace> places;  ///< of every body, by id
+  double energy = 0;               ///< [J] at the start
+  std::uint64_t hash = 0;          ///< of the state at the end
+  std::int64_t bytes = 0;          ///< [B] the most that stepping held
+  std::array<PhaseTime, phase_names.size()> phases = {};
+  StepRow sums() const;  ///< over all steps
+  static constexpr auto fields() {
+    using P = Playback;
+    return record(kept("rows", &P::rows), kept("events", &P::events), kept("all_events", &P::all_events),
+                  kept("missed", &P::missed), kept("all_missed", &P::all_missed), kept("live", &P::live),
+                  kept("tracks", &P::tracks), kept("places", &P::places), kept("energy", &P::energy),
+                  kept("hash", &P::hash), kept("bytes", &P::bytes), kept("phases", &P::phases));
+  }
+};
+
+inline constexpr std::size_t most_kept = 10'000;   ///< of events and of missed contacts
+inline constexpr std::size_t most_tracks = 40;     ///< moving bodies in the picture
+inline constexpr std::int64_t most_points = 2000;  ///< of a track
+
+/// Called before the first step, and after each.
+using Frame = std::function<void(const World&)>;
+
+/// Throws what World throws.
+Playback play(const Scene& scene, const Frame& on_frame = {});
 
 }  // namespace thinwall

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/speed/batch.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/speed/model.hpp>
 
 namespace thinwall {
 

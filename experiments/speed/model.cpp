@@ -14,9 +14,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/file_text.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 
 namespace thinwall {
 

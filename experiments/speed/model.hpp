@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/lab/figure.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/lab/rounds.hpp>
 
 namespace thinwall {
 
@@ -100,5 +101,13 @@ std::vector<TimedWay> drawn_ways(const std::vector<TimedWay>& all);
 
 /// The program's own answer through the front door, for the subject of `timed`; null if it is not there.
 const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed);
+
+// ---- What the benchmark of batches says: the picture of it, and a sentence.
+
+/// What a row of a batch takes, by pair, scalar and width of vector; without panels where no batch was timed.
+Figure batch_figure(const std::vector<TimedWay>& all);
+
+/// A sentence on batches, after a space; empty where none was timed.
+std::string batch_text(const std::vector<TimedWay>& all);
 
 }  // namespace thinwall

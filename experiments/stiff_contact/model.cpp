@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <thinwall/discrete/aabb.hpp>
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/stiff_contact/theory.hpp>
-#include <thinwall/experiments/timing/interleaved.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {

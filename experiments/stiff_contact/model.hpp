@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/stiff_contact/spring.hpp>
 
 namespace thinwall {

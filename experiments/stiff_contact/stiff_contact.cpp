@@ -15,8 +15,8 @@
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/stiff_contact/theory.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

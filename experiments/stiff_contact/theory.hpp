@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/stiff_contact/model.hpp>
 
 namespace thinwall {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/self_test.hpp>
 #include <thinwall/experiments/swept_bounds/theory.hpp>
 
 namespace thinwall {

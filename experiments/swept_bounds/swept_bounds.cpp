@@ -13,8 +13,8 @@
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/swept_bounds/bounds.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/timing/interleaved.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/swept/methods.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 

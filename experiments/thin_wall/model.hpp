@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <thinwall/experiments/random.hpp>
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 
 namespace thinwall {

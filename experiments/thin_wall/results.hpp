@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
-#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/thin_wall/methods.hpp>
 
 namespace thinwall {

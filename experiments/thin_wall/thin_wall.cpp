@@ -16,10 +16,10 @@
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/statistics.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 #include <thinwall_embedded.hpp>
 

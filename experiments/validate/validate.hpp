@@ -1,15 +1,92 @@
 #pragma once
-/// The library against published queries and against exact arithmetic: who answers what, and who is wrong.
+/// Published queries, asked again and judged in exact arithmetic.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/validate/rigid_query.hpp>
+#include <thinwall/discrete/scalar.hpp>
+#include <thinwall/experiments/validate/exact_verdict.hpp>
+#include <thinwall/swept/toi.hpp>
 
 namespace thinwall {
+
+// ---- Reads files of published CCD queries: eight rows a query, in a folder that says which two primitives meet.
+// A row is one vertex: `x_numerator,x_denominator,y_...,z_...,answer`. Rows 1 to 4 are the vertices at the start of the
+// step, rows 5 to 8 the same at its end. Every complaint is a UsageError of one line: file, line, reason.
+
+enum class Primitives {
+  vertex_face,  ///< in a folder `vertex-face`: the vertex, then the face's three corners
+  edge_edge,    ///< in a folder `edge-edge`: two ends of one edge, then two of the other
+};
+std::string_view name(Primitives primitives);
+
+/// Coordinates as read, without rounding.
+struct PublishedQuery {
+  std::array<RationalPoint, 4> at_start, at_end;  ///< [length]
+  bool collides = false;                          ///< the published answer
+  std::size_t line = 0;                           ///< of its first row in the file, from 1
+};
+
+class QueryFile {
+ public:
+  explicit QueryFile(const std::filesystem::path& file);
+
+  Primitives primitives() const { return primitives_; }
+  /// The next query; nothing at the end.
+  std::optional<PublishedQuery> next();
+
+ private:
+  bool next_row(RationalPoint& vertex, bool& answer);
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+  std::string shown_;  ///< the file's name, for complaints
+  std::ifstream in_;
+  Primitives primitives_ = Primitives::vertex_face;
+  std::size_t line_ = 0;
+};
+
+/// Every CSV file below `folder`, by name. Throws UsageError if the folder is missing, unreadable or has none.
+std::vector<std::filesystem::path> query_files(const std::filesystem::path& folder);
+
+// ---- From a published query, whose vertices move each on its own, to one that the library serves: two shapes that translate.
+
+/// Why a query is left out.
+enum class Skipped {
+  not_rigid,   ///< the vertices of a primitive do not share one displacement, exactly
+  not_double,  ///< a coordinate at the start, or a displacement, has no double near it: too many digits, or too large
+  rounding_decides,  ///< a displacement is no double, and with the nearest one the exact answer is another
+};
+
+/// A query that fits. Its coordinates are doubles; its displacements are, or the nearest double poses a query with the
+/// same exact answer, and that is what the library is judged by.
+struct RigidQuery {
+  Primitives primitives = Primitives::vertex_face;
+  std::array<Vec3<double>, 4> at_start;       ///< [length]
+  Vec3<double> displacement_a;                ///< [length] of the vertex, or the first edge
+  Vec3<double> displacement_b;                ///< [length] of the face, or the second edge
+  bool rounded = false;                       ///< a displacement is not exactly a double
+  std::optional<Rational> published_contact;  ///< [1] first contact of the query as published, exactly
+  std::optional<Rational> posed_contact;      ///< [1] first contact of the query as posed to the library, exactly
+};
+
+struct RigidReading {
+  std::optional<RigidQuery> query;
+  Skipped skipped = Skipped::not_rigid;  ///< where there is no query
+};
+
+RigidReading read_rigid(Primitives primitives, const PublishedQuery& published);
+
+/// What the library's front door answers with its default method, in double.
+Toi<double> library_answer(const RigidQuery& query);
+
+// ---- The library against published queries and against exact arithmetic: who answers what, and who is wrong.
 
 /// Counts of queries; all of one kind of primitives from one family, or of everything.
 struct QueryCounts {

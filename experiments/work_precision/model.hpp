@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
 

@@ -10,11 +10,11 @@
 #include <fmt/ranges.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/figure.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/figure.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/settings.hpp>
 #include <thinwall/experiments/work_precision/model.hpp>
 #include <thinwall/swept/methods.hpp>
 #include <thinwall_embedded.hpp>

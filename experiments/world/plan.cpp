@@ -1,10 +1,9 @@
-#include <thinwall/experiments/world/plan.hpp>
+#include <thinwall/experiments/world/world.hpp>
 
 #include <algorithm>
 #include <array>
 
-#include <thinwall/experiments/world/checks.hpp>
-#include <thinwall/experiments/world/step/pair_finder.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 
 namespace thinwall {
 namespace {

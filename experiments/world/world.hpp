@@ -1,21 +1,173 @@
 #pragma once
-/// Bodies that move, meet and bounce. docs/world.md says what a step does under each policy, and proves it bounded.
-///
-/// Every order is that of the ids, whatever the order the bodies are given in, and no sum depends on how work is split:
-/// the same bodies and options give the same bits with any number of threads.
+/// A world of bodies that moves in steps: options, bodies, what a step reports, its plan.
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
+#include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/collision_events.hpp>
-#include <thinwall/experiments/world/body.hpp>
-#include <thinwall/experiments/world/options.hpp>
-#include <thinwall/experiments/world/plan.hpp>
-#include <thinwall/experiments/world/step_report.hpp>
+#include <thinwall/discrete/scalar.hpp>
+#include <thinwall/discrete/sphere.hpp>
 
 namespace thinwall {
+
+// ---- How a world steps, and what is asked of it.
+
+/// What is looked at of the motion in a step.
+enum class TimePolicy {
+  discrete,      ///< the poses at its end, and nothing between
+  substeps,      ///< the poses at the end of each of n equal parts
+  clamp,         ///< all of it; a body stops where it first hits, and loses the rest of the step: what engines do
+  event_driven,  ///< all of it; after a hit a body goes on at its new velocity, up to `max_events` times
+};
+std::string_view name_of(TimePolicy policy);  ///< as it is spelled in a scene: `event_driven`
+
+struct WorldOptions {
+  Vec3<double> gravity = Vec3<double>::Zero();  ///< [m/s^2]
+  TimePolicy policy = TimePolicy::event_driven;
+  int substeps = 1;                  ///< >= 1; of TimePolicy::substeps alone
+  int max_events = 16;               ///< >= 1: hits of a body in a step; after the last one it waits for the next step
+  int contact_rounds = 8;            ///< >= 0: passes over the contacts at the start of a step, before anything moves
+  double correction = 1;             ///< [1] in [0, 1]: part of a penetration that is undone at the end of a step
+  std::string broad_phase = "auto";  ///< a name of BroadPhases; auto: as the plan decides
+  bool response = true;              ///< false: bodies pass through each other, and the contacts are only told
+  bool events = true;                ///< false: nobody reads them
+  int end_after = 1;                 ///< >= 1: a contact ends on this many consecutive steps apart
+  double gate = 0;                   ///< [1] >= 0: a pair of which neither moves more than this part of its least half
+                                     ///< width is not swept but tested at the start of the step. 0: off
+  bool full_plan = false;            ///< true: omit nothing, to show that what is omitted changes no outcome
+  std::vector<std::string> keep = {};  ///< omissions not to make, by `PlanLine::what`: what one alone saves
+  int threads = 1;                     ///< >= 1; of no effect on any result
+  std::size_t max_pairs =
+      std::size_t{1} << 24;  ///< >= 1: more candidate pairs than this stop the step with TooManyPairs
+};
+
+// ---- What a world is made of: a body has a shape, or none, and moves without turning.
+
+/// A shape that every other of the list can meet, or none.
+using AnyShape = std::variant<std::monostate, Sphere<double>, Aabb<double>, Obb<double>, Capsule<double>>;
+
+/// Two bodies meet only if each belongs to a group that the other's mask has: (a.group & b.mask) and (b.group & a.mask).
+struct Body {
+  std::uint32_t id = 0;                          ///< no two bodies share one; decides every order
+  std::string name;                              ///< empty: `body ID`
+  AnyShape shape;                                ///< [m] where it is; std::monostate collides with nothing
+  Vec3<double> velocity = Vec3<double>::Zero();  ///< [m/s] of the whole body; zero if it is static
+  double mass = 1;                               ///< [kg] > 0; infinity: moves at its velocity, and nothing changes it
+  bool is_static = false;                        ///< stays where it is, whatever its mass
+  double restitution = 0;                        ///< [1] in [0, 1]; of two bodies in contact the larger one counts
+  double gravity_scale = 1;                      ///< [1] times the world's gravity; of no effect without a finite mass
+  std::uint32_t group = 1;                       ///< bits it belongs to
+  std::uint32_t mask = ~std::uint32_t{0};        ///< bits it may meet
+};
+
+/// [1/kg] What an impulse does to it: 0 for a body that nothing moves.
+inline double inverse_mass(const Body& body) { return body.is_static ? 0 : 1 / body.mass; }
+
+/// True if its place can change in a step.
+inline bool can_move(const Body& body) { return !body.is_static; }
+
+/// [m] The point that its contact data is relative to; zero without a shape.
+Vec3<double> position(const Body& body);
+
+/// What complaints and the log call it: `bullet (id 3)`.
+std::string called(const Body& body);
+
+// ---- What a scene needs, decided from the scene alone. A plan omits only what it proves to yield nothing: with or without
+// it every outcome is the same to the bit (docs/world.md says why, the tests show it).
+
+/// One thing that a step might do.
+struct PlanLine {
+  std::string what;      ///< `static pairs`
+  bool omitted = false;  ///< it is left out
+  std::string why;       ///< the proof, or why it is needed, in numbers of the scene
+};
+
+struct Plan {
+  bool full = false;            ///< nothing is omitted
+  std::string broad_phase;      ///< its name
+  bool sphere_aabb = false;     ///< the kernels of spheres and axis-aligned boxes alone
+  bool all_bounds = false;      ///< every two bodies are asked, whatever their boxes
+  bool static_pairs = false;    ///< pairs of two static bodies are asked, and what they find is dropped
+  bool masked_pairs = false;    ///< the same for pairs that a mask leaves out
+  bool resting_bounds = false;  ///< boxes and places of bodies that never move are computed anew in each step
+  bool contacts = false;        ///< pairs are looked for at all
+  bool events = false;          ///< begin, stay and end are kept, be it for nobody
+  bool response = false;        ///< impulses are computed, be it to drop them
+  std::vector<PlanLine> lines;  ///< the same for people
+};
+
+/// Throws what World's constructor throws for the same scene.
+Plan plan(std::span<const Body> bodies, const WorldOptions& options);
+
+/// What a plan may omit: the `what` of its lines, in their order.
+std::span<const std::string_view> omission_names();
+
+/// What it omits, what it keeps, and why; ends with a newline.
+std::string to_text(const Plan& plan);
+
+// ---- What a step did and what it cost.
+
+/// Two bodies in contact during a step.
+struct Hit {
+  std::uint32_t first = 0, second = 0;         ///< ids, first < second
+  double time = 0;                             ///< [s] since the world began
+  bool at_start = false;                       ///< in contact at the start of the step already
+  Vec3<double> normal = Vec3<double>::Zero();  ///< unit, from first to second
+  Vec3<double> point = Vec3<double>::Zero();   ///< [m] where they touch
+};
+
+/// [s] of wall clock, by phase.
+struct PhaseSeconds {
+  double integrate = 0;  ///< velocities and boxes
+  double broad = 0;      ///< pairs whose boxes meet
+  double narrow = 0;     ///< sweeps, or tests at an instant
+  double response = 0;   ///< impulses, what they change later in the step, and the correction
+  double events = 0;     ///< begin, stay, end; the listeners
+  double total() const { return integrate + broad + narrow + response + events; }
+};
+
+/// All but the seconds and the bytes are the same in every run.
+struct StepReport {
+  std::uint64_t step = 0;    ///< 1 for the first
+  double time = 0;           ///< [s] at its end
+  std::size_t pairs = 0;     ///< that the broad phase handed over; substeps add up
+  std::size_t sweeps = 0;    ///< pairs asked, those after a hit included
+  std::size_t gated = 0;     ///< of these: tested at an instant because both moved less than the gate
+  std::size_t hits = 0;      ///< contacts, each with its time
+  std::size_t impulses = 0;  ///< exchanged
+  std::size_t waiting = 0;   ///< bodies that stopped early: clamped, or out of events
+  std::size_t bytes = 0;     ///< [B] held for stepping, bodies not included
+  PhaseSeconds seconds;
+};
+
+// ---- What no world can hold, by name.
+
+/// [m] A coordinate beyond this has left the representable world: boxes and sweeps add up a few of them.
+inline constexpr double end_of_the_world = std::numeric_limits<double>::max() / 1024;
+
+/// True if the shape's fields are so small that a step's sums of them do not overflow. False for NaN.
+bool is_in_the_world(const AnyShape& shape, const Vec3<double>& displacement);
+
+/// Throws WorldError.
+void require_valid(const Body& body);
+void require_valid(const WorldOptions& options);
+
+/// The same bodies in the order of ids. Throws WorldError.
+std::vector<Body> checked_and_sorted(std::vector<Body> bodies);
+
+// ---- Bodies that move, meet and bounce. docs/world.md says what a step does under each policy, and proves it bounded.
+//
+// Every order is that of the ids, whatever the order the bodies are given in, and no sum depends on how work is split:
+// the same bodies and options give the same bits with any number of threads.
 
 /// A body or an option that no world can hold; one line that names it and what is allowed.
 struct WorldError : std::invalid_argument {

@@ -7,7 +7,7 @@
 
 #include <thinwall/experiments/crossing_bullets/model.hpp>
 #include <thinwall/experiments/crossing_bullets/theory.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
 namespace {

@@ -10,8 +10,8 @@
 #include <toml++/toml.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/tables/csv.hpp>
-#include <thinwall/experiments/text/file_text.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall_embedded.hpp>
 
 #include "support/described_tables.hpp"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 
 #include "experiments/hitscan_run.hpp"
 

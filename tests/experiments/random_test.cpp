@@ -1,4 +1,4 @@
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
 namespace {

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 
 namespace thinwall {
 namespace {

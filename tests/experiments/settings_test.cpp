@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 namespace {

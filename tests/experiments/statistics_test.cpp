@@ -1,4 +1,4 @@
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -9,7 +9,7 @@
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/self_test.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/swept_bounds/bounds.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 

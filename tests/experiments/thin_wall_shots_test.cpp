@@ -10,7 +10,7 @@
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/thin_wall/methods.hpp>
 
 namespace thinwall {

@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/self_test.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 
 #include "support/experiment_run.hpp"

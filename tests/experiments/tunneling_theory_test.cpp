@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 
 namespace thinwall {
 namespace {

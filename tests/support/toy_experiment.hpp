@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 

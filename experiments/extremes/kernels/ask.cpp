@@ -15,7 +15,7 @@
 #include <thinwall/experiments/extremes/kernels/textbook.hpp>
 #include <thinwall/experiments/extremes/kernels/truth.hpp>
 #include <thinwall/experiments/extremes/model.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/swept/methods.hpp>
 
 namespace thinwall {

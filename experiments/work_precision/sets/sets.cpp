@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/accuracy/judge.hpp>
-#include <thinwall/experiments/timing/interleaved.hpp>
+#include <thinwall/experiments/accuracy/model.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/work_precision/model.hpp>
 #include <thinwall/swept/methods.hpp>
 

@@ -6,9 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/advise/advice_text.hpp>
-#include <thinwall/experiments/advise/check_config.hpp>
-#include <thinwall/experiments/advise/words.hpp>
+#include <thinwall/experiments/advise/advice.hpp>
 
 #include "experiments/advise/given_costs.hpp"
 

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/advise/check_config.hpp>
+#include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
-#include <thinwall/experiments/statistics.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/swept/certified.hpp>
 
 #include "experiments/advise/given_costs.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/check/xml.hpp>
+#include <thinwall/experiments/check/readers.hpp>
 
 namespace thinwall {
 namespace {

@@ -5,13 +5,10 @@
 #include <limits>
 #include <set>
 
-#include <thinwall/experiments/check/html_tags.hpp>
-#include <thinwall/experiments/check/parts.hpp>
-#include <thinwall/experiments/check/xml.hpp>
-#include <thinwall/experiments/figures/plot.hpp>
-#include <thinwall/experiments/figures/plot_axis.hpp>
-#include <thinwall/experiments/figures/plot_style.hpp>
-#include <thinwall/experiments/text/escape.hpp>
+#include <thinwall/experiments/check/check.hpp>
+#include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/svg.hpp>
 
 #include "support/temporary_folder.hpp"
 

@@ -8,9 +8,9 @@
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/tables/csv.hpp>
 
 namespace thinwall {
 namespace {

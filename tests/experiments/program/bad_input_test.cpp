@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 
 #include "support/temporary_folder.hpp"
 

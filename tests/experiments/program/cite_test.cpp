@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <thinwall/experiments/results/kept_result.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
 
 #include "support/toy_program.hpp"
 

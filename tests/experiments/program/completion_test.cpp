@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/completion.hpp>
 

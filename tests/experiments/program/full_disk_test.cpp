@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 
 #include "support/small_wall.hpp"
 

@@ -8,9 +8,8 @@
 #include <chrono>
 #include <random>
 
-#include <thinwall/experiments/run/journal.hpp>
-#include <thinwall/experiments/run/temporary.hpp>
-#include <thinwall/experiments/text/sha256.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/journal.hpp>
 
 #include "support/program_process.hpp"
 #include "support/small_wall.hpp"

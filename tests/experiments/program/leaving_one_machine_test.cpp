@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 
 #include "support/program_process.hpp"
 #include "support/small_wall.hpp"

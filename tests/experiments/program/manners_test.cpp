@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/program/command.hpp>
 
 #include "experiments/scenes/scene_text.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/program/progress_bar.hpp>
+#include <thinwall/experiments/program/run.hpp>
 
 namespace thinwall {
 namespace {

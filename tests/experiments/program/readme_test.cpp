@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 
 #include "support/console.hpp"
 #include "support/temporary_folder.hpp"

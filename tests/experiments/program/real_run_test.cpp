@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-#include <thinwall/experiments/figures/subprocess.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 
 #include "support/temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include <thinwall/experiments/check/check.hpp>
-#include <thinwall/experiments/check/csv_reader.hpp>
-#include <thinwall/experiments/results/result_folder.hpp>
+#include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
 
 #include "support/toy_program.hpp"
 

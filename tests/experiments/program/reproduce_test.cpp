@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <thinwall/experiments/text/sha256.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 
 #include "support/toy_program.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <thinwall/experiments/results/shard_seal.hpp>
+#include <thinwall/experiments/lab/shards.hpp>
 
 #include "support/toy_program.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include <thinwall/experiments/text/sha256.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 
 #include "support/toy_program.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/results/file_difference.hpp>
+#include <thinwall/experiments/lab/comparison.hpp>
 
 namespace thinwall {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/results/result_folder.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
 
 #include "support/toy_program.hpp"
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <thinwall/experiments/run/estimate.hpp>
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 namespace {

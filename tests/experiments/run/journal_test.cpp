@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/run/journal.hpp>
+#include <thinwall/experiments/lab/journal.hpp>
 
 #include "support/temporary_folder.hpp"
 

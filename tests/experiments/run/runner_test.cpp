@@ -3,8 +3,8 @@
 #include <atomic>
 #include <stdexcept>
 
-#include <thinwall/experiments/run/identity.hpp>
-#include <thinwall/experiments/run/runner.hpp>
+#include <thinwall/experiments/lab/journal.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
 
 #include "support/temporary_folder.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <thinwall/experiments/run/shard.hpp>
-#include <thinwall/experiments/settings.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/shards.hpp>
 
 namespace thinwall {
 namespace {

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <future>
 
-#include <thinwall/experiments/run/stop_signal.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
 
 namespace thinwall {
 namespace {

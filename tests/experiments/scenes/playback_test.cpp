@@ -7,9 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/scenes/playback.hpp>
-#include <thinwall/experiments/scenes/scene_results.hpp>
-#include <thinwall/experiments/scenes/trace.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
 #include "support/experiment_run.hpp"

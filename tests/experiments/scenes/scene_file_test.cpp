@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/scenes/bodies.hpp>
-#include <thinwall/experiments/scenes/playback.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
 

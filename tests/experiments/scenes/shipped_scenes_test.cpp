@@ -6,7 +6,7 @@
 #include <set>
 
 #include <thinwall/experiments/scenes/comparison.hpp>
-#include <thinwall/experiments/scenes/playback.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
 #include "support/temporary_folder.hpp"

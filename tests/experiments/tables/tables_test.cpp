@@ -4,11 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/results/resolved_toml.hpp>
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/tables/csv.hpp>
-#include <thinwall/experiments/tables/shown_table.hpp>
-#include <thinwall/experiments/text/sha256.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 #include "support/temporary_folder.hpp"
 

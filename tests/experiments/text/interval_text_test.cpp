@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/text/interval_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {

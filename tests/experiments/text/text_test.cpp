@@ -5,11 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include <thinwall/experiments/settings.hpp>
-#include <thinwall/experiments/text/escape.hpp>
-#include <thinwall/experiments/text/numbers.hpp>
-#include <thinwall/experiments/text/ranges.hpp>
-#include <thinwall/experiments/text/spelling.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {

@@ -1,6 +1,6 @@
 // Whom a body may meet, kept up to date.
 
-#include <thinwall/experiments/world/step/neighbors.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <thinwall/experiments/random.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/world.hpp>
 
 namespace thinwall::testing {

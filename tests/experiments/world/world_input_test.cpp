@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/discrete/broad_phase/proxy.hpp>
-#include <thinwall/experiments/world/step/pair_finder.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 
 #include "experiments/world/random_world.hpp"
 

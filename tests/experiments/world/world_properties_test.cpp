@@ -3,7 +3,7 @@
 #include <map>
 
 #include <thinwall/discrete/dispatch.hpp>
-#include <thinwall/experiments/world/step/pair_finder.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 
 #include "experiments/world/random_world.hpp"
 #include "support/property.hpp"

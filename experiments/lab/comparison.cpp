@@ -1,0 +1,187 @@
+#include <thinwall/experiments/lab/comparison.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Kind = FileDifference::Kind;
+using Row = std::vector<std::string>;
+
+/// The rows of an RFC 4180 file.
+std::vector<Row> csv_rows(const std::string& text) {
+  std::vector<Row> rows;
+  Row row(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char letter = text[i];
+    if (letter == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
+      row.back() += text[++i];
+    } else if (letter == '"') {
+      quoted = !quoted;
+    } else if (letter == ',' && !quoted) {
+      row.emplace_back();
+    } else if (letter == '\n' && !quoted) {
+      rows.push_back(std::exchange(row, Row(1)));
+    } else {
+      row.back() += letter;
+    }
+  }
+  if (row != Row(1)) rows.push_back(row);
+  return rows;
+}
+
+std::string joined(const Row& row) {
+  std::string out;
+  for (const std::string& field : row) out += (&field == &row.front() ? "" : ",") + field;
+  return out;
+}
+
+std::optional<FileDifference> csv_difference(const std::string& file, const std::string& recorded,
+                                             const std::string& rerun) {
+  const auto a = csv_rows(recorded), b = csv_rows(rerun);
+  if (a.empty() || b.empty() || a.front() != b.front()) {
+    return FileDifference{
+        file, Kind::columns, 0, {}, a.empty() ? "" : joined(a.front()), b.empty() ? "" : joined(b.front())};
+  }
+  for (std::size_t i = 1; i < std::max(a.size(), b.size()); ++i) {
+    const auto number = static_cast<std::int64_t>(i);
+    if (i >= a.size() || i >= b.size() || a[i].size() != b[i].size()) {
+      return FileDifference{
+          file, Kind::row, number, {}, i < a.size() ? joined(a[i]) : "", i < b.size() ? joined(b[i]) : ""};
+    }
+    for (std::size_t k = 0; k < a[i].size(); ++k) {
+      if (a[i][k] == b[i][k]) continue;
+      return FileDifference{file, Kind::cell, number, k < a[0].size() ? a[0][k] : "", a[i][k], b[i][k]};
+    }
+  }
+  return std::nullopt;  // the same fields, otherwise quoted
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What a line of a BibTeX file says of the result, not of the day or the program that computed it.
+std::string lasting_part(const std::string& line) {
+  const std::string_view word = std::string_view(line).substr(std::min(line.find_first_not_of(' '), line.size()));
+  for (const char* field : {"date ", "year ", "version "}) {
+    if (word.starts_with(field)) return field;
+  }
+  return line.substr(0, line.find(", commit "));
+}
+
+std::optional<FileDifference> line_difference(const std::string& file, const std::string& recorded,
+                                              const std::string& rerun) {
+  const auto a = lines_of(recorded), b = lines_of(rerun);
+  const bool dated = file.ends_with(".bib");
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    const std::string left = i < a.size() ? a[i] : "", right = i < b.size() ? b[i] : "";
+    const bool same = dated ? lasting_part(left) == lasting_part(right) : left == right;
+    if (same && i < a.size() && i < b.size()) continue;
+    return FileDifference{file, Kind::line, static_cast<std::int64_t>(i) + 1, {}, left, right};
+  }
+  if (dated || recorded == rerun) return std::nullopt;
+  return FileDifference{file, Kind::line, static_cast<std::int64_t>(a.size()),
+                        {},   "the end",  "another end of the last line"};
+}
+
+/// Of two long values, the part where they first differ.
+std::string both(const std::string& recorded, const std::string& rerun) {
+  constexpr std::size_t before = 20, most = 60;  // letters
+  const auto length = std::min(recorded.size(), rerun.size());
+  std::size_t same = 0;
+  while (same < length && recorded[same] == rerun[same]) ++same;
+  const std::size_t from = std::max(recorded.size(), rerun.size()) > most && same > before ? same - before : 0;
+  const auto shown = [&](const std::string& value) {
+    if (value.empty()) return std::string("nothing");
+    return (from > 0 ? "..." : "") +
+           clipped(one_line(std::string_view(value).substr(std::min(from, value.size()))), most);
+  };
+  return fmt::format("recorded {}, rerun {}", shown(recorded), shown(rerun));
+}
+
+}  // namespace
+
+std::optional<FileDifference> first_difference(const std::string& file, const std::string& recorded,
+                                               const std::string& rerun) {
+  if (recorded == rerun) return std::nullopt;
+  if (file.ends_with(".csv")) {
+    if (auto difference = csv_difference(file, recorded, rerun)) return difference;
+  }
+  return line_difference(file, recorded, rerun);
+}
+
+std::string to_text(const FileDifference& difference) {
+  const std::string values = both(difference.recorded, difference.rerun);
+  switch (difference.kind) {
+    case Kind::cell:
+      return fmt::format("{}: row {}, column '{}': {}", difference.file, difference.row, difference.column, values);
+    case Kind::row: return fmt::format("{}: row {}: {}", difference.file, difference.row, values);
+    case Kind::columns: return fmt::format("{}: the columns: {}", difference.file, values);
+    case Kind::line: return fmt::format("{}: line {}: {}", difference.file, difference.row, values);
+    case Kind::only_recorded: return difference.file + ": not in the rerun";
+    case Kind::only_rerun: return difference.file + ": only in the rerun";
+  }
+  return {};
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+std::vector<std::string> files_changed_since(const fs::path& result, const Manifest& recorded) {
+  std::vector<std::string> out;
+  for (const auto& [file, hash] : recorded.hashes) {
+    if (!holds_file(result, file) || sha256_of_file(result / file) != hash) out.push_back(file);
+  }
+  return out;
+}
+
+RerunComparison compare_rerun(const fs::path& result, const Manifest& recorded, const std::vector<std::string>& changed,
+                              const fs::path& rerun, const Manifest& again) {
+  RerunComparison out{.differences = {}, .facts = changed_facts(recorded, again)};
+  std::set<std::string> files;
+  for (const auto* hashes : {&recorded.hashes, &again.hashes}) {
+    for (const auto& [file, hash] : *hashes) files.insert(file);
+  }
+  out.files = static_cast<int>(files.size());
+  bool by_hand = true;
+  for (const std::string& file : files) {
+    const bool there = recorded.hashes.contains(file) && holds_file(result, file), here = again.hashes.contains(file);
+    std::optional<FileDifference> difference;
+    if (there && here) {
+      difference = first_difference(file, file_text(result / file), file_text(rerun / file));
+    } else {
+      difference.emplace();
+      difference->file = file;
+      difference->kind = here ? FileDifference::Kind::only_rerun : FileDifference::Kind::only_recorded;
+    }
+    if (!difference) continue;
+    out.differences.push_back(*difference);
+    const auto as_recorded = recorded.hashes.find(file), as_rerun = again.hashes.find(file);
+    by_hand = by_hand && std::ranges::find(changed, file) != changed.end() && as_recorded != recorded.hashes.end() &&
+              as_rerun != again.hashes.end() && (as_recorded->second == as_rerun->second || file.ends_with(".bib"));
+  }
+  out.explained_by_hand = by_hand && !out.differences.empty();
+  return out;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,47 @@
+#pragma once
+/// The figures of a result folder, drawn by gnuplot from its data.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <thinwall/experiments/lab/figure.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
+
+namespace thinwall {
+
+// ---- A figure as JSON, from which it can be drawn again by scripts that are made anew.
+
+std::string figure_json(const Figure& figure);
+
+/// The figure that `figure_json` wrote, but for its caption. Throws UsageError in one line, which names `file`.
+Figure parse_figure(const std::string& text, const std::string& file);
+
+// ---- Another program as a function: what it said, and how it ended.
+
+struct ProcessResult {
+  bool found = false;  ///< false: there is no such program
+  int status = -1;     ///< its exit code; -1 if a signal ended it
+  std::string output;  ///< what it wrote to its stdout and stderr
+};
+
+/// Runs `words[0]`, looked up in PATH, from inside `folder` and waits for it. It reads nothing from our stdin.
+ProcessResult run_process(const std::vector<std::string>& words, const std::filesystem::path& folder);
+
+// ---- The figures of a complete result in formats for print, drawn from what its plots/NAME.json say. The scripts in the folder
+// are not run: gnuplot does what a script says, whoever wrote it. The files are no part of the result: gnuplot's PDF differs
+// from run to run, so the manifest does not name them.
+
+struct DrawnFigures {
+  std::vector<std::string> files;     ///< paths in the result folder
+  std::vector<std::string> troubles;  ///< a line each
+};
+
+/// `formats`: of pdf and tex; every figure that the manifest names. Writes plots/NAME.pdf, plots/NAME-latex.tex and NAME-latex.pdf. Throws std::system_error if the
+/// folder cannot be written, UsageError if its manifest cannot be read.
+DrawnFigures draw_figures(const std::filesystem::path& folder, const std::vector<std::string>& formats);
+
+/// Removes what `draw_figures` drew of a result: it is older than what is about to be drawn.
+void remove_drawn_figures(const std::filesystem::path& folder, const Manifest& manifest);
+
+}  // namespace thinwall

@@ -1,0 +1,212 @@
+#include <thinwall/experiments/lab/escape.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+namespace thinwall {
+namespace {
+
+bool is_control(char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; }
+
+/// Each letter as `replacement(letter)` says, or itself where that is empty.
+template <class Replacement> std::string replaced(std::string_view text, Replacement replacement) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char letter : text) {
+    const std::string_view other = replacement(letter);
+    if (other.empty()) {
+      out += letter;
+    } else {
+      out += other;
+    }
+  }
+  return out;
+}
+
+/// What begins a letter in UTF-8: how many bytes it has, the bits of it there, and the least that needs so many bytes.
+struct Lead {
+  unsigned char from, to;
+  std::size_t bytes;
+  std::uint32_t mask, least;
+};
+constexpr std::array<Lead, 4> leads = {{{0x00, 0x7f, 1, 0x7f, 0},
+                                        {0xc0, 0xdf, 2, 0x1f, 0x80},
+                                        {0xe0, 0xef, 3, 0x0f, 0x800},
+                                        {0xf0, 0xf7, 4, 0x07, 0x10000}}};
+
+}  // namespace
+
+std::size_t letter_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+  for (const Lead& lead : leads) {
+    if (text.size() < lead.bytes || byte(0) < lead.from || byte(0) > lead.to) continue;
+    std::uint32_t code = byte(0) & lead.mask;
+    for (std::size_t i = 1; i < lead.bytes; ++i) {
+      if ((byte(i) & 0xc0) != 0x80) return 0;
+      code = code << 6 | (byte(i) & 0x3fU);
+    }
+    const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0), surrogate = code >= 0xd800 && code < 0xe000;
+    const bool letter = !control && !surrogate && (code & 0xfffe) != 0xfffe && code >= lead.least && code <= 0x10ffff;
+    return letter ? lead.bytes : 0;
+  }
+  return 0;
+}
+
+std::string one_line(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t bytes = letter_bytes(text);
+    out +=
+        bytes > 0 ? std::string(text.substr(0, bytes)) : fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  return out;
+}
+
+std::string gnuplot_quoted(std::string_view text) {
+  std::string plain = one_line(text), out = "\"";
+  if (plain.find('\'') == std::string::npos) return "'" + plain + "'";
+  for (const char letter : plain) {
+    const bool special = std::string_view("'\"\\`@").find(letter) != std::string_view::npos;
+    out += special ? fmt::format("\\{:03o}", static_cast<unsigned char>(letter)) : std::string(1, letter);
+  }
+  return out + '"';
+}
+
+std::string gnuplot_unquoted(std::string_view script) {
+  const auto begin = script.find_first_of("'\"");
+  if (begin == std::string_view::npos) return {};
+  const char quote = script[begin];
+  const auto digit = [&](std::size_t at) { return at < script.size() && script[at] >= '0' && script[at] <= '7'; };
+  std::string out;
+  for (std::size_t at = begin + 1; at < script.size(); ++at) {
+    if (script[at] == quote) {
+      if (quote == '"' || !script.substr(at).starts_with("''")) break;
+      ++at;  // a doubled one
+    } else if (quote == '"' && script[at] == '\\' && digit(at + 1) && digit(at + 2) && digit(at + 3)) {
+      out += static_cast<char>((script[at + 1] - '0') * 64 + (script[at + 2] - '0') * 8 + script[at + 3] - '0');
+      at += 3;
+      continue;
+    }
+    out += script[at];
+  }
+  return out;
+}
+
+std::string clipped(std::string_view text, std::size_t letters) {
+  if (text.size() <= letters) return std::string(text);
+  const auto continues = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80; };
+  while (letters > 0 && continues(letters)) --letters;
+  return std::string(text.substr(0, letters)) + "...";
+}
+
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') {
+      out += '\\';
+      out += letter;
+    } else if (is_control(letter)) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(letter));
+    } else {
+      out += letter;
+    }
+  }
+  return out + '"';
+}
+
+std::string html_escaped(std::string_view text) {
+  return replaced(text, [](char letter) -> std::string_view {
+    switch (letter) {
+      case '&': return "&amp;";
+      case '<': return "&lt;";
+      case '>': return "&gt;";
+      case '"': return "&quot;";
+      case '\'': return "&#39;";
+      default: return {};
+    }
+  });
+}
+
+std::string latex_escaped(std::string_view text) {
+  return replaced(text, [](char letter) -> std::string_view {
+    switch (letter) {
+      case '\\': return "\\textbackslash{}";
+      case '~': return "\\textasciitilde{}";
+      case '^': return "\\textasciicircum{}";
+      case '&': return "\\&";
+      case '%': return "\\%";
+      case '$': return "\\$";
+      case '#': return "\\#";
+      case '_': return "\\_";
+      case '{': return "\\{";
+      case '}': return "\\}";
+      case '<': return "\\textless{}";
+      case '>': return "\\textgreater{}";
+      case '|': return "\\textbar{}";
+      case '"': return "''";
+      default: return {};
+    }
+  });
+}
+
+std::string markdown_escaped(std::string_view text) {
+  std::string out = replaced(text, [](char letter) -> std::string_view {
+    switch (letter) {
+      case '|': return "\\|";
+      case '*': return "\\*";
+      case '_': return "\\_";
+      case '`': return "\\`";
+      case '<': return "&lt;";
+      case '\\': return "\\\\";
+      case '\n': return " ";
+      default: return {};
+    }
+  });
+  for (auto at = out.find("]("); at != std::string::npos; at = out.find("](", at)) out.insert(at + 1, 1, '\\');
+  return out;
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
+  std::string line;
+  for (const std::string& word : words) {
+    if (!line.empty()) line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += word;
+    } else {
+      line += '\'' + replaced(word, [](char letter) { return letter == '\'' ? "'\\''" : ""; }) + '\'';
+    }
+  }
+  return line;
+}
+
+std::string tsv_escaped(std::string_view text) {
+  return replaced(text, [](char letter) -> std::string_view {
+    switch (letter) {
+      case '\t': return "\\t";
+      case '\n': return "\\n";
+      case '\r': return "\\r";
+      case '\\': return "\\\\";
+      default: return {};
+    }
+  });
+}
+
+std::string tsv_unescaped(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\' || i + 1 == text.size()) {
+      out += text[i];
+      continue;
+    }
+    const char code = text[++i];
+    out += code == 't' ? '\t' : code == 'n' ? '\n' : code == 'r' ? '\r' : code;
+  }
+  return out;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,124 @@
+#include <thinwall/experiments/lab/judge.hpp>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace thinwall {
+
+namespace {
+
+constexpr double coverage_level = 0.95, central = 0.999;
+
+void add(SelfTest& test, const CellCount& cell) {
+  if (cell.theory == 0 || cell.theory == 1) {
+    ++test.certain_cells;
+    const std::int64_t certain = cell.theory == 0 ? 0 : cell.shots;
+    if (cell.tunneled != certain) ++test.certain_wrong;
+  } else if (can_be_judged(cell.shots, cell.theory)) {
+    ++test.judged_cells;
+    if (wilson(cell.tunneled, cell.shots, coverage_level).contains(cell.theory)) ++test.covered;
+    const double residual = standard_residual(cell.tunneled, cell.shots, cell.theory);
+    test.chi_square += residual * residual;
+  } else {
+    ++test.other_cells;
+  }
+}
+
+}  // namespace
+
+bool can_be_judged(std::int64_t shots, double theory) {
+  const double n = static_cast<double>(shots);
+  return 5 <= n * theory && n * theory <= n - 5;
+}
+
+void ResidualTest::add(double residual) {
+  ++judged;
+  chi_square += residual * residual;
+}
+
+std::optional<Interval> ResidualTest::allowed() const {
+  return judged > 0 ? std::optional(chi_square_range(judged, central)) : std::nullopt;
+}
+
+bool ResidualTest::passed() const { return judged == 0 || allowed()->contains(chi_square); }
+
+bool SelfTest::passed() const {
+  return certain_wrong == 0 && covered_allowed.contains(static_cast<double>(covered)) &&
+         chi_square_allowed.contains(chi_square);
+}
+
+std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
+  std::vector<SelfTest> tests;
+  for (const CellCount& cell : cells) {
+    auto found = std::find_if(tests.begin(), tests.end(), [&](const SelfTest& test) {
+      return test.method == cell.method && test.scalar == cell.scalar;
+    });
+    if (found == tests.end()) {
+      tests.emplace_back();
+      found = tests.end() - 1;
+      found->method = cell.method;
+      found->scalar = cell.scalar;
+    }
+    add(*found, cell);
+  }
+  for (SelfTest& test : tests) {
+    if (test.judged_cells == 0) continue;
+    test.covered_allowed = binomial_range(test.judged_cells, coverage_level, central);
+    test.chi_square_allowed = chi_square_range(test.judged_cells, central);
+  }
+  return tests;
+}
+
+bool all_passed(const std::vector<SelfTest>& tests) {
+  return std::all_of(tests.begin(), tests.end(), [](const SelfTest& test) { return test.passed(); });
+}
+
+std::string self_test_text(const std::vector<SelfTest>& tests) {
+  std::string text;
+  for (const SelfTest& t : tests) {
+    text += fmt::format("{}, {}: {} cells certain, {} wrong", t.method, t.scalar, t.certain_cells, t.certain_wrong);
+    if (t.judged_cells > 0) {
+      text += fmt::format(
+          "; {} of {} intervals hold the theory (allowed {} to {}), chi-square {:.1f} (allowed {:.1f} to {:.1f})",
+          t.covered, t.judged_cells, t.covered_allowed.lower, t.covered_allowed.upper, t.chi_square,
+          t.chi_square_allowed.lower, t.chi_square_allowed.upper);
+    }
+    text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
+  }
+  return text;
+}
+
+Table self_test_table(const std::vector<SelfTest>& tests) {
+  Table table;
+  table.name = "self_test";
+  table.description = "Counts of independent shots against theory, over all cells of a method and scalar at once.";
+  table.in_report = true;
+  table.columns = {
+      {"method", ColumnType::text, "", "Way of detecting the hit."},
+      {"scalar", ColumnType::text, "", "Floating-point type the method ran in."},
+      {"certain_cells", ColumnType::integer, "1", "Cells whose theory is exactly 0 or 1."},
+      {"certain_wrong", ColumnType::integer, "1", "Of those, cells whose count is not exactly that; must be 0."},
+      {"judged_cells", ColumnType::integer, "1", "Cells with at least 5 expected to tunnel and 5 not to."},
+      {"covered", ColumnType::integer, "1", "Of those, cells whose 95 % Wilson interval holds the theory."},
+      {"covered_lower", ColumnType::integer, "1", "Least allowed: central 99.9 % of Binomial(judged_cells, 0.95)."},
+      {"covered_upper", ColumnType::integer, "1", "Most allowed."},
+      {"chi_square", ColumnType::number, "1", "Sum of squared standard residuals over the judged cells."},
+      {"chi_square_lower", ColumnType::number, "1", "Least allowed: central 99.9 % of the chi-square distribution."},
+      {"chi_square_upper", ColumnType::number, "1", "Most allowed."},
+      {"other_cells", ColumnType::integer, "1", "Cells with a theory but too few expected events to judge alone."},
+      {"passed", ColumnType::boolean, "", "All of the above hold."},
+  };
+  for (const SelfTest& t : tests) {
+    const bool judged = t.judged_cells > 0;
+    const auto count = [&](double x) { return judged ? Value(static_cast<std::int64_t>(x)) : Value(); };
+    const auto number = [&](double x) { return judged ? Value(x) : Value(); };
+    table.rows.push_back({t.method, t.scalar, t.certain_cells, t.certain_wrong, t.judged_cells, t.covered,
+                          count(t.covered_allowed.lower), count(t.covered_allowed.upper), number(t.chi_square),
+                          number(t.chi_square_allowed.lower), number(t.chi_square_allowed.upper), t.other_cells,
+                          t.passed()});
+  }
+  return table;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,284 @@
+#include <thinwall/experiments/lab/result_folder.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/lab/draw.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+
+namespace thinwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* old_manifest_name = "manifest.old.json";  // of the result that is being replaced
+constexpr std::string_view rank_journal_begin = "journal.rank-", rank_journal_end = ".tsv";
+constexpr const char* old_journal_name = "journal.old.tsv";  // begun by another build of the program
+
+/// The key of the row that says that results are being moved into place: what has their names is ours from then on.
+constexpr const char* publishing_key = "";
+
+/// What a result is made of: where none of ours lies, none of these may either.
+constexpr std::array result_names = {manifest_name, seal_name,       "datapackage.json", "report.html",
+                                     "cite.bib",    "resolved.toml", "trace.jsonl",      "data",
+                                     "plots",       "tables"};
+
+/// Also of a link that leads nowhere.
+bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
+
+bool is_rank_journal(const std::string& name) {
+  return name.starts_with(rank_journal_begin) && name.ends_with(rank_journal_end) &&
+         parse_count(
+             name.substr(rank_journal_begin.size(), name.size() - rank_journal_begin.size() - rank_journal_end.size()));
+}
+
+/// A file as the manifest says that the run wrote it.
+bool is_unchanged(const fs::path& folder, const std::string& file, const std::string& hash) {
+  return holds_file(folder, file) && sha256_of_file(folder / file) == hash;
+}
+
+}  // namespace
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool FolderLock::take(const fs::path& folder, bool shared) {
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
+  return ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0;
+}
+
+ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(std::move(path)) {
+  try {
+    fs::create_directories(path_);
+    if (!lock_.take(path_)) refuse("another run is at work here; wait for it or name another folder");
+    look_at_manifest(identity);
+    if (!complete_) look_at_journal(identity);
+    remove_leftovers(path_);
+  } catch (const std::system_error& error) {
+    const std::string why = "cannot be written: " + error.code().message();
+    if (error.code() != std::errc::no_space_on_device && error.code().value() != EDQUOT) refuse(why);
+    throw std::runtime_error(
+        fmt::format("--out {}: {}", one_line(path_.string()), why));  // no fault of the user's words
+  }
+}
+
+ResultFolder::~ResultFolder() = default;
+
+void ResultFolder::refuse(const std::string& why) const {
+  throw UsageError(fmt::format("--out {}: {}", one_line(path_.string()), why));
+}
+
+void ResultFolder::refuse_foreign(const char* name) const {
+  if (is_there(path_ / name)) refuse(fmt::format("holds '{}', which is not ours; name another folder", name));
+}
+
+std::optional<Manifest> ResultFolder::manifest_in(const char* name) const {
+  if (!is_there(path_ / name)) return std::nullopt;
+  if (!holds_file(path_, name)) refuse(fmt::format("holds a {} that is not ours; name another folder", name));
+  try {
+    return parse_manifest(file_text(path_ / name), name);
+  } catch (const UsageError& error) {
+    refuse(fmt::format("holds a {} that is not ours ({}); name another folder", name, error.what()));
+  }
+}
+
+void ResultFolder::look_at_manifest(const RunIdentity& identity) {
+  for (const char* name : result_names) {
+    if (fs::is_symlink(path_ / name)) refuse_foreign(name);
+  }
+  auto manifest = manifest_in(manifest_name);
+  const bool half_replaced = !manifest;  // if there is an old one
+  if (half_replaced) manifest = manifest_in(old_manifest_name);
+  if (!manifest) return;
+  if (const auto difference = identity_difference(identity_text(manifest->run), identity); !difference.empty()) {
+    refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
+  }
+  if (half_replaced) {
+    replaced_ = manifest;
+    notes_.push_back(one_line(path_.string()) +
+                     ": an earlier result was being replaced here; it is when this run ends");
+    return;
+  }
+  std::string changed, missing;
+  for (const auto& [file, hash] : manifest->hashes) {
+    if (!is_there(path_ / file)) {
+      missing = file;
+    } else if (!is_unchanged(path_, file, hash)) {
+      changed = file;
+    }
+  }
+  for (const std::string& file : manifest->unhashed) {
+    if (!fs::exists(path_ / file)) missing = file;
+  }
+  const bool ours = manifest->run.program == identity.program;
+  if (ours && missing.empty() && fs::exists(path_ / "report.html")) {
+    complete_ = manifest;
+    clear_up();  // after a run that was killed while it did
+    notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", one_line(path_.string()),
+                                 changed.empty() ? "" : " (" + changed + " was changed since)"));
+    return;
+  }
+  manifest_in(old_manifest_name);  // which would be overwritten
+  if (!changed.empty()) refuse(changed + " was changed since the run wrote it; name another folder, or move it away");
+  replaced_ = manifest;
+  notes_.push_back(fmt::format("{}: {}; its result is replaced when this run ends", one_line(path_.string()),
+                               ours ? "incomplete" : "computed by another build of the program"));
+}
+
+void ResultFolder::look_at_journal(const RunIdentity& identity) {
+  const fs::path file = path_ / journal_name;
+  for (const char* name : {journal_name, old_journal_name}) {
+    if (!Journal::is_one(path_ / name)) refuse_foreign(name);
+  }
+  if (fs::exists(file)) {
+    const std::string theirs = Journal::identity_in(file);
+    const std::string difference = theirs.empty() ? "" : identity_difference(theirs, identity);
+    if (!difference.empty()) {
+      refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
+    }
+    if (!theirs.empty()) gather_rank_journals(theirs);
+    if (theirs.empty() || !same_program(theirs, identity)) {
+      fs::rename(file, path_ / old_journal_name);
+      notes_.push_back(fmt::format(
+          "{}: {}; it is kept as {} until this run ends", one_line(file.string()),
+          theirs.empty() ? "its first row is damaged" : "begun by another build of the program", old_journal_name));
+    }
+  }
+  if (!replaced_ && !fs::exists(path_ / old_journal_name) && !read_journal(file).rows.contains(publishing_key)) {
+    for (const char* name : result_names) {
+      if (identity.shard.empty() || name != std::string_view(seal_name)) refuse_foreign(name);
+    }
+  }
+  journal_ = std::make_unique<Journal>(file, identity_text(identity));
+  for (const std::string& line : journal_->damage()) notes_.push_back(line);
+}
+
+void ResultFolder::gather_rank_journals(const std::string& identity) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (!is_rank_journal(entry.path().filename().string())) continue;
+    if (!Journal::is_one(entry.path())) refuse_foreign(entry.path().filename().c_str());
+    files.push_back(entry.path());
+  }
+  if (files.empty()) return;
+  std::unique_ptr<Journal> other;
+  if (!journal_) other = std::make_unique<Journal>(path_ / journal_name, identity);
+  for (const fs::path& file : files) {
+    const JournalText text = read_journal(file);
+    for (const std::string& line : text.damage) notes_.push_back(line + "; that unit is computed again");
+    if (text.identity == identity) (journal_ ? *journal_ : *other).add(text.rows);
+    fs::remove(file);
+  }
+}
+
+void ResultFolder::seal(const std::string& text) {
+  stage(seal_name, text);
+  fs::rename(staging() / seal_name, path_ / seal_name);
+  if (Journal::is_one(path_ / old_journal_name)) fs::remove(path_ / old_journal_name);
+  staging_.reset();
+}
+
+fs::path ResultFolder::rank_journal(const fs::path& folder, int rank) {
+  return folder / fmt::format("{}{}{}", rank_journal_begin, rank, rank_journal_end);
+}
+
+void ResultFolder::stage(const std::string& file, const std::string& text) {
+  if (!staging_) staging_.emplace(path_);
+  const fs::path target = staging() / file;
+  fs::create_directories(target.parent_path());
+  errno = 0;
+  std::ofstream out(target, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::system_error(errno ? errno : EIO, std::generic_category(), target.string());
+}
+
+std::map<std::string, std::string> ResultFolder::staged_hashes() const {
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : fs::recursive_directory_iterator(staging())) {
+    if (!entry.is_regular_file()) continue;
+    hashes[entry.path().lexically_relative(staging()).generic_string()] = sha256_of_file(entry.path());
+  }
+  return hashes;
+}
+
+void ResultFolder::publish() {
+  const auto staged = staged_hashes();
+  journal_->add({{publishing_key, {}}});
+  std::set<fs::path> folders = {path_};
+  for (const auto& [file, hash] : staged) {  // whatever may lack space does so before a name has changed
+    flush_to_disk(staging() / file);
+    fs::create_directories((path_ / file).parent_path());
+    folders.insert((path_ / file).parent_path());
+  }
+  const auto move = [&](const std::string& file) { fs::rename(staging() / file, path_ / file); };
+  if (fs::exists(path_ / manifest_name)) {
+    fs::rename(path_ / manifest_name, path_ / old_manifest_name);
+    flush_to_disk(path_);
+  }
+  if (replaced_) remove_drawn_figures(path_, *replaced_);  // they show the old result
+  for (const auto& [file, hash] : staged) {
+    if (file != manifest_name) move(file);
+  }
+  if (replaced_) {
+    for (const auto& [file, hash] : replaced_->hashes) {
+      if (!staged.contains(file) && is_unchanged(path_, file, hash)) fs::remove(path_ / file);
+    }
+    for (const std::string& file : replaced_->unhashed) {
+      if (!staged.contains(file) && holds_file(path_, file)) fs::remove(path_ / file);
+    }
+  }
+  for (const fs::path& folder : folders) flush_to_disk(folder);
+  move(manifest_name);
+  flush_to_disk(path_);
+  journal_.reset();
+  staging_.reset();
+  clear_up();
+}
+
+void ResultFolder::clear_up() const {
+  remove_leftovers(path_);
+  for (const char* name : {journal_name, old_journal_name}) {
+    if (Journal::is_one(path_ / name)) fs::remove(path_ / name);
+  }
+  try {
+    if (manifest_in(old_manifest_name)) fs::remove(path_ / old_manifest_name);
+  } catch (const UsageError&) {  // not ours
+  }
+}
+
+bool remove_result(const fs::path& folder) {
+  const Manifest manifest = parse_manifest(file_text(folder / manifest_name), (folder / manifest_name).string());
+  std::vector<std::string> files = {manifest_name, "report.html"};
+  for (const auto& [file, hash] : manifest.hashes) files.push_back(file);
+  files.insert(files.end(), manifest.unhashed.begin(), manifest.unhashed.end());
+  std::set<fs::path, std::greater<>> folders = {folder};  // what lies in a folder comes before it
+  for (const std::string& file : files) {
+    if (!holds_file(folder, file)) continue;
+    fs::remove(folder / file);
+    for (fs::path above = fs::path(file).parent_path(); !above.empty(); above = above.parent_path())
+      folders.insert(folder / above);
+  }
+  std::error_code not_empty;
+  for (const fs::path& each : folders) fs::remove(each, not_empty);
+  return !fs::exists(folder);
+}
+
+}  // namespace thinwall

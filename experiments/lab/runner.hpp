@@ -1,0 +1,100 @@
+#pragma once
+/// Runs the units of an experiment on threads, and says beforehand how long it will take.
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/lab/journal.hpp>
+
+namespace thinwall {
+
+// ---- Ctrl-C and SIGTERM as a question that a long loop asks.
+
+/// From now on SIGINT and SIGTERM only set a flag. A second one ends the program at once.
+void watch_for_stop();
+
+/// True once one of them has come.
+bool stop_requested();
+
+/// Ends the program if a stop is requested while this lives and it still lives `patience` later: for work that asks too
+/// seldom, and that loses nothing it has counted by such an end.
+class StopGuard {
+ public:
+  /// `end` is called on a thread of its own, and should not return.
+  StopGuard(std::chrono::milliseconds patience, std::function<void()> end);
+  ~StopGuard();
+  StopGuard(const StopGuard&) = delete;
+  StopGuard& operator=(const StopGuard&) = delete;
+
+ private:
+  void watch(std::chrono::milliseconds patience, const std::function<void()>& end);
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+// ---- Computes the units of a run on every core, and keeps each in the journal as it ends.
+
+/// How far a run has come.
+struct Progress {
+  std::size_t units_done = 0, units = 0;
+  std::int64_t trials_done = 0, trials = 0;
+  std::int64_t trials_resumed = 0;  ///< of `trials_done`: read from the journal
+};
+
+struct UnitResults {
+  std::vector<std::string> results;  ///< by the order of the units, whichever ended first
+  std::vector<double> seconds;       ///< of computing each
+  std::size_t resumed = 0;           ///< units read from the journal
+  bool complete = false;             ///< false if the run was stopped
+};
+
+struct RunnerOptions {
+  int threads = 1;             ///< >= 1
+  std::function<bool()> stop;  ///< asked between units; may be empty
+  std::function<void(const Progress&)>
+      on_progress;  ///< called once before the first unit and after each, one at a time
+};
+
+/// The cores that this process may use; its share of them where it is one of several ranks.
+int default_threads();
+
+/// Throws std::runtime_error, naming the unit, if one fails; what was finished stays in the journal.
+UnitResults compute_units(std::span<const Unit> units, Journal& journal, const RunnerOptions& options);
+
+// ---- How long a run takes, told from the beginnings of a smaller one within a bounded time.
+
+struct RunEstimate {
+  double seconds = 0;            ///< of all units but the unknown ones, one after the other
+  std::int64_t cut_tried = 0;    ///< units that fewer trials shorten, timed with
+  std::int64_t trials = 0;       ///< in the place of the run's own
+  std::int64_t whole_tried = 0;  ///< units that fewer trials do not shorten, timed as they are,
+  std::int64_t whole = 0;        ///< of so many
+  std::int64_t unknown = 0;      ///< units of which none that is like them ended in time
+
+  std::int64_t tried() const { return cut_tried + whole_tried; }
+};
+
+/// What the estimate rests on, and what it leaves out.
+std::string basis_text(const RunEstimate& estimate);
+
+using ConfigureTrials = std::function<std::unique_ptr<Run>(std::int64_t trials)>;
+
+/// Units that fewer trials shorten are timed with 1, 4, 16, ... of them, and time is taken to be in proportion; of the others
+/// one of each number of trials is timed whole, then a second, and so on, and those of a number are taken to be alike. Both
+/// is done by processes of their own, which the system ends after half of `budget` [s] each, whatever they are at: no unit
+/// is too long. `again` configures the same run with other trials, and may throw UsageError where they are too few.
+RunEstimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget = 1.5);
+
+}  // namespace thinwall

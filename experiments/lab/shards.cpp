@@ -1,0 +1,230 @@
+#include <thinwall/experiments/lab/shards.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
+#include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+
+namespace thinwall {
+
+Shard parse_shard(std::string_view text) {
+  constexpr std::int64_t most = 1'000'000;
+  const auto slash = text.find('/');
+  if (slash != std::string_view::npos) {
+    const auto index = parse_count(text.substr(0, slash)), count = parse_count(text.substr(slash + 1));
+    if (index && count && *index >= 1 && *index <= *count && *count <= most) {
+      return {static_cast<int>(*index), static_cast<int>(*count)};
+    }
+  }
+  throw UsageError(
+      fmt::format("--shard: '{}' is not allowed; i/N, the i-th of N shards: whole numbers with 1 <= i <= N <= {}",
+                  one_line(text), most));
+}
+
+std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
+
+std::vector<int> deal(std::size_t units, int shards) {
+  // Without the shuffle a number of shards that divides the number of methods would give a shard one method alone.
+  std::vector<std::pair<std::uint64_t, std::size_t>> cards(units);
+  for (std::size_t i = 0; i < units; ++i) cards[i] = {random_words({.seed = 0, .stream = 0}, i, 0)[0], i};
+  std::ranges::sort(cards);
+  std::vector<int> owners(units);
+  for (std::size_t k = 0; k < units; ++k) {
+    owners[cards[k].second] = 1 + static_cast<int>(k % static_cast<std::size_t>(shards));
+  }
+  return owners;
+}
+
+std::vector<std::size_t> units_of(const Shard& shard, std::size_t units) {
+  const std::vector<int> owners = deal(units, shard.count);
+  std::vector<std::size_t> hand;
+  for (std::size_t i = 0; i < units; ++i) {
+    if (owners[i] == shard.index) hand.push_back(i);
+  }
+  return hand;
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int seal_version = 1;
+
+}  // namespace
+
+std::optional<ShardSeal> parse_seal(const std::string& text) {
+  try {
+    const JsonReader seal(text, seal_name), machine = seal.object("machine");
+    seal.whole("thinwall_shard", seal_version, seal_version);
+    const auto identity = parse_identity(seal.value("run").dump());
+    if (!identity) return std::nullopt;
+    return ShardSeal{.identity = *identity,
+                     .shard = parse_shard(identity->shard),
+                     .record = {.shard = identity->shard,
+                                .cpu = machine.text("cpu"),
+                                .system = machine.text("system"),
+                                .started = seal.text("started"),
+                                .finished = seal.text("finished")},
+                     .journal_sha256 = seal.text("journal")};
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+void seal_shard(ResultFolder& folder, const RunIdentity& identity, const RunRecord& run) {
+  const ordered_json seal = {
+      {"thinwall_shard", seal_version},
+      {"run", ordered_json::parse(identity_text(identity))},
+      {"units", run.units},
+      {"total_trials", run.total_trials},
+      {"argv", run.argv},
+      {"threads", run.threads},
+      {"started", utc_text(run.started)},
+      {"finished", utc_text(run.finished)},
+      {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
+      {"journal", sha256_of_file(folder.path() / journal_name)}};
+  folder.seal(seal.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+}
+
+bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {
+  const auto seal = parse_seal(file_text(folder.path() / seal_name));
+  return seal && identity_text(seal->identity) == identity_text(identity) &&
+         seal->journal_sha256 == sha256_of_file(folder.path() / journal_name);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* mend = "; run the shard again, it computes what is missing";
+
+struct SealedFolder {
+  std::string name;  ///< as the user wrote it, fit for a terminal
+  fs::path path;
+  ShardSeal seal;
+};
+
+[[noreturn]] void refuse(const std::string& folder, const std::string& why) { throw UsageError(folder + ": " + why); }
+
+SealedFolder read_seal(const std::string& folder) {
+  const fs::path path = folder;
+  const std::string name = one_line(folder);
+  std::error_code none;
+  if (!fs::exists(path, none)) refuse(name, "there is no such folder");
+  if (!fs::is_directory(path, none)) refuse(name, "is not a folder; a finished shard is needed");
+  if (!fs::exists(path / seal_name, none)) {
+    const auto begun = parse_identity(Journal::identity_in(path / journal_name));
+    if (begun && !begun->shard.empty()) refuse(name, fmt::format("shard {} is unfinished{}", begun->shard, mend));
+    if (fs::exists(path / manifest_name, none)) refuse(name, "holds a whole result, not a shard");
+    refuse(name, "is not a shard of a run: it has no shard.json");
+  }
+  const auto seal = parse_seal(file_text(path / seal_name));
+  if (!seal) refuse(name, std::string("its shard.json is damaged, or not ours") + mend);
+  return {name, path, *seal};
+}
+
+Journal::Rows read_rows(const SealedFolder& folder) {
+  const fs::path file = folder.path / journal_name;
+  if (!fs::exists(file)) refuse(folder.name, "its journal.tsv is lost; delete the folder and run the shard again");
+  JournalText text = read_journal(file);
+  if (text.identity.empty()) refuse(folder.name, fmt::format("the first row of its journal.tsv is damaged{}", mend));
+  if (!text.damage.empty()) refuse(folder.name, one_line(text.damage.front()) + mend);
+  if (text.identity != identity_text(folder.seal.identity) || sha256_of_file(file) != folder.seal.journal_sha256) {
+    refuse(folder.name, fmt::format("its journal.tsv was changed since the shard was finished{}", mend));
+  }
+  return std::move(text.rows);
+}
+
+/// The identity of the run that a shard is a part of.
+RunIdentity whole(RunIdentity identity) {
+  identity.shard.clear();
+  return identity;
+}
+
+void check_together(const SealedFolder& first, const SealedFolder& other) {
+  const RunIdentity ours = whole(first.seal.identity), theirs = whole(other.seal.identity);
+  if (const std::string difference = identity_difference(identity_text(theirs), ours); !difference.empty()) {
+    refuse(other.name, fmt::format("is a shard of another run than {} ({})", first.name, difference));
+  }
+  if (theirs.program != ours.program) {
+    refuse(other.name, fmt::format("was computed by another build of the program than {}", first.name));
+  }
+  if (other.seal.shard.count != first.seal.shard.count) {
+    refuse(other.name, fmt::format("is shard {}, but {} is shard {}: one run is cut one way", to_text(other.seal.shard),
+                                   first.name, to_text(first.seal.shard)));
+  }
+}
+
+void check_missing(const std::vector<SealedFolder>& found) {
+  const int count = found.front().seal.shard.count;
+  std::string missing;
+  int many = 0;
+  std::size_t k = 0;
+  for (int index = 1; index <= count; ++index) {
+    if (k < found.size() && found[k].seal.shard.index == index) {
+      ++k;
+      continue;
+    }
+    if (++many <= 5) missing += (missing.empty() ? "" : ", ") + to_text({index, count});
+  }
+  if (many == 0) return;
+  throw UsageError(fmt::format("missing: shard{} {}{}; {} of {} were given", many == 1 ? "" : "s", missing,
+                               many > 5 ? fmt::format(" and {} more", many - 5) : "", found.size(), count));
+}
+
+}  // namespace
+
+ShardSet read_shards(std::span<const std::string> folders, const std::string& program) {
+  std::vector<SealedFolder> found;
+  for (const std::string& folder : folders) found.push_back(read_seal(folder));
+  for (const SealedFolder& other : found) check_together(found.front(), other);
+  std::ranges::stable_sort(found, {}, [](const SealedFolder& folder) { return folder.seal.shard.index; });
+  const auto twice = std::ranges::adjacent_find(
+      found, [](const SealedFolder& a, const SealedFolder& b) { return a.seal.shard == b.seal.shard; });
+  if (twice != found.end()) {
+    refuse(std::next(twice)->name, fmt::format("is shard {}, and so is {}", to_text(twice->seal.shard), twice->name));
+  }
+  check_missing(found);
+  if (found.front().seal.identity.program != program) {
+    refuse(found.front().name, "was computed by another build of the program than this one; merge with that one");
+  }
+  ShardSet set{.identity = whole(found.front().seal.identity), .folders = {}, .records = {}, .rows = {}};
+  for (const SealedFolder& folder : found) {
+    set.rows.push_back(read_rows(folder));
+    set.records.push_back(folder.seal.record);
+    set.folders.push_back(folder.name);
+  }
+  return set;
+}
+
+Journal::Rows all_rows(const ShardSet& shards, std::span<const Unit> units) {
+  Journal::Rows all;
+  std::vector<std::size_t> taken(shards.rows.size());
+  const std::vector<int> owners = deal(units.size(), static_cast<int>(shards.rows.size()));
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const auto owner = static_cast<std::size_t>(owners[i] - 1);
+    const auto row = shards.rows[owner].find(units[i].key);
+    if (row == shards.rows[owner].end()) {
+      refuse(shards.folders[owner], fmt::format("lacks the unit '{}'{}", one_line(units[i].key), mend));
+    }
+    all.insert(*row);
+    ++taken[owner];
+  }
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    if (taken[k] != shards.rows[k].size()) refuse(shards.folders[k], "has units that are not its own");
+  }
+  return all;
+}
+
+}  // namespace thinwall

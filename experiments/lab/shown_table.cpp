@@ -1,0 +1,250 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+
+namespace thinwall {
+
+namespace {
+
+/// A column to show, by its place in the table; where it has an interval, the places of the ends.
+struct Choice {
+  std::size_t at;
+  std::optional<std::size_t> lower, upper;
+};
+
+bool has_unit(const Column& column) { return !column.unit.empty() && column.unit != "1"; }
+
+/// The column's name in words, without a unit at its end: `angle` for `angle_deg`.
+std::string title(const Column& column) {
+  const std::string suffix = "_" + column.unit;
+  const bool ends_in_unit = has_unit(column) && column.name.ends_with(suffix);
+  std::string name = column.name.substr(0, column.name.size() - (ends_in_unit ? suffix.size() : 0));
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::size_t place_of(const Table& table, const std::string& name) {
+  const auto found = std::ranges::find(table.columns, name, &Column::name);
+  if (found == table.columns.end()) throw std::logic_error("table '" + table.name + "' has no column '" + name + "'");
+  return static_cast<std::size_t>(found - table.columns.begin());
+}
+
+/// Every column but those that are the end of another's interval.
+std::vector<Choice> choices(const Table& table) {
+  std::vector<Choice> out;
+  std::vector<std::size_t> ends;
+  for (std::size_t at = 0; at < table.columns.size(); ++at) {
+    Choice choice{at, {}, {}};
+    if (const Column& column = table.columns[at]; !column.lower.empty() || !column.upper.empty()) {
+      choice.lower = place_of(table, column.lower);
+      choice.upper = place_of(table, column.upper);
+      ends.insert(ends.end(), {*choice.lower, *choice.upper});
+    }
+    out.push_back(choice);
+  }
+  std::erase_if(out, [&](const Choice& choice) { return std::ranges::find(ends, choice.at) != ends.end(); });
+  return out;
+}
+
+std::optional<double> finite_number(const Value& value) {
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+  const auto* number = std::get_if<double>(&value);
+  return number != nullptr && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
+}
+
+ShownCell cell(const std::vector<Value>& row, const Choice& choice) {
+  const Value& value = row[choice.at];
+  ShownCell out{
+      .text = shown_text(value), .is_number = std::holds_alternative<double>(value), .lower = {}, .upper = {}};
+  if (!choice.lower || out.text == missing_text) return out;
+  const Value &low = row[*choice.lower], &high = row[*choice.upper];
+  if (exact_text(low).empty() && exact_text(high).empty()) return out;
+  const auto number = finite_number(value), lower = finite_number(low), upper = finite_number(high);
+  if (!number || !lower || !upper || std::holds_alternative<std::int64_t>(value)) {
+    return {out.text, out.is_number, shown_text(low), shown_text(high)};
+  }
+  const IntervalText text = interval_text(*number, *lower, *upper);
+  return {text.value, true, text.lower, text.upper};
+}
+
+bool is_same_in_every_row(const Table& table, const Choice& choice) {
+  const auto same = [&](std::size_t at) {
+    return std::ranges::all_of(table.rows, [&](const auto& row) { return row[at] == table.rows[0][at]; });
+  };
+  return table.columns[choice.at].type != ColumnType::boolean && table.rows.size() > 1 && same(choice.at) &&
+         (!choice.lower || (same(*choice.lower) && same(*choice.upper)));
+}
+
+/// `Brackets hold the 95 % Wilson interval.`, as the columns of the lower ends describe it.
+std::string bracket_words(const Table& table, const std::vector<Choice>& shown_choices) {
+  std::vector<std::string> kinds;
+  for (const Choice& choice : shown_choices) {
+    if (!choice.lower) continue;
+    std::string words = table.columns[*choice.lower].description;
+    constexpr std::string_view prefix = "Lower end of ";
+    if (words.starts_with(prefix)) words = words.substr(prefix.size());
+    if (words.ends_with('.')) words.pop_back();
+    if (words.starts_with("Its ")) words[0] = 'i';
+    if (std::ranges::find(kinds, words) == kinds.end()) kinds.push_back(words);
+  }
+  return kinds.empty() ? "" : fmt::format(" Brackets hold {}.", fmt::join(kinds, ", or "));
+}
+
+}  // namespace
+
+std::string header_of(const Column& column) {
+  return has_unit(column) ? fmt::format("{} [{}]", title(column), column.unit) : title(column);
+}
+
+ShownTable shown(const Table& table) {
+  std::vector<Choice> kept;
+  std::string same;
+  for (const Choice& choice : choices(table)) {
+    const Column& column = table.columns[choice.at];
+    if (!is_same_in_every_row(table, choice)) {
+      kept.push_back(choice);
+      continue;
+    }
+    const ShownCell value = cell(table.rows[0], choice);
+    if (value.text == missing_text) continue;  // nothing in any row
+    same += fmt::format("{}{} {}{}{}{}", same.empty() ? " In every row: " : ", ", title(column), value.text,
+                        value.lower.empty() ? "" : fmt::format(" [{}, {}]", value.lower, value.upper),
+                        has_unit(column) ? " " : "", has_unit(column) ? column.unit : "");
+  }
+  if (kept.empty()) {  // every row is like every other
+    kept = choices(table);
+    same.clear();
+  }
+  if (!same.empty()) same += ".";
+  ShownTable out;
+  out.caption = table.description + same + bracket_words(table, kept);
+  for (const Choice& choice : kept) {
+    const Column& column = table.columns[choice.at];
+    const bool right = column.type == ColumnType::integer || column.type == ColumnType::number;
+    out.columns.push_back({header_of(column), column.description, right});
+  }
+  for (const auto& row : table.rows) {
+    out.rows.emplace_back();
+    for (const Choice& choice : kept) out.rows.back().push_back(cell(row, choice));
+  }
+  return out;
+}
+
+namespace {
+
+constexpr int shown_digits = 4;
+
+/// `number` with the minus sign of a format, and its exponent between that format's `raise` and `lower`.
+std::string typeset(const std::string& number, const std::string& minus, const char* raise, const char* lower) {
+  if (number.starts_with('-')) return minus + typeset(number.substr(1), minus, raise, lower);
+  const auto at = number.find('e');
+  if (at == std::string::npos) return number;
+  const int power = std::stoi(number.substr(at + 1));
+  return number.substr(0, at) + raise + (power < 0 ? minus : "") + std::to_string(std::abs(power)) + lower;
+}
+
+std::string markdown_cell(const ShownCell& cell) {
+  const std::string interval = cell.lower.empty() ? "" : fmt::format(" [{}, {}]", cell.lower, cell.upper);
+  return markdown_escaped(cell.text + interval);
+}
+
+std::string latex_cell(const ShownCell& cell) {
+  const auto number = [](const std::string& text) { return typeset(text, "-", "\\times 10^{", "}"); };
+  if (cell.text == missing_text) return "--";
+  const std::string text = cell.is_number ? "$" + number(cell.text) + "$" : latex_escaped(cell.text);
+  if (cell.lower.empty()) return text;
+  return fmt::format("{} $[{}, {}]$", text, number(cell.lower), number(cell.upper));
+}
+
+std::string html_cell(const ShownCell& cell) {
+  const auto number = [](const std::string& text) { return typeset(text, "&minus;", "&times;10<sup>", "</sup>"); };
+  const std::string text = cell.is_number ? number(cell.text) : html_escaped(cell.text);
+  if (cell.lower.empty()) return text;
+  return fmt::format("{} <span class=\"i\">[{}, {}]</span>", text, number(cell.lower), number(cell.upper));
+}
+
+/// A unit is not broken over two lines.
+std::string header_html(const std::string& header) {
+  const auto unit = header.rfind(" [");
+  if (unit == std::string::npos) return html_escaped(header);
+  return fmt::format("{} <span class=\"u\">{}</span>", html_escaped(header.substr(0, unit)),
+                     html_escaped(header.substr(unit + 1)));
+}
+
+}  // namespace
+
+std::string shown_text(const Value& value) {
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return grouped_text(*count);
+  if (const auto* number = std::get_if<double>(&value); number && std::isfinite(*number)) {
+    return rounded_text(*number, shown_digits);
+  }
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
+  const std::string text = exact_text(value);
+  return text.empty() ? missing_text : text;
+}
+
+std::string markdown_table(const Table& whole) {
+  const ShownTable table = shown(whole);
+  std::string names = "|", rule = "|", out;
+  for (const ShownColumn& column : table.columns) {
+    names += fmt::format(" {} |", markdown_escaped(column.header));
+    rule += column.right ? " ---: |" : " :--- |";
+  }
+  for (const auto& row : table.rows) {
+    out += "|";
+    for (const ShownCell& cell : row) out += fmt::format(" {} |", markdown_cell(cell));
+    out += "\n";
+  }
+  return fmt::format("{}\n\n{}\n{}\n{}", markdown_escaped(table.caption), names, rule, out);
+}
+
+std::string latex_table(const Table& whole) {
+  const ShownTable table = shown(whole);
+  std::string align, names, out;
+  for (const ShownColumn& column : table.columns) {
+    align += column.right ? 'r' : 'l';
+    names += (names.empty() ? "" : " & ") + latex_escaped(column.header);
+  }
+  for (const auto& row : table.rows) {
+    std::string line;
+    for (std::size_t j = 0; j < row.size(); ++j) line += (j > 0 ? " & " : "") + latex_cell(row[j]);
+    out += "  " + line + " \\\\\n";
+  }
+  return fmt::format(
+      "% {}\n% Needs \\usepackage{{booktabs}}.\n\\begin{{tabular}}{{{}}}\n  \\toprule\n  {} \\\\\n  \\midrule\n{}"
+      "  \\bottomrule\n\\end{{tabular}}\n",
+      one_line(table.caption), align, names, out);
+}
+
+std::string html_table(const Table& whole) {
+  const ShownTable table = shown(whole);
+  const auto number_class = [](const ShownColumn& column) { return column.right ? " class=\"n\"" : ""; };
+  std::string names, out;
+  for (const ShownColumn& column : table.columns) {
+    names += fmt::format("<th scope=\"col\"{} title=\"{}\">{}</th>", number_class(column),
+                         html_escaped(column.description), header_html(column.header));
+  }
+  for (const auto& row : table.rows) {
+    out += "<tr>";
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      out += fmt::format("<td{}>{}</td>", number_class(table.columns[j]), html_cell(row[j]));
+    }
+    out += "</tr>\n";
+  }
+  return fmt::format(
+      "<p class=\"caption\">{} <a href=\"data/{}.csv\">CSV</a></p>\n"
+      "<div class=\"wide\" tabindex=\"0\"><table{} aria-label=\"{}\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}"
+      "</tbody>\n</table></div>\n",
+      html_escaped(table.caption), html_escaped(whole.name), table.columns.size() > 10 ? " class=\"many\"" : "",
+      html_escaped(whole.description), names, out);
+}
+
+}  // namespace thinwall

@@ -1,0 +1,250 @@
+#include <thinwall/experiments/lab/svg.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+
+namespace thinwall {
+namespace {
+
+constexpr double print_width = 6.3;  // [inch] A4 with margins of an inch
+
+/// Words as a string of the script; LaTeX may have to spell them another way, and to gnuplot's SVG `]]>` would be an end.
+std::string spelled(const std::string& text) {
+  std::string plain = one_line(text);
+  const std::string latex = latex_escaped(plain);
+  const bool alike = latex == plain;
+  for (auto at = plain.find("]]>"); at != std::string::npos; at = plain.find("]]>", at)) plain.insert(at + 2, " ");
+  return alike ? gnuplot_quoted(plain) : fmt::format("text_of({}, {})", gnuplot_quoted(plain), gnuplot_quoted(latex));
+}
+
+void require_drawable(const Figure& figure) {
+  const std::string figure_name = "figure '" + figure.name + "'";
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+  if (figure.name.empty() || figure.name.find_first_not_of(plain) != std::string::npos) {
+    throw std::logic_error(figure_name + ": a name is of a-z, 0-9, _ and -");
+  }
+  if (figure.panels.empty()) throw std::logic_error(figure_name + " has no panel");
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series) {
+      const std::size_t n = series.x.size(), bars = series.lower.size();
+      const std::size_t x_bars = series.x_lower.size();
+      if (series.y.size() != n || series.upper.size() != bars || (bars != 0 && bars != n) ||
+          series.x_upper.size() != x_bars || (x_bars != 0 && x_bars != bars)) {
+        throw std::logic_error(figure_name + ", series '" + series.label + "': lists of different length");
+      }
+    }
+  }
+}
+
+/// Half a unit beyond all values: cells side by side.
+DrawnAxis axis_of_names(std::span<const double> values) {
+  if (values.empty()) return {};
+  const auto [least, most] = std::ranges::minmax(values);
+  return {false, least - 0.6, most + 0.6};
+}
+
+DrawnAxis x_axis(std::span<const Panel> panels) {
+  std::vector<double> values;
+  for (const Panel& panel : panels) {
+    for (const Series& series : panel.series) {
+      for (const auto* list : {&series.x, &series.x_lower, &series.x_upper}) {
+        values.insert(values.end(), list->begin(), list->end());
+      }
+    }
+  }
+  if (!panels[0].x_tics.empty()) {
+    for (const Panel& panel : panels) {
+      for (const Tic& tic : panel.x_tics) values.push_back(tic.at);
+    }
+    return axis_of_names(values);
+  }
+  return axis_around(values, panels[0].log_x);
+}
+
+DrawnAxis y_axis(const Panel& panel) {
+  std::vector<double> values;
+  for (const Series& series : panel.series) {
+    for (const auto* list : {&series.y, &series.lower, &series.upper}) {
+      values.insert(values.end(), list->begin(), list->end());
+    }
+  }
+  if (!panel.y_tics.empty()) {
+    for (const Tic& tic : panel.y_tics) values.push_back(tic.at);
+    return axis_of_names(values);
+  }
+  return axis_around(values, panel.log_y);
+}
+
+std::string axis_lines(char name, const DrawnAxis& axis, double pixels, double spacing, bool labeled) {
+  const bool powers = axis.log && axis.upper / axis.lower >= 1e4;
+  const std::string steps = tics(axis, pixels, spacing);
+  return fmt::format(
+      "set {0}range [{1}:{2}]\n{3} logscale {0}\nset format {0} {4}\nset {0}tics autofreq\nset {0}tics {5}\n{6} m{0}tics\n",
+      name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), axis.log ? "set" : "unset",
+      !labeled ? "''"
+      : powers ? "text_of('10^{%T}', '$10^{%T}$')"
+               : "text_of('%g', '$%g$')",
+      steps, steps.ends_with(", 1e1") ? "set" : "unset");
+}
+
+/// The same for an axis whose tics have names, or are named on the other side, as x2.
+std::string named_axis_lines(std::string_view name, const DrawnAxis& axis, const std::vector<Tic>& named,
+                             bool labeled) {
+  std::vector<std::string> list;
+  for (const Tic& tic : named) {
+    list.push_back(fmt::format("{} {}", spelled(labeled ? tic.label : ""), rounded_text(tic.at, 9)));
+  }
+  const char* look = name == "x" ? " rotate by 90 right font @small" : name == "x2" ? " scale 0 font @middling" : "";
+  return fmt::format(
+             "set {0}range [{1}:{2}]\nunset logscale {0}\nset {0}tics autofreq\nset {0}tics{3} noenhanced ({4})\n",
+             name, rounded_text(axis.lower, axis_digits), rounded_text(axis.upper, axis_digits), look,
+             fmt::join(list, ", ")) +
+         (name == "x2" ? "" : fmt::format("unset m{}tics\n", name));
+}
+
+std::size_t point_count(const Panel& panel) {
+  std::size_t count = 0;
+  for (const Series& series : panel.series) count += series.mark == Mark::points ? series.x.size() : 0;
+  return count;
+}
+
+/// What plots one series: its bars first, so that its points lie on them.
+std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block, std::size_t style,
+                                    bool crowded) {
+  const std::string from = fmt::format("'{}' index {}", file, block);
+  if (series.mark == Mark::cells) {
+    return {fmt::format("{} using 1:2:(0.46):(0.46) with boxxyerror linestyle {} fillstyle solid noborder notitle",
+                        from, style)};
+  }
+  const bool points = series.mark == Mark::points;
+  const char* with = points ? "points" : "lines";
+  const char* size = points && crowded ? " pointsize 0.5" : "";
+  std::vector<std::string> items;
+  if (!series.lower.empty()) {
+    items.push_back(fmt::format("{0} using 1:3:(0):($4-$3) with vectors nohead linestyle {1} notitle", from, style));
+  }
+  if (!series.x_lower.empty()) {
+    items.push_back(fmt::format("{0} using 5:2:($6-$5):(0) with vectors nohead linestyle {1} notitle", from, style));
+  }
+  items.push_back(fmt::format("{} using 1:2 with {} linestyle {}{} notitle", from, with, style, size));
+  return items;
+}
+
+std::string legend_item(const SeriesStyle& style, std::size_t number) {
+  if (style.has_cells) {
+    return fmt::format("keyentry with boxes linestyle {} fillstyle solid noborder title {}", number,
+                       spelled(style.label));
+  }
+  const char* with = style.has_points && style.has_line ? "linespoints" : style.has_points ? "points" : "lines";
+  return fmt::format("keyentry with {} linestyle {} title {}", with, number, spelled(style.label));
+}
+
+std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& styles, const PlotLayout& layout) {
+  std::string out = fmt::format(
+      "# {0}\n# Change what you like, then draw it again from inside this folder:\n"
+      "#   gnuplot {1}.gp                      {1}.svg\n"
+      "#   gnuplot -e \"format='pdf'\" {1}.gp    {1}.pdf\n"
+      "#   gnuplot -e \"format='tex'\" {1}.gp    {1}-latex.tex and {1}-latex.pdf, to \\input in LaTeX (graphicx, color)\n"
+      "reset\nset encoding utf8\nif (!exists('format')) format = 'svg'\nif (!exists('width')) width = {4}  # [inch] in print\n"
+      "unit = format eq 'svg' ? 1 : 72 * width / {2:.0f}  # of the sizes below: a pixel, or [point] in print\n"
+      "sized(units) = sprintf(',%.4g', units * unit)\n"
+      "small = \"'\".sized(11).\"'\"; middling = \"'\".sized(13).\"'\"  # macros: the font of tics takes no expression\n"
+      "text_of(plain, latex) = format eq 'tex' ? latex : plain\n"
+      "if (format eq 'svg') set terminal svg size {2:.0f},{3:.0f} dynamic enhanced rounded background '#ffffff' name '{1}' "
+      "font 'Arial,Helvetica,sans-serif,15'\n"
+      "if (format eq 'pdf') set terminal pdfcairo size width,width*{3:.0f}/{2:.0f} enhanced rounded font 'Sans'.sized(15) "
+      "fontscale 0.75 linewidth unit pointscale unit\n"
+      "if (format eq 'tex') set terminal cairolatex pdf input size width,width*{3:.0f}/{2:.0f} colortext rounded font sized(15) "
+      "linewidth unit pointscale unit\n"
+      "set output format eq 'tex' ? '{1}-latex.tex' : '{1}.'.format\n\n# A style for each entry of the legend.\n",
+      one_line(figure.title), figure.name, layout.width, layout.height, print_width);
+  for (std::size_t i = 0; i < styles.size(); ++i) {
+    out += fmt::format("set style line {} linecolor rgb '{}' linewidth {} dashtype {} pointtype {} pointsize 0.75\n",
+                       i + 1, styles[i].color, styles[i].has_points ? "1.3" : "2", styles[i].dash_type,
+                       styles[i].point_type);
+  }
+  const double left = layout.left / layout.width;
+  out += fmt::format(
+      "\nset style line 100 linecolor rgb '#e4e4e4' linewidth 0.7\nset style line 101 linecolor rgb '#404040' linewidth 1\n"
+      "set grid back linestyle 100\nset border 3 back linestyle 101\nset xzeroaxis linecolor rgb '#909090' linewidth 0.8\n"
+      "set errorbars 0\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
+      "set key at screen {0:.5f}, screen {1:.5f} left top vertical maxrows {2} Left reverse noenhanced samplen 2 "
+      "spacing 1 width 1 textcolor rgb '#202020'\n"
+      "set label 1 {3} at screen {0:.5f}, screen {4:.5f} left noenhanced font sized(18)\n"
+      "set lmargin at screen {0:.5f}; set rmargin at screen {5:.5f}\nset multiplot\n",
+      left, 1 - layout.legend_y / layout.height, layout.legend_rows, spelled(figure.title),
+      1 - layout.title_y / layout.height, layout.right / layout.width);
+  return out;
+}
+
+}  // namespace
+
+std::string plot_script(const Figure& figure) {
+  require_drawable(figure);
+  const auto styles = series_styles(figure);
+  const PlotLayout layout = plot_layout(figure, styles);
+  const DrawnAxis shared_x = x_axis(figure.panels);
+  std::string out = preamble(figure, styles, layout);
+  std::size_t block = 0;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    const Panel& panel = figure.panels[p];
+    const PanelBox& box = layout.panels[p];
+    const bool x_labeled = !layout.shared_x || p + 1 == figure.panels.size();
+    const auto up = [&](double y) { return 1 - y / layout.height; };
+    out += fmt::format("\n# Panel {}\nset tmargin at screen {:.5f}; set bmargin at screen {:.5f}\n", p + 1, up(box.top),
+                       up(box.bottom));
+    const DrawnAxis x = layout.shared_x ? shared_x : x_axis({&panel, 1});
+    out += panel.x_tics.empty() ? axis_lines('x', x, layout.right - layout.left, 80, x_labeled)
+                                : named_axis_lines("x", x, panel.x_tics, x_labeled);
+    out += panel.y_tics.empty() ? axis_lines('y', y_axis(panel), box.bottom - box.top, 44, true)
+                                : named_axis_lines("y", y_axis(panel), panel.y_tics, true);
+    out += panel.x_groups.empty() ? "unset x2tics\n" : named_axis_lines("x2", x, panel.x_groups, true);
+    out += fmt::format("set label 2 {} at screen {:.5f}, graph 0.5 center rotate by 90 noenhanced\n",
+                       spelled(panel.y_label), 20 / layout.width);
+    out += fmt::format("set label 3 {} at graph 0.5, screen {:.5f} center noenhanced\n",
+                       spelled(x_labeled ? panel.x_label : ""), up(box.bottom + layout.below));
+    std::vector<std::string> items;
+    const bool crowded = point_count(panel) > 400;
+    for (const Series& series : panel.series) {
+      const auto style = static_cast<std::size_t>(&style_of(styles, series.label) - styles.data()) + 1;
+      for (std::string& item : plot_items(figure.name + ".dat", series, block, style, crowded))
+        items.push_back(std::move(item));
+      ++block;
+    }
+    for (std::size_t i = 0; p == 0 && i < styles.size(); ++i) items.push_back(legend_item(styles[i], i + 1));
+    if (items.empty()) items.emplace_back("NaN notitle");
+    out += fmt::format("plot {}\nunset key\nunset label\n", fmt::join(items, ", \\\n     "));
+  }
+  return out + "\nunset multiplot\n";
+}
+
+std::string plot_data(const Figure& figure) {
+  const auto number = [](double value) { return std::isfinite(value) ? exact_text(value) : "NaN"; };
+  std::string out;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    for (const Series& series : figure.panels[p].series) {
+      const bool bars = !series.lower.empty(), x_bars = !series.x_lower.empty();
+      out += fmt::format("# panel {}, {}: x y{}{}\n", p + 1, one_line(series.label), bars ? " lower upper" : "",
+                         x_bars ? " x_lower x_upper" : "");
+      if (series.x.empty()) out += "NaN NaN NaN NaN NaN NaN\n";  // a block must not be empty
+      for (std::size_t i = 0; i < series.x.size(); ++i) {
+        out += number(series.x[i]) + " " + number(series.y[i]);
+        if (bars) out += " " + number(series.lower[i]) + " " + number(series.upper[i]);
+        if (x_bars) out += " " + number(series.x_lower[i]) + " " + number(series.x_upper[i]);
+        out += "\n";
+      }
+      out += "\n\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace thinwall

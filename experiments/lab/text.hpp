@@ -1,0 +1,72 @@
+#pragma once
+/// Text: numbers and intervals as people read them, lists of values, names that are nearly right.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <thinwall/experiments/lab/settings.hpp>
+
+namespace thinwall {
+
+// ---- Numbers as text: exactly for files, rounded for readers.
+
+/// The shortest text that reads back as the same bits. Whole numbers below 2^53 have no exponent: 1000000, not 1e+06.
+/// Zero has no sign. NaN is `nan`, infinities `inf` and `-inf`.
+std::string exact_text(double value);
+
+/// `digits` significant digits, for a reader: 0.0123, 1.2e-05, 1500000.
+std::string rounded_text(double value, int digits);
+
+/// Thousands apart: 12,000,000.
+std::string grouped_text(std::int64_t value);
+
+/// `1 trial`, `12,000 trials`.
+std::string plural_text(std::int64_t count, std::string_view noun);
+
+/// As a person says it: `0.4 s`, `12 s`, `3 min 20 s`, `2 h 5 min`.
+std::string duration_text(double seconds);
+
+/// A whole number, also as 1e6; nothing if `text` is anything else or does not fit.
+std::optional<std::int64_t> parse_count(std::string_view text);
+
+// ---- A number with its interval, rounded to what the interval supports.
+
+struct IntervalText {
+  std::string value, lower, upper;
+};
+
+/// The last digit shown is the first of half the interval's width, or the second where the first is 1 or 2:
+/// 0.28723 in [0.28591, 0.28851] is 0.2872 [0.2859, 0.2885]. Whole numbers, such as a probability of 0, stay as they are. Four
+/// significant digits where the interval has no width. All three finite, `lower` <= `upper`.
+IntervalText interval_text(double value, double lower, double upper);
+
+// ---- The allowed values of a number, checked and in words.
+
+/// False for NaN and infinity, whatever the range.
+bool contains(const Range& range, double value);
+
+/// As a complaint names them: `numbers > 0 and <= 10 [s]`, where `kind` is `numbers`.
+std::string range_text(std::string_view kind, const Range& range);
+
+// ---- What a mistyped word may have meant.
+
+/// The fewest letters to insert, delete, replace or swap with their neighbor that turn `a` into `b`; case is ignored.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate nearest to `word`; empty if none is near enough to be what was meant.
+std::string_view nearest_spelling(std::string_view word, std::span<const std::string_view> candidates);
+
+/// The end of a complaint: `did you mean 'radius'? (allowed: angle, radius)`; if nothing is near, `allowed: angle, radius`.
+std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates);
+
+// ---- What a TOML text nests too deeply, told before a parser sees it.
+
+/// The line, from 1, of the first key of more than `most` parts, as `a.b.c` has three; 0 if there is none. Nested arrays
+/// and inline tables are bounded by the parser itself.
+int line_of_deep_key(std::string_view text, int most);
+
+}  // namespace thinwall

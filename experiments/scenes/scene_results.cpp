@@ -1,0 +1,354 @@
+#include <thinwall/experiments/scenes/comparison.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
+
+namespace thinwall {
+
+namespace {
+
+std::string policy_text(const Scene& scene) {
+  std::string text(name_of(scene.options.policy));
+  if (scene.options.policy == TimePolicy::substeps) text += fmt::format(" {}", scene.options.substeps);
+  if (scene.options.gate > 0) text += fmt::format(", gate {}", exact_text(scene.options.gate));
+  return text;
+}
+
+bool looks_at_all_motion(const WorldOptions& options) {
+  const bool sweeps = options.policy == TimePolicy::clamp || options.policy == TimePolicy::event_driven;
+  return sweeps && options.gate == 0;
+}
+
+/// The first lines of the log: who met whom.
+std::string log_text(const Scene& scene, const Playback& playback) {
+  constexpr std::size_t most = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, playback.events.size()); ++i) {
+    const LoggedEvent& e = playback.events[i];
+    text += fmt::format("{:>10} s  {} {} {}\n", rounded_text(e.time, 6), name_in(scene, e.first),
+                        e.begins ? "meets" : "leaves", name_in(scene, e.second));
+  }
+  const auto more = playback.all_events - static_cast<std::int64_t>(std::min(most, playback.events.size()));
+  if (more > 0) text += fmt::format("{:>12}  {} more in data/events.csv\n", "", grouped_text(more));
+  return text.empty() ? "nothing met anything\n" : text;
+}
+
+std::string phases_text(const Playback& playback) {
+  const double steps = static_cast<double>(playback.rows.size());
+  std::string text = fmt::format("{:<12}{:>14}{:>14}{:>9}\n", "phase", "mean [us]", "most [us]", "share");
+  for (std::size_t i = 0; i < phase_names.size(); ++i) {
+    const PhaseTime& phase = playback.phases[i];
+    const double whole = playback.phases.back().total;
+    text += fmt::format("{:<12}{:>14.1f}{:>14.1f}{:>8.1f}%\n", phase_names[i], 1e6 * phase.total / steps,
+                        1e6 * phase.most, whole > 0 ? 100 * phase.total / whole : 0);
+  }
+  return text;
+}
+
+std::string summary_text(const Scene& scene, const Plan& plan, const Playback& playback) {
+  const StepRow sums = playback.sums();
+  const auto omitted =
+      std::count_if(plan.lines.begin(), plan.lines.end(), [](const PlanLine& line) { return line.omitted; });
+  std::string text = fmt::format("{}: {} bodies, {} steps of {} ms, {}\n\n", scene.name,
+                                 grouped_text(static_cast<std::int64_t>(scene.bodies.size())),
+                                 grouped_text(scene.steps), rounded_text(1e3 * scene.dt, 4), policy_text(scene));
+  text += log_text(scene, playback);
+  text += fmt::format("\ncontacts begun {:>12}   ended {:>12}   not ended {:>12}\n", grouped_text(sums.begins),
+                      grouped_text(sums.ends), grouped_text(playback.live));
+  text += fmt::format("pairs found    {:>12}   asked {:>12}   gated     {:>12}\n", grouped_text(sums.pairs),
+                      grouped_text(sums.sweeps), grouped_text(sums.gated));
+  text += fmt::format("hits           {:>12}   impulses {:>9}   waited    {:>12}\n", grouped_text(sums.hits),
+                      grouped_text(sums.impulses), grouped_text(sums.waiting));
+  text += fmt::format("tunneled       {:>12}\n", grouped_text(playback.all_missed));
+  text += fmt::format("energy         {:>12} J, {} J at the end\n", rounded_text(playback.energy, 6),
+                      rounded_text(playback.rows.back().energy, 6));
+  text += fmt::format("state hash     {:016x}\n", playback.hash);
+  text += fmt::format("broad phase    {}; the plan leaves out {} of {} things ({})\n\n", plan.broad_phase, omitted,
+                      plan.lines.size(), plan.full ? "full" : "lean");
+  return text + phases_text(playback);
+}
+
+}  // namespace
+
+bool claims_held(const Scene& scene, const Playback& playback) {
+  const StepRow sums = playback.sums();
+  const bool paired = sums.begins - sums.ends == playback.live;
+  return paired && (!looks_at_all_motion(scene.options) || playback.all_missed == 0);
+}
+
+Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
+  const StepRow sums = playback.sums();
+  Outcome out;
+  out.answer = fmt::format(
+      "In {} s, stepped {} at a time under {}, {} contacts began and {} ended; {} {} through each other "
+      "unseen. Energy went from {} J to {} J. State hash {:016x}.",
+      rounded_text(scene.duration(), 6), rounded_text(scene.dt, 4) + " s", policy_text(scene),
+      grouped_text(sums.begins), grouped_text(sums.ends), grouped_text(playback.all_missed),
+      playback.all_missed == 1 ? "pair went" : "pairs went", rounded_text(playback.energy, 6),
+      rounded_text(playback.rows.back().energy, 6), playback.hash);
+  out.summary = summary_text(scene, plan, playback);
+  out.tables = {plan_table(plan),      missed_table(scene, playback), events_table(scene, playback),
+                steps_table(playback), bodies_table(scene, playback), phases_table(playback)};
+  out.figures = {tracks_figure(scene, playback), course_figure(playback)};
+  out.sections = {
+      {"What tunneled means here",
+       "Between two steps a body that nothing touched moved straight. Of two such bodies, apart before and after, the "
+       "closed form says whether they touched on the way. If they did, and the step told no contact of theirs, they went "
+       "through each other. Bodies in any contact during a step are not judged against others in that step. Under "
+       "substeps gravity bends the way by at most g dt^2 / 8, and a contact less deep than that may be judged wrong."},
+      {"Self-test",
+       "Every contact that ended had begun, and those that have not ended are as many as the world says. Under "
+       "policies that look at all of the motion (clamp, event_driven; no gate) nothing may go through anything."},
+      {"Plan", to_text(plan)},
+      {"Limits",
+       "Bodies do not turn, and there is no friction. Times are of this machine, the scene's threads at work."},
+  };
+  out.self_test_passed = claims_held(scene, playback);
+  return out;
+}
+
+namespace {
+
+double share_of(double part, std::size_t whole) { return whole == 0 ? 0 : part / static_cast<double>(whole); }
+
+/// Who met whom.
+template <class Row> Columns<Row> pair_columns(const Scene& scene) {
+  return columns_of<Row>(
+      text("first", "The body with the lower id.", [&scene](const Row& row) { return name_in(scene, row.first); }),
+      text("second", "The other.", [&scene](const Row& row) { return name_in(scene, row.second); }));
+}
+
+}  // namespace
+
+std::string name_in(const Scene& scene, std::uint32_t id) {
+  const auto found = std::ranges::find(scene.bodies, id, &Body::id);
+  const bool named = found != scene.bodies.end() && !found->name.empty();
+  return named ? found->name : "body " + std::to_string(id);
+}
+
+Table steps_table(const Playback& playback) {
+  return table("steps", "What each step did.", columns_of<StepRow>(fields(std::identity())), playback.rows);
+}
+
+Table events_table(const Scene& scene, const Playback& playback) {
+  const auto columns = columns_of<LoggedEvent>(
+      value("time", "s", "When they met; of an end, when the step ended.", &LoggedEvent::time),
+      value("step", "1", "Number of the step.", &LoggedEvent::step),
+      text("event", "begin or end.", [](const LoggedEvent& e) { return e.begins ? "begin" : "end"; }),
+      pair_columns<LoggedEvent>(scene));
+  Table events = table("events", "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.",
+                       columns, playback.events);
+  events.in_report = events.rows.size() <= 40;
+  return events;
+}
+
+Table missed_table(const Scene& scene, const Playback& playback) {
+  const auto columns = columns_of<MissedContact>(fields(std::identity(), {"time"}), pair_columns<MissedContact>(scene));
+  Table missed = table("tunneled", "Who went through whom unseen, and when they first touched; the first 10 000.",
+                       columns, playback.missed);
+  missed.in_report = missed.rows.size() <= 40;
+  return missed;
+}
+
+Table bodies_table(const Scene& scene, const Playback& playback) {
+  std::vector<std::pair<std::int64_t, std::string>> names;  // by id, for a scene of many
+  for (const Body& body : scene.bodies) names.emplace_back(body.id, body.name);
+  std::ranges::sort(names);
+  const auto name = [&names](const FinalPlace& place) {
+    const auto found = std::ranges::lower_bound(names, std::pair<std::int64_t, std::string>(place.id, ""));
+    return found == names.end() ? "" : found->second;
+  };
+  return table("bodies", "Where each body is at the end.",
+               columns_of<FinalPlace>(fields(std::identity(), {"id"}), text("name", "Name.", name),
+                                      fields(std::identity(), {"x", "y", "z"})),
+               playback.places);
+}
+
+Table plan_table(const Plan& plan) {
+  const auto columns = columns_of<PlanLine>(text("what", "A thing that a step might do.", &PlanLine::what),
+                                            value("omitted", "", "It is left out.", &PlanLine::omitted),
+                                            text("why", "The proof, or why it is needed.", &PlanLine::why));
+  return in_report(table("plan", "What the scene needs, what was left out, and why that changes nothing.", columns,
+                         std::vector<PlanLine>(plan.lines.begin(), plan.lines.end())));
+}
+
+Table phases_table(const Playback& playback) {
+  struct Row {
+    std::string_view phase;
+    PhaseTime time;
+  };
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < phase_names.size(); ++i) rows.push_back({phase_names[i], playback.phases[i]});
+  const double whole = playback.phases.back().total;
+  const auto columns =
+      columns_of<Row>(text("phase", "Part of a step; `step` is all of it.", &Row::phase),
+                      value("mean_us", "us", "Mean over the steps.",
+                            [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()); }),
+                      value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
+                      value("share", "1", "Part of the whole step.",
+                            [whole](const Row& row) { return whole > 0 ? row.time.total / whole : 0.0; }));
+  return in_report(timing(table("timings", "Time a step by phase, on this machine.", columns, rows)));
+}
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_outlines = 400;
+constexpr std::size_t most_marks = 1500;  // more would be a blot: then lines
+constexpr std::size_t most_named = 8;     // tracks in the legend; the others share one entry
+
+Series lines(const std::string& label, Mark mark) {
+  return {.label = label, .mark = mark, .x = {}, .y = {}, .lower = {}, .upper = {}};
+}
+
+void append_gap(Series& series) {
+  if (series.x.empty()) return;
+  series.x.push_back(series.x.back());
+  series.y.push_back(nan);
+}
+
+/// A rectangle of the picture.
+struct Window {
+  double left = 0, right = 1, bottom = 0, top = 1;  ///< [m]
+};
+
+/// Where anything moved, with room for the bodies themselves and a fifth more on each side.
+Window window_of(const Scene& scene, const Playback& playback) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Window w{far, -far, far, -far};
+  for (const Track& track : playback.tracks) {
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                   [&track](const Body& candidate) { return candidate.id == track.id; });
+    const Vec3<double> half = body == scene.bodies.end() ? Vec3<double>::Zero().eval() : box_of(*body).half_extents;
+    for (std::size_t i = 0; i < track.x.size(); ++i) {
+      w.left = std::min(w.left, track.x[i] - half[scene.across]);
+      w.right = std::max(w.right, track.x[i] + half[scene.across]);
+      w.bottom = std::min(w.bottom, track.y[i] - half[scene.up]);
+      w.top = std::max(w.top, track.y[i] + half[scene.up]);
+    }
+  }
+  const double wide = 0.2 * (w.right - w.left), high = 0.2 * (w.top - w.bottom);
+  return {w.left - wide, w.right + wide, w.bottom - high, w.top + high};
+}
+
+/// The part of a segment within the window, appended with a gap before it. Source: Liang and Barsky, 1984.
+void append_clipped(Series& series, const Window& w, double x0, double y0, double x1, double y1) {
+  double from = 0, to = 1;
+  const auto cut = [&](double start, double change, double low, double high) {
+    if (change == 0) return low <= start && start <= high;
+    const double enter = ((change > 0 ? low : high) - start) / change;
+    const double leave = ((change > 0 ? high : low) - start) / change;
+    from = std::max(from, enter);
+    to = std::min(to, leave);
+    return from <= to;
+  };
+  if (!cut(x0, x1 - x0, w.left, w.right) || !cut(y0, y1 - y0, w.bottom, w.top)) return;
+  append_gap(series);
+  for (const double t : {from, to}) {
+    series.x.push_back(x0 + t * (x1 - x0));
+    series.y.push_back(y0 + t * (y1 - y0));
+  }
+}
+
+/// The twelve edges of a box: its corners differ along one axis.
+void append_edges(Series& series, const Window& w, const Scene& scene, const Vec3<double>& center,
+                  const Mat3<double>& axes, const Vec3<double>& half) {
+  const auto corner = [&](unsigned which) {
+    Vec3<double> at = center;
+    for (unsigned i = 0; i < 3; ++i) {
+      const double side = (which >> i & 1U) != 0 ? 1 : -1;
+      at += side * half[static_cast<int>(i)] * axes.col(static_cast<int>(i));
+    }
+    return at;
+  };
+  for (unsigned from = 0; from < 8; ++from) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((from >> axis & 1U) != 0) continue;
+      const Vec3<double> a = corner(from), b = corner(from | 1U << axis);
+      append_clipped(series, w, a[scene.across], a[scene.up], b[scene.across], b[scene.up]);
+    }
+  }
+}
+
+/// The edges of what stays, where they are in the window; of what is round, those of the box that holds it.
+Series outlines(const Scene& scene, const Window& window) {
+  Series series = lines("at rest", Mark::line);
+  series.color = "#888888";
+  std::size_t drawn = 0;
+  for (const Body& body : scene.bodies) {
+    if (!body.is_static || std::holds_alternative<std::monostate>(body.shape) || ++drawn > most_outlines) continue;
+    if (const auto* const turned = std::get_if<Obb<double>>(&body.shape)) {
+      append_edges(series, window, scene, turned->center, turned->axes, turned->half_extents);
+    } else {
+      const Aabb<double> box = box_of(body);
+      append_edges(series, window, scene, box.center, Mat3<double>::Identity(), box.half_extents);
+    }
+  }
+  return series;
+}
+
+}  // namespace
+
+Figure tracks_figure(const Scene& scene, const Playback& playback) {
+  Panel panel;
+  panel.x_label = std::string(1, static_cast<char>('x' + scene.across)) + " [m]";
+  panel.y_label = std::string(1, static_cast<char>('x' + scene.up)) + " [m]";
+  panel.series.push_back(outlines(scene, window_of(scene, playback)));
+  if (panel.series.back().x.empty()) panel.series.clear();
+  const bool few = playback.tracks.size() <= most_named;
+  std::size_t points = 0;
+  for (const Track& track : playback.tracks) points += track.x.size();
+  const Mark mark = points <= most_marks ? Mark::points : Mark::line;
+  for (const Track& track : playback.tracks) {
+    if (few || &track == &playback.tracks.front())
+      panel.series.push_back(lines(few ? name_in(scene, track.id) : "bodies that move", mark));
+    Series& series = panel.series.back();
+    append_gap(series);
+    series.x.insert(series.x.end(), track.x.begin(), track.x.end());
+    series.y.insert(series.y.end(), track.y.begin(), track.y.end());
+  }
+  return {.name = "tracks",
+          .title = "Where the bodies were at the end of each step",
+          .caption =
+              "The center of each body that moves, of the first 40, at the end of every step; what stays, as the "
+              "box that holds it, cut off at the edge.",
+          .panels = {std::move(panel)}};
+}
+
+Figure course_figure(const Playback& playback) {
+  Series energy = lines("energy", Mark::line), begun = lines("contacts begun", Mark::line);
+  Series through = lines("tunneled", Mark::dashes);
+  std::int64_t begins = 0, tunneled = 0;
+  energy.x.push_back(0);
+  energy.y.push_back(playback.energy);
+  for (const StepRow& row : playback.rows) {
+    energy.x.push_back(row.time);
+    energy.y.push_back(row.energy);
+    begun.x.push_back(row.time);
+    begun.y.push_back(static_cast<double>(begins += row.begins));
+    through.x.push_back(row.time);
+    through.y.push_back(static_cast<double>(tunneled += row.tunneled));
+  }
+  Panel top, bottom;
+  top.x_label = bottom.x_label = "time [s]";
+  top.y_label = "energy [J]";
+  bottom.y_label = "counted so far [1]";
+  top.series = {std::move(energy)};
+  bottom.series = {std::move(begun), std::move(through)};
+  return {.name = "course",
+          .title = "Energy and contacts over time",
+          .caption =
+              "Above: kinetic energy and energy of height at the end of each step. Below: contacts that have begun, "
+              "and pairs that have gone through each other unseen.",
+          .panels = {std::move(top), std::move(bottom)}};
+}
+
+}  // namespace thinwall

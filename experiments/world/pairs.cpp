@@ -1,0 +1,344 @@
+#include <thinwall/experiments/world/pairs.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <thinwall/discrete/broad_phase.hpp>
+#include <thinwall/discrete/broad_phase/r_tree.hpp>
+#include <thinwall/discrete/grouped_pairs.hpp>
+#include <thinwall/swept/dispatch.hpp>
+
+// What removing from an R-tree needs; after r_tree.hpp, which silences Boost's note about a header of its own.
+#include <boost/geometry/algorithms/covered_by.hpp>
+#include <boost/geometry/algorithms/equals.hpp>
+
+namespace thinwall {
+namespace {
+
+constexpr std::size_t searches_by_loop = 4;  // then a tree pays: it costs as much as a few dozen passes over the boxes
+
+}  // namespace
+
+struct Neighbors::Tree {
+  boost::geometry::index::rtree<r_tree::Entry, boost::geometry::index::quadratic<16>> boxes;
+};
+
+Neighbors::Neighbors() = default;
+Neighbors::~Neighbors() = default;
+
+void Neighbors::begin(std::vector<Proxy>& proxies, std::span<const ProxyPair> pairs, const std::vector<bool>& has_links,
+                      bool everyone) {
+  proxies_ = &proxies;
+  pairs_ = pairs;
+  has_links_ = &has_links;
+  everyone_ = everyone;
+  linked_ = false;
+  later_.clear();
+  searches_ = 0;
+  tree_.reset();
+}
+
+void Neighbors::link_pairs() {
+  linked_ = true;
+  start_.assign(proxies_->size() + 1, 0);
+  const auto each_end = [&](const auto& use) {
+    for (const ProxyPair& pair : pairs_) {
+      if ((*has_links_)[pair.first]) use(pair.first, pair.second);
+      if ((*has_links_)[pair.second]) use(pair.second, pair.first);
+    }
+  };
+  each_end([&](std::uint32_t from, std::uint32_t) { ++start_[from + 1]; });
+  for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+  links_.resize(start_.back());
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  each_end([&](std::uint32_t from, std::uint32_t to) { links_[next[from]++] = to; });
+}
+
+/// All that the box meets, in ascending order, to found_.
+void Neighbors::search(const Proxy& box) {
+  found_.clear();
+  const std::vector<Proxy>& proxies = *proxies_;
+  if (++searches_ <= searches_by_loop) {
+    for (std::uint32_t k = 0; k < proxies.size(); ++k) {
+      if (boxes_touch(box, proxies[k]) && may_meet(box, proxies[k])) found_.push_back(k);
+    }
+    return;
+  }
+  if (!tree_) {
+    std::vector<r_tree::Entry> entries;
+    entries.reserve(proxies.size());
+    for (std::uint32_t k = 0; k < proxies.size(); ++k) {
+      if (!proxies[k].skipped) entries.emplace_back(r_tree::box_of(proxies[k]), k);
+    }
+    tree_ = std::make_unique<Tree>();
+    tree_->boxes = decltype(tree_->boxes)(entries);
+  }
+  auto take = [&](const r_tree::Entry& entry) {
+    const Proxy& other = proxies[entry.second];
+    if (boxes_touch(box, other) && may_meet(box, other)) found_.push_back(entry.second);
+  };
+  tree_->boxes.query(boost::geometry::index::intersects(r_tree::box_of(box)), r_tree::Each(take));
+  std::sort(found_.begin(), found_.end());
+}
+
+void Neighbors::change(std::uint32_t which, const Proxy& box) {
+  Proxy& old = (*proxies_)[which];
+  if (everyone_ || old.skipped || holds_box(old, box)) return;
+  search(box);
+  if (tree_) {
+    tree_->boxes.remove(r_tree::Entry(r_tree::box_of(old), which));
+    tree_->boxes.insert(r_tree::Entry(r_tree::box_of(box), which));
+  }
+  old = box;
+  for (const std::uint32_t other : found_) {
+    if (other == which) continue;
+    later_[which].insert(other);
+    if ((*has_links_)[other]) later_[other].insert(which);
+  }
+}
+
+const std::vector<std::uint32_t>& Neighbors::of(std::uint32_t which) {
+  answer_.clear();
+  const std::vector<Proxy>& proxies = *proxies_;
+  if (everyone_) {
+    for (std::uint32_t k = 0; k < proxies.size(); ++k) {
+      if (k != which && may_meet(proxies[which], proxies[k])) answer_.push_back(k);
+    }
+    return answer_;
+  }
+  if (!linked_) link_pairs();
+  const auto first = links_.begin() + start_[which], last = links_.begin() + start_[which + 1];
+  answer_.assign(first, last);
+  if (const auto later = later_.find(which); later != later_.end()) {
+    answer_.insert(answer_.end(), later->second.begin(), later->second.end());
+  }
+  std::sort(answer_.begin(), answer_.end());
+  answer_.erase(std::unique(answer_.begin(), answer_.end()), answer_.end());
+  return answer_;
+}
+
+std::size_t Neighbors::bytes() const {
+  std::size_t sum = (start_.capacity() + links_.capacity()) * sizeof(std::uint32_t);
+  for (const auto& entry : later_) sum += sizeof(entry) + entry.second.size() * 5 * sizeof(void*);  // nodes
+  return tree_ ? sum + tree_->boxes.size() * sizeof(r_tree::Entry) : sum;
+}
+
+namespace {
+
+template <class BroadPhase> struct Named final : PairFinder::Method {
+  BroadPhase options;
+  typename BroadPhase::Memory memory;
+  void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) override {
+    find_pairs(options, proxies, pairs, max_pairs, memory);
+  }
+};
+
+}  // namespace
+
+const std::vector<std::string_view>& PairFinder::names() {
+  static const std::vector<std::string_view> all = [] {
+    std::vector<std::string_view> names;
+    for_each_type(BroadPhases{}, [&]<class T>(TypeTag<T>) { names.push_back(T::name); });
+    return names;
+  }();
+  return all;
+}
+
+PairFinder::PairFinder(std::string_view name) {
+  for_each_type(BroadPhases{}, [&]<class T>(TypeTag<T>) {
+    if (T::name == name) method_ = std::make_unique<Named<T>>();
+  });
+  if (!method_) throw std::invalid_argument("there is no broad phase '" + std::string(name) + "'");
+}
+PairFinder::~PairFinder() = default;
+PairFinder::PairFinder(PairFinder&&) noexcept = default;
+PairFinder& PairFinder::operator=(PairFinder&&) noexcept = default;
+
+void PairFinder::find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) {
+  method_->find(proxies, pairs, max_pairs);
+}
+
+namespace {
+
+using SphereOrAabb = std::variant<std::monostate, Sphere<double>, Aabb<double>>;
+
+constexpr std::size_t block_size = 1024;  // pairs; the same for any number of threads
+constexpr std::size_t few = 16;           // pairs: grouping them costs more than the calls through a variant
+
+double least_half_width(const Sphere<double>& s) { return s.radius; }
+double least_half_width(const Aabb<double>& b) { return b.half_extents.minCoeff(); }
+double least_half_width(const Obb<double>& b) { return b.half_extents.minCoeff(); }
+double least_half_width(const Capsule<double>& c) { return c.radius; }
+
+template <class A> bool is_slow(const Moving<A>& m, double gate) {
+  return safe_norm(m.displacement) <= gate * least_half_width(m.shape);
+}
+
+struct Swept {
+  Toi<double> toi;
+  bool gated = false;
+};
+
+struct Sweep {
+  double gate;
+  template <class A, class B> Swept operator()(const Moving<A>& a, const Moving<B>& b) const {
+    if (gate > 0 && is_slow(a, gate) && is_slow(b, gate)) {
+      return {time_of_impact(at_rest(a.shape), at_rest(b.shape)), true};
+    }
+    return {time_of_impact(a, b), false};
+  }
+};
+
+struct Seen {
+  std::optional<Contact<double>> contact;
+  Vec3<double> point = Vec3<double>::Zero();
+};
+
+struct Look {
+  template <class A, class B> Seen operator()(const Moving<A>& a, const Moving<B>& b) const {
+    Seen seen{thinwall::contact(a.shape, b.shape)};
+    if (seen.contact) seen.point = center(a.shape) + seen.contact->local_a;
+    return seen;
+  }
+};
+
+void keep(const ProxyPair& pair, double start, const Swept& swept, std::vector<Touch>& touches, Asked& asked) {
+  const Toi<double>& toi = swept.toi;
+  asked.gated += swept.gated ? 1 : 0;
+  if (toi.status == ToiStatus::apart) return;
+  const bool at_start = toi.status == ToiStatus::overlapping;
+  if (!at_start && toi.status != ToiStatus::hit) throw std::logic_error("a sweep of two valid bodies has no answer");
+  const double time = at_start ? start : std::min(1.0, start + toi.time * (1 - start));
+  touches.push_back({pair.first, pair.second, time, at_start, toi.normal, toi.point, 0});
+}
+
+void keep(const ProxyPair& pair, double start, const Seen& seen, std::vector<Touch>& touches, Asked&) {
+  if (!seen.contact) return;
+  touches.push_back(
+      {pair.first, pair.second, start, true, seen.contact->normal, seen.point, seen.contact->penetration});
+}
+
+template <class Held> Held as_held(const AnyShape& shape) {
+  return std::visit(
+      [](const auto& s) -> Held {
+        if constexpr (std::is_constructible_v<Held, decltype(s)>) {
+          return s;
+        } else {
+          throw std::logic_error("a shape for which no kernel was planned");
+        }
+      },
+      shape);
+}
+
+template <class Held> void move_held(Held& shape, const Vec3<double>& by) {
+  std::visit(
+      [&](auto& s) {
+        if constexpr (!std::is_same_v<decltype(s), std::monostate&>) s = moved(s, by);
+      },
+      shape);
+}
+
+template <class Held> class Kernels final : public NarrowPhase {
+ public:
+  explicit Kernels(int threads) : arena_(threads), threads_(threads) {}
+
+  void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, double dt, bool resting_too) override {
+    const bool is_new = list_.size() != bodies.size();
+    list_.resize(bodies.size());
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+      if (is_new || resting_too || can_move(bodies[i])) place_one(i, bodies[i], motions[i], motions[i].anchor, dt);
+    }
+  }
+
+  void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, double time, double dt) override {
+    Moving<Held>& placed = list_[which];
+    placed.shape = as_held<Held>(body.shape);
+    const Vec3<double> offset = offset_at(motion, time, dt);
+    if (offset != Vec3<double>::Zero()) move_held(placed.shape, offset);
+    placed.displacement = moving_at(motion) * (dt * (1 - time));
+  }
+
+  Asked sweep(std::span<const ProxyPair> pairs, double start, double gate, std::vector<Touch>& touches) override {
+    return ask<Swept>(pairs, start, Sweep{gate}, touches);
+  }
+  Asked look(std::span<const ProxyPair> pairs, std::vector<Touch>& touches) override {
+    return ask<Seen>(pairs, 1, Look{}, touches);
+  }
+
+  std::size_t bytes() const override {
+    std::size_t sum = list_.capacity() * sizeof(list_[0]) + blocks_.capacity() * sizeof(Block);
+    for (const Block& block : blocks_) sum += block.touches.capacity() * sizeof(Touch);
+    return sum;
+  }
+
+ private:
+  struct Block {
+    std::vector<Touch> touches;
+    Asked asked;
+  };
+
+  template <class Answer, class Query>
+  Asked ask(std::span<const ProxyPair> pairs, double start, const Query& query, std::vector<Touch>& touches) {
+    Asked asked{pairs.size(), 0};
+    if (pairs.size() <= few) {
+      for (const ProxyPair& pair : pairs) keep(pair, start, one<Answer>(query, pair), touches, asked);
+      return asked;
+    }
+    const std::size_t count = (pairs.size() + block_size - 1) / block_size;
+    if (blocks_.size() < count) blocks_.resize(count);
+    const auto run = [&](std::size_t k) {
+      const std::size_t first = k * block_size;
+      ask_block<Answer>(pairs.subspan(first, std::min(block_size, pairs.size() - first)), start, query, blocks_[k]);
+    };
+    if (threads_ == 1) {
+      for (std::size_t k = 0; k < count; ++k) run(k);
+    } else {
+      const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(threads_));
+      arena_.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, run); });
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      touches.insert(touches.end(), blocks_[k].touches.begin(), blocks_[k].touches.end());
+      asked.gated += blocks_[k].asked.gated;
+    }
+    return asked;
+  }
+
+  template <class Answer, class Query> Answer one(const Query& query, const ProxyPair& pair) const {
+    const Moving<Held>&a = list_[pair.first], &b = list_[pair.second];
+    return visit_shapes(a.shape, b.shape, Answer{}, [&]<class A, class B>(const A& x, const B& y) {
+      return query(Moving<A>{x, a.displacement}, Moving<B>{y, b.displacement});
+    });
+  }
+
+  template <class Answer, class Query>
+  void ask_block(std::span<const ProxyPair> pairs, double start, const Query& query, Block& block) {
+    block.touches.clear();
+    block.asked = {};
+    std::vector<IndexPair> places;
+    places.reserve(pairs.size());
+    for (const ProxyPair& pair : pairs) places.push_back({pair.first, pair.second});
+    const auto all = answers(group_pairs(list_, list_, places), list_, list_, places, Answer{}, query);
+    for (std::size_t i = 0; i < pairs.size(); ++i) keep(pairs[i], start, all[i], block.touches, block.asked);
+  }
+
+  oneapi::tbb::task_arena arena_;
+  int threads_;
+  std::vector<Moving<Held>> list_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace
+
+std::unique_ptr<NarrowPhase> make_narrow_phase(bool sphere_aabb, int threads) {
+  if (sphere_aabb) return std::make_unique<Kernels<SphereOrAabb>>(threads);
+  return std::make_unique<Kernels<AnyShape>>(threads);
+}
+
+}  // namespace thinwall

@@ -1,0 +1,229 @@
+#pragma once
+/// What a step is made of: boxes, pairs, contacts, impulses.
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include <thinwall/discrete/broad_phase/proxy.hpp>
+#include <thinwall/experiments/world/world.hpp>
+#include <thinwall/swept/swept_volume.hpp>
+
+namespace thinwall {
+
+// ---- What two bodies in contact do to each other: an impulse along the normal, with restitution, and no friction. Bodies do
+// not turn.
+
+/// A body's part of what parts it from another: with masses m_a and m_b, m_b / (m_a + m_b) for A. Neither overflows.
+/// At least one of the two must be moved by impulses.
+inline double share_of(const Body& a, const Body& b) {
+  if (inverse_mass(a) == 0) return 0;
+  return inverse_mass(b) == 0 ? 1 : 1 / (1 + a.mass / b.mass);
+}
+inline bool is_moved_by_impulses(const Body& body) { return inverse_mass(body) > 0; }
+
+/// How a body moves within a step: where it is at `anchor`, relative to its place at the start, and at what velocity.
+struct BodyMotion {
+  Vec3<double> offset = Vec3<double>::Zero();    ///< [m] at `anchor`
+  Vec3<double> velocity = Vec3<double>::Zero();  ///< [m/s]
+  double anchor = 0;                             ///< [1] part of the step
+  double speed = 0;           ///< [m/s] the largest |v_x| + |v_y| + |v_z| so far: what rounding is of
+  std::uint32_t version = 0;  ///< changes with the motion
+  std::uint32_t arrived = 0;  ///< the version that came to `anchor`: those after it turned there
+  int events = 0;             ///< hits so far
+  bool waiting = false;       ///< does not move any more in this step
+};
+
+/// [m/s] In effect: zero while it waits.
+inline Vec3<double> moving_at(const BodyMotion& motion) {
+  return motion.waiting ? Vec3<double>(Vec3<double>::Zero()) : motion.velocity;
+}
+
+/// [m/s] What rounding alone may make of a closing speed of zero, once an impulse has made it zero: 16 epsilon of the
+/// speeds there were. Source: derived in docs/world.md.
+inline double closing_noise(const BodyMotion& a, const BodyMotion& b) {
+  return 16 * std::numeric_limits<double>::epsilon() * (a.speed + b.speed);
+}
+
+/// [m/s] > 0 if A and B approach along the normal, from A to B.
+inline double closing_speed(const Vec3<double>& normal, const Vec3<double>& a, const Vec3<double>& b) {
+  return normal.dot(Vec3<double>(a - b));
+}
+
+/// Lets the two bounce if they approach by more than rounding. True if it did.
+inline bool bounce(const Body& body_a, const Body& body_b, BodyMotion& a, BodyMotion& b, const Vec3<double>& normal) {
+  if (!is_moved_by_impulses(body_a) && !is_moved_by_impulses(body_b)) return false;
+  const double closing = closing_speed(normal, a.velocity, b.velocity);
+  if (!(closing > closing_noise(a, b))) return false;
+  const double change = (1 + std::max(body_a.restitution, body_b.restitution)) * closing;
+  const auto push = [&](const Body& body, const Body& other, BodyMotion& motion, double way) {
+    if (!is_moved_by_impulses(body)) return;
+    motion.velocity += normal * (way * change * share_of(body, other));
+    motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
+    ++motion.version;
+  };
+  push(body_a, body_b, a, -1);
+  push(body_b, body_a, b, 1);
+  return true;
+}
+
+/// Undoes `part` [1] of a penetration [m], the lighter body moving more.
+inline void part_bodies(const Body& body_a, const Body& body_b, BodyMotion& a, BodyMotion& b,
+                        const Vec3<double>& normal, double penetration, double part) {
+  if (!is_moved_by_impulses(body_a) && !is_moved_by_impulses(body_b)) return;
+  const double way = penetration * part;
+  if (is_moved_by_impulses(body_a)) a.offset -= normal * (way * share_of(body_a, body_b));
+  if (is_moved_by_impulses(body_b)) b.offset += normal * (way * share_of(body_b, body_a));
+}
+
+// ---- The box that holds a body in what is left of a step, as the broad phase wants it.
+
+/// From the motion's anchor to the end of the step of dt [s], rounded outward.
+inline Proxy proxy_of(const Body& body, const BodyMotion& motion, double dt) {
+  Proxy proxy;
+  proxy.group = body.group;
+  proxy.mask = body.mask;
+  proxy.is_static = body.is_static;
+  proxy.skipped = std::holds_alternative<std::monostate>(body.shape);
+  const Vec3<double> displacement = moving_at(motion) * (dt * (1 - motion.anchor));
+  std::visit(
+      [&]<class A>(const A& shape) {
+        if constexpr (!std::is_same_v<A, std::monostate>) {
+          const Aabb<double> box = swept_bounds(Moving<A>{moved(shape, motion.offset), displacement});
+          proxy.low = box.center - box.half_extents;
+          proxy.high = box.center + box.half_extents;
+        }
+      },
+      body.shape);
+  return proxy;
+}
+
+/// True if the box of `inner` lies in that of `outer`.
+inline bool holds_box(const Proxy& outer, const Proxy& inner) {
+  return (outer.low.array() <= inner.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
+}
+
+// ---- Asks many pairs at once, grouped by type pair, split among threads in blocks of fixed size: the answers and their order
+// do not depend on the threads.
+
+/// A pair in contact, by the places of its bodies in the list.
+struct Touch {
+  std::uint32_t first = 0, second = 0;         ///< places, first < second
+  double time = 0;                             ///< [1] part of the step
+  bool at_start = false;                       ///< in contact where the question starts already
+  Vec3<double> normal = Vec3<double>::Zero();  ///< unit, from first to second
+  Vec3<double> point = Vec3<double>::Zero();   ///< [m]
+  double penetration = 0;                      ///< [m] >= 0; at an instant alone
+};
+
+/// What a question cost, for the report.
+struct Asked {
+  std::size_t pairs = 0;
+  std::size_t gated = 0;  ///< not swept, because both moved less than the gate
+};
+
+/// The bodies as the narrow phase reads them: each at some time of the step, with what is left of its motion.
+class NarrowPhase {
+ public:
+  NarrowPhase() = default;
+  NarrowPhase(const NarrowPhase&) = delete;
+  NarrowPhase& operator=(const NarrowPhase&) = delete;
+  virtual ~NarrowPhase() = default;
+
+  /// As many bodies as given, where their motions' anchors are. Those that cannot move keep their old place unless
+  /// `resting_too`.
+  virtual void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, double dt,
+                     bool resting_too) = 0;
+  /// One of them, at `time` [1].
+  virtual void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, double time, double dt) = 0;
+
+  /// Appends the pairs that come into contact in what is left of the step from `start` [1] on, in the order of `pairs`.
+  /// All must be placed at that time. gate [1]: see WorldOptions.
+  virtual Asked sweep(std::span<const ProxyPair> pairs, double start, double gate, std::vector<Touch>& touches) = 0;
+  /// Appends the pairs in contact where they are placed, with penetrations.
+  virtual Asked look(std::span<const ProxyPair> pairs, std::vector<Touch>& touches) = 0;
+
+  virtual std::size_t bytes() const = 0;
+};
+
+/// With the kernels of spheres and axis-aligned boxes alone, or of every shape; on `threads` >= 1 threads.
+std::unique_ptr<NarrowPhase> make_narrow_phase(bool sphere_aabb, int threads);
+
+/// [m] Where a body is at `time` [1], relative to its place at the start of the step of dt [s].
+inline Vec3<double> offset_at(const BodyMotion& motion, double time, double dt) {
+  if (time == motion.anchor) return motion.offset;
+  return motion.offset + moving_at(motion) * (dt * (time - motion.anchor));
+}
+
+// ---- Whom a body may meet in what is left of a step, kept up to date while bodies change course.
+//
+// Every body has a box that holds the rest of its path, and two bodies are linked if their boxes meet. The broad phase gives
+// the first links. A body whose new path stays in its box keeps box and links; another gets a new box, and is linked to all
+// whose boxes it meets. So two bodies that are not linked have disjoint boxes and cannot meet. However often bodies turn, each
+// has one box, and at most one link to each other.
+
+class Neighbors {
+ public:
+  Neighbors();
+  ~Neighbors();
+
+  /// Begins a step: the boxes and the links, both of which must live until its end. `has_links` [by body] is false for bodies
+  /// that never change course, and are not asked about. `everyone`: link all, whatever their boxes.
+  void begin(std::vector<Proxy>& proxies, std::span<const ProxyPair> pairs, const std::vector<bool>& has_links,
+             bool everyone);
+
+  /// The body goes on in this box.
+  void change(std::uint32_t which, const Proxy& box);
+
+  /// All that may be met, in ascending order.
+  const std::vector<std::uint32_t>& of(std::uint32_t which);
+
+  std::size_t bytes() const;
+
+ private:
+  void link_pairs();
+  void search(const Proxy& box);
+
+  struct Tree;
+  std::vector<Proxy>* proxies_ = nullptr;
+  std::span<const ProxyPair> pairs_;
+  const std::vector<bool>* has_links_ = nullptr;
+  bool everyone_ = false, linked_ = false;
+  std::vector<std::uint32_t> start_, links_;                          // of the pairs, body by body
+  std::unordered_map<std::uint32_t, std::set<std::uint32_t>> later_;  // links made since
+  std::size_t searches_ = 0;
+  std::unique_ptr<Tree> tree_;  // of all boxes, once enough of them have been searched
+  std::vector<std::uint32_t> found_, answer_;
+};
+
+// ---- One of the broad phases, chosen by name, with its working memory.
+
+class PairFinder {
+ public:
+  static const std::vector<std::string_view>& names();  ///< of BroadPhases, in its order
+
+  explicit PairFinder(std::string_view name);  ///< one of names()
+  ~PairFinder();
+  PairFinder(PairFinder&&) noexcept;
+  PairFinder& operator=(PairFinder&&) noexcept;
+
+  void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs);
+
+  struct Method {
+    Method() = default;
+    Method(const Method&) = delete;
+    Method& operator=(const Method&) = delete;
+    virtual ~Method() = default;
+    virtual void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) = 0;
+  };
+
+ private:
+  std::unique_ptr<Method> method_;
+};
+
+}  // namespace thinwall

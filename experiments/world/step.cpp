@@ -1,0 +1,214 @@
+#include <thinwall/experiments/world/step.hpp>
+
+#include <chrono>
+#include <cmath>
+
+#include <thinwall/experiments/world/pairs.hpp>
+#include <thinwall/experiments/world/world.hpp>
+
+namespace thinwall {
+
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+}  // namespace
+
+PhaseClock::PhaseClock(double& seconds) : seconds_(&seconds), start_(now()) {}
+PhaseClock::~PhaseClock() { *seconds_ += now() - start_; }
+
+Stepper::Stepper(const WorldOptions& options, const Plan& plan)
+    : options_(options),
+      plan_(plan),
+      finder_(plan.broad_phase),
+      narrow_(make_narrow_phase(plan.sphere_aabb, options.threads)) {}
+
+void Stepper::run(std::span<const Body> bodies, double dt, bool changed_by_hand) {
+  bodies_ = bodies;
+  counts_ = {};
+  touches_.clear();
+  begin(dt, changed_by_hand);
+  switch (options_.policy) {
+    case TimePolicy::discrete: sampled_step(1); break;
+    case TimePolicy::substeps: sampled_step(options_.substeps); break;
+    case TimePolicy::clamp:
+    case TimePolicy::event_driven: swept_step(); break;
+  }
+  finish();
+}
+
+void Stepper::begin(double dt, bool changed_by_hand) {
+  const PhaseClock clock(counts_.seconds.integrate);
+  dt_ = dt;
+  all_anew_ = !ready_ || changed_by_hand || plan_.resting_bounds || proxies_.size() != bodies_.size();
+  ready_ = false;
+  motions_.assign(bodies_.size(), BodyMotion{});
+  proxies_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    motions_[i].velocity = bodies_[i].velocity;
+    motions_[i].speed = bodies_[i].velocity.cwiseAbs().sum();
+  }
+}
+
+/// Gravity for `dt` [s]: the velocity at the end of a stretch is the one it is walked at (semi-implicit Euler), so that a body
+/// that a contact holds does not move.
+void Stepper::fall(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!is_moved_by_impulses(bodies_[i])) continue;
+    BodyMotion& motion = motions_[i];
+    motion.velocity += options_.gravity * (bodies_[i].gravity_scale * dt);
+    motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
+  }
+}
+
+/// The boxes from the anchors to the end of a stretch of `dt` [s].
+void Stepper::box(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!can_move(bodies_[i]) && !all_anew_) continue;
+    require_in_the_world(i, moving_at(motions_[i]) * dt);
+    if (plan_.contacts) proxies_[i] = proxy_of(bodies_[i], motions_[i], dt);
+  }
+}
+
+void Stepper::require_in_the_world(std::size_t which, const Vec3<double>& displacement) const {
+  const BodyMotion& motion = motions_[which];
+  const Vec3<double> way = motion.offset.cwiseAbs() + displacement.cwiseAbs();
+  if (is_in_the_world(bodies_[which].shape, way) && is_finite(motion.velocity)) return;
+  throw LeftTheWorld(called(bodies_[which]) +
+                     " left the representable world: its place or its velocity is out of range");
+}
+
+void Stepper::count(const Asked& asked) {
+  counts_.sweeps += asked.pairs;
+  counts_.gated += asked.gated;
+}
+
+void Stepper::finish() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    BodyMotion& motion = motions_[i];
+    if (motion.waiting) ++counts_.waiting;
+    if (can_move(bodies_[i])) require_in_the_world(i, Vec3<double>::Zero());
+  }
+  counts_.hits = touches_.size();
+  counts_.bytes = bytes();
+  ready_ = true;
+}
+
+std::size_t Stepper::bytes() const {
+  return motions_.capacity() * sizeof(BodyMotion) + proxies_.capacity() * sizeof(Proxy) +
+         pairs_.capacity() * sizeof(ProxyPair) + (touches_.capacity() + found_.capacity()) * sizeof(Touch) +
+         narrow_->bytes() + neighbors_.bytes();
+}
+
+/// The boxes as the broad phase is to see them: static and masked pairs are pairs like others where they are not left out.
+void Stepper::mark_proxies(bool as_they_are) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (plan_.static_pairs) proxies_[i].is_static = as_they_are && bodies_[i].is_static;
+    if (plan_.masked_pairs) {
+      proxies_[i].group = as_they_are ? bodies_[i].group : 1;
+      proxies_[i].mask = as_they_are ? bodies_[i].mask : 1;
+    }
+  }
+}
+
+/// Hands all pairs that may touch to `ask`: those that the broad phase finds, or, where disjoint boxes are not left out, every two
+/// bodies, a bounded number at a time; then what they may not do to each other is dropped.
+void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask) {
+  const bool drops = plan_.static_pairs || plan_.masked_pairs;
+  const auto has_no_say = [&](const auto& pair) { return !may_meet(proxies_[pair.first], proxies_[pair.second]); };
+  if (!plan_.all_bounds) {
+    {
+      const PhaseClock clock(counts_.seconds.broad);
+      if (drops) mark_proxies(false);
+      finder_.find(proxies_, pairs_, options_.max_pairs);
+      if (drops) mark_proxies(true);
+    }
+    counts_.pairs += pairs_.size();
+    const PhaseClock clock(counts_.seconds.narrow);
+    count(ask(pairs_));
+    if (!drops) return;
+    std::erase_if(pairs_, has_no_say);
+    std::erase_if(found_, has_no_say);
+    return;
+  }
+  const PhaseClock clock(counts_.seconds.narrow);
+  constexpr std::size_t at_a_time = 1U << 16;
+  pairs_.clear();
+  const auto flush = [&] {
+    counts_.pairs += pairs_.size();
+    count(ask(pairs_));
+    pairs_.clear();
+  };
+  if (drops) mark_proxies(false);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    for (std::uint32_t j = i + 1; j < bodies_.size(); ++j) {
+      if (!may_meet(proxies_[i], proxies_[j])) continue;
+      pairs_.push_back({i, j});
+      if (pairs_.size() == at_a_time) flush();
+    }
+  }
+  flush();
+  if (!drops) return;
+  mark_proxies(true);
+  std::erase_if(found_, has_no_say);
+}
+
+// ---- The policies that look at poses: what happens between them is not seen, and a fast body passes a thin wall.
+
+void Stepper::sampled_step(int parts) {
+  const double part = dt_ / parts;
+  for (BodyMotion& motion : motions_)
+    motion.anchor = 1;  // nothing is left to move: a box, a place is that of an instant
+  for (int k = 1; k <= parts; ++k) {
+    {
+      const PhaseClock clock(counts_.seconds.integrate);
+      fall(part);
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (can_move(bodies_[i])) motions_[i].offset += motions_[i].velocity * part;
+      }
+      box(0);
+    }
+    if (!plan_.contacts) continue;
+    {
+      const PhaseClock clock(counts_.seconds.narrow);
+      narrow_->place(bodies_, motions_, dt_, all_anew_);
+    }
+    found_.clear();
+    find_touches([&](std::span<const ProxyPair> pairs) { return narrow_->look(pairs, found_); });
+    all_anew_ = plan_.resting_bounds;
+    for (Touch& touch : found_) touch.time = k == parts ? 1 : static_cast<double>(k) / parts;
+    touches_.insert(touches_.end(), found_.begin(), found_.end());
+    if (!plan_.response) continue;
+    const PhaseClock clock(counts_.seconds.response);
+    if (options_.response) {
+      respond_at_instant(motions_);
+    } else {
+      const std::size_t impulses = counts_.impulses;
+      std::vector<BodyMotion> dropped = motions_;
+      respond_at_instant(dropped);
+      counts_.impulses = impulses;
+    }
+  }
+}
+
+/// Impulses in the order of the pairs, until nobody approaches or the rounds are over, then every penetration undone.
+void Stepper::respond_at_instant(std::vector<BodyMotion>& motions) {
+  bool any = true;
+  for (int round = 0; round <= options_.contact_rounds && any; ++round) {
+    any = false;
+    for (const Touch& touch : found_) {
+      if (!bounce(bodies_[touch.first], bodies_[touch.second], motions[touch.first], motions[touch.second],
+                  touch.normal)) {
+        continue;
+      }
+      any = true;
+      ++counts_.impulses;
+    }
+  }
+  for (const Touch& touch : found_) {
+    part_bodies(bodies_[touch.first], bodies_[touch.second], motions[touch.first], motions[touch.second], touch.normal,
+                touch.penetration, options_.correction);
+  }
+}
+
+}  // namespace thinwall

@@ -1,0 +1,136 @@
+#pragma once
+/// The policies of a step: sampled, or swept.
+
+#include <functional>
+#include <memory>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include <thinwall/experiments/world/pairs.hpp>
+#include <thinwall/experiments/world/world.hpp>
+
+namespace thinwall {
+
+// ---- One step of a world, on paper: what moves where, who meets whom. The world takes it over once all of it is known, so that
+// a step that fails changes nothing.
+
+/// Steps bodies that stay in their order; keeps its memory from step to step.
+class Stepper {
+ public:
+  Stepper(const WorldOptions& options, const Plan& plan);
+
+  /// A step of dt [s]. `changed_by_hand`: bodies came, went or were moved since the last one.
+  void run(std::span<const Body> bodies, double dt, bool changed_by_hand);
+
+  const std::vector<BodyMotion>& motions() const { return motions_; }  ///< each at its end: `anchor` is 1
+  const std::vector<Touch>& touches() const { return touches_; }       ///< in the order they were processed
+  const StepReport& counts() const { return counts_; }                 ///< no step, no time
+  std::size_t bytes() const;
+
+ private:
+  // stepping.cpp
+  void begin(double dt, bool changed_by_hand);
+  void fall(double dt);
+  void box(double dt);
+  void require_in_the_world(std::size_t which, const Vec3<double>& displacement) const;
+  void finish();
+  void find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask);
+  void mark_proxies(bool as_they_are);
+  void count(const Asked& asked);
+  // sampled_step.cpp
+  void sampled_step(int parts);
+  void respond_at_instant(std::vector<BodyMotion>& motions);
+  // swept_step.cpp
+  void swept_step();
+  void play(std::vector<BodyMotion>& motions, std::vector<Touch>& processed, StepReport& counts);
+
+  WorldOptions options_;
+  Plan plan_;
+  PairFinder finder_;
+  std::unique_ptr<NarrowPhase> narrow_;
+  Neighbors neighbors_;
+  std::span<const Body> bodies_;
+  double dt_ = 0;
+  bool ready_ = false;    // the last step came to its end
+  bool all_anew_ = true;  // the boxes and places of bodies at rest too
+  std::vector<BodyMotion> motions_;
+  std::vector<Proxy> proxies_;
+  std::vector<ProxyPair> pairs_;
+  std::vector<Touch> touches_, found_;
+  std::vector<bool> has_links_;
+  StepReport counts_;
+};
+
+/// Adds the seconds until the end of its scope.
+class PhaseClock {
+ public:
+  explicit PhaseClock(double& seconds);
+  ~PhaseClock();
+  PhaseClock(const PhaseClock&) = delete;
+  PhaseClock& operator=(const PhaseClock&) = delete;
+
+ private:
+  double* seconds_;
+  double start_;
+};
+
+// ---- What contacts do to motions that are known for the whole step: the events of a step in the order of their times.
+
+/// Every contact is told. One with a body that an impulse can turn is answered, which takes one of the `max_events` of that body, or
+/// ends its motion: a step of n bodies has at most n (max_events + 1) answers.
+class EventLoop {
+ public:
+  struct Scene {
+    std::span<const Body> bodies;
+    double dt;       ///< [s] of the step
+    int max_events;  ///< of a body; then it waits
+    int contact_rounds;
+    double gate;
+    NarrowPhase& narrow;   ///< all placed at the start
+    Neighbors& neighbors;  ///< begun
+  };
+
+  EventLoop(const Scene& scene, std::vector<BodyMotion>& motions) : scene_(scene), motions_(motions) {}
+
+  /// Bounces and moves the bodies through the step, given what touches on the paths they start with. Appends the contacts that
+  /// come about to `processed`.
+  void run(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts);
+
+ private:
+  struct Event {
+    Touch touch;
+    std::uint32_t version_first = 0, version_second = 0;
+    /// The later one: std::priority_queue hands out the greatest. Of one pair at one time the older goes first.
+    bool operator<(const Event& other) const {
+      if (touch.time != other.touch.time) return touch.time > other.touch.time;
+      if (touch.first != other.touch.first) return touch.first > other.touch.first;
+      if (touch.second != other.touch.second) return touch.second > other.touch.second;
+      if (version_first != other.version_first) return version_first > other.version_first;
+      return version_second > other.version_second;
+    }
+  };
+
+  void resolve_start(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts);
+  void sweep_changed_at_start(StepReport& counts);
+  void schedule(const Touch& touch);
+  void happen(const Event& event, std::vector<Touch>& processed, StepReport& counts);
+  bool is_on_course(const Event& event) const;
+  bool was_on_course(const Event& event) const;
+  bool press(const Touch& touch) const;
+  void sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts);
+  void advance(std::uint32_t which, double time);
+  void change_course(std::uint32_t which);
+  void ask(double time, StepReport& counts);
+  bool goes_on(std::uint32_t which) const;
+  bool is_free(std::uint32_t which) const;
+
+  const Scene& scene_;
+  std::vector<BodyMotion>& motions_;
+  std::priority_queue<Event> queue_;
+  std::vector<bool> changed_;  // by the contacts at the start
+  std::vector<ProxyPair> pairs_;
+  std::vector<Touch> touches_;
+};
+
+}  // namespace thinwall

@@ -1,0 +1,253 @@
+#include <thinwall/experiments/world/step.hpp>
+
+#include <algorithm>
+
+#include <thinwall/experiments/world/pairs.hpp>
+#include <thinwall/experiments/world/world.hpp>
+
+namespace thinwall {
+namespace {
+
+/// What touches at the start of the step has been told then.
+void tell(const Touch& touch, std::vector<Touch>& processed) {
+  if (!touch.at_start || touch.time > 0) processed.push_back(touch);
+}
+
+}  // namespace
+
+void EventLoop::run(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts) {
+  changed_.assign(scene_.bodies.size(), false);
+  resolve_start(found, processed, counts);
+  for (const Touch& touch : found) {
+    if (!changed_[touch.first] && !changed_[touch.second]) schedule(touch);
+  }
+  sweep_changed_at_start(counts);
+  while (!queue_.empty()) {
+    const Event event = queue_.top();
+    queue_.pop();
+    if (is_on_course(event)) {
+      happen(event, processed, counts);
+    } else if (was_on_course(event) && !press(event.touch)) {  // those that do have been swept again
+      tell(event.touch, processed);
+    }
+  }
+  for (std::uint32_t i = 0; i < motions_.size(); ++i) {
+    if (can_move(scene_.bodies[i])) advance(i, 1);
+  }
+}
+
+/// True if it may move in the rest of the step, be it driven.
+bool EventLoop::goes_on(std::uint32_t which) const {
+  return can_move(scene_.bodies[which]) && !motions_[which].waiting;
+}
+bool EventLoop::is_free(std::uint32_t which) const {
+  return is_moved_by_impulses(scene_.bodies[which]) && goes_on(which);
+}
+
+bool EventLoop::is_on_course(const Event& event) const {
+  return event.version_first == motions_[event.touch.first].version &&
+         event.version_second == motions_[event.touch.second].version;
+}
+
+/// True if both came to the place of the event, and one was turned there in the same instant, by a third: they touch.
+bool EventLoop::was_on_course(const Event& event) const {
+  const auto came = [&](std::uint32_t which, std::uint32_t version) {
+    const BodyMotion& motion = motions_[which];
+    return version == motion.version || (motion.anchor == event.touch.time && version >= motion.arrived);
+  };
+  return came(event.touch.first, event.version_first) && came(event.touch.second, event.version_second);
+}
+
+/// True if the two that touch go on toward each other by more than rounding, and one of them can be turned.
+bool EventLoop::press(const Touch& touch) const {
+  const BodyMotion &a = motions_[touch.first], &b = motions_[touch.second];
+  return (is_free(touch.first) || is_free(touch.second)) &&
+         closing_speed(touch.normal, moving_at(a), moving_at(b)) > closing_noise(a, b);
+}
+
+void EventLoop::advance(std::uint32_t which, double time) {
+  BodyMotion& motion = motions_[which];
+  if (time != motion.anchor) motion.arrived = motion.version;
+  motion.offset = offset_at(motion, time, scene_.dt);
+  motion.anchor = time;
+}
+
+/// Contacts at the start take no event: a body that rests on another is free to slide and to hit.
+void EventLoop::resolve_start(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts) {
+  std::vector<Touch> contacts;
+  for (const Touch& touch : found) {
+    if (touch.at_start) contacts.push_back(touch);
+  }
+  processed.insert(processed.end(), contacts.begin(), contacts.end());
+  bool any = true;
+  for (int round = 0; round < scene_.contact_rounds && any; ++round) {
+    any = false;
+    for (const Touch& touch : contacts) {
+      const std::uint32_t a = touch.first, b = touch.second;
+      if (!bounce(scene_.bodies[a], scene_.bodies[b], motions_[a], motions_[b], touch.normal)) continue;
+      any = true;
+      ++counts.impulses;
+      changed_[a] = changed_[a] || is_moved_by_impulses(scene_.bodies[a]);
+      changed_[b] = changed_[b] || is_moved_by_impulses(scene_.bodies[b]);
+    }
+  }
+}
+
+void EventLoop::sweep_changed_at_start(StepReport& counts) {
+  for (std::uint32_t i = 0; i < changed_.size(); ++i) {
+    if (!changed_[i]) continue;
+    scene_.narrow.place_one(i, scene_.bodies[i], motions_[i], 0, scene_.dt);
+    change_course(i);
+  }
+  constexpr std::size_t at_a_time = 1U << 16;
+  pairs_.clear();
+  for (std::uint32_t i = 0; i < changed_.size(); ++i) {
+    if (!changed_[i]) continue;
+    for (const std::uint32_t other : scene_.neighbors.of(i)) {
+      if (changed_[other] && other < i) continue;  // asked from the other side
+      pairs_.push_back({std::min(i, other), std::max(i, other)});
+    }
+    if (pairs_.size() >= at_a_time) ask(0, counts);
+  }
+  ask(0, counts);
+}
+
+/// Asks the pairs for the rest of the step, schedules what they meet, and forgets them.
+void EventLoop::ask(double time, StepReport& counts) {
+  touches_.clear();
+  const Asked asked = scene_.narrow.sweep(pairs_, time, scene_.gate, touches_);
+  counts.sweeps += asked.pairs;
+  counts.gated += asked.gated;
+  pairs_.clear();
+  for (const Touch& touch : touches_) schedule(touch);
+}
+
+/// Bodies that touch and do not approach never meet again on straight paths: they are convex, and the plane of contact goes
+/// on parting them.
+void EventLoop::schedule(const Touch& touch) {
+  if (touch.at_start && !press(touch)) return;
+  queue_.push({touch, motions_[touch.first].version, motions_[touch.second].version});
+}
+
+void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepReport& counts) {
+  const Touch& touch = event.touch;
+  const std::uint32_t ends[2] = {touch.first, touch.second};
+  BodyMotion &a = motions_[ends[0]], &b = motions_[ends[1]];
+  tell(touch, processed);
+  if (!is_free(ends[0]) && !is_free(ends[1])) return;  // no impulse turns either
+  const bool bounces = closing_speed(touch.normal, a.velocity, b.velocity) > closing_noise(a, b);
+  if (!bounces && !press(touch)) return;  // a graze
+  bool changes[2] = {false, false};
+  for (const std::uint32_t end : ends) {
+    if (can_move(scene_.bodies[end])) advance(end, touch.time);
+  }
+  if (bounces) {
+    bounce(scene_.bodies[ends[0]], scene_.bodies[ends[1]], a, b, touch.normal);
+    ++counts.impulses;
+  }
+  for (int k = 0; k < 2; ++k) {
+    BodyMotion& motion = motions_[ends[k]];
+    if (!is_moved_by_impulses(scene_.bodies[ends[k]])) continue;
+    changes[k] = bounces || !motion.waiting;
+    if (!changes[k]) continue;  // it waits already: what is known of it stays
+    ++motion.version;
+    if (!bounces || ++motion.events >= scene_.max_events) motion.waiting = true;  // it waits behind one that waits
+  }
+  for (int k = 0; k < 2; ++k) {
+    if (changes[k]) change_course(ends[k]);
+  }
+  for (int k = 0; k < 2; ++k) {
+    if (changes[k]) sweep_again(ends[k], k == 1 && changes[0] ? ends[0] : ends[k], touch.time, counts);
+  }
+}
+
+void EventLoop::change_course(std::uint32_t which) {
+  const Body& body = scene_.bodies[which];
+  const BodyMotion& motion = motions_[which];
+  const Vec3<double> rest = moving_at(motion) * (scene_.dt * (1 - motion.anchor));
+  if (!is_in_the_world(body.shape, motion.offset.cwiseAbs() + rest.cwiseAbs()) || !is_finite(motion.velocity)) {
+    throw LeftTheWorld(called(body) + " left the representable world: a hit made its velocity too large");
+  }
+  scene_.neighbors.change(which, proxy_of(body, motion, scene_.dt));
+}
+
+/// All that the body may meet from `time` on, but the pair with `done`, which is known. One that waits may still be met.
+void EventLoop::sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts) {
+  const auto place = [&](std::uint32_t i) {
+    scene_.narrow.place_one(i, scene_.bodies[i], motions_[i], time, scene_.dt);
+  };
+  place(which);
+  pairs_.clear();
+  for (const std::uint32_t other : scene_.neighbors.of(which)) {
+    if (other == done || (!goes_on(which) && !goes_on(other))) continue;
+    place(other);
+    pairs_.push_back({std::min(which, other), std::max(which, other)});
+  }
+  ask(time, counts);
+}
+
+void Stepper::swept_step() {
+  {
+    const PhaseClock clock(counts_.seconds.integrate);
+    fall(dt_);
+    box(dt_);
+  }
+  if (!plan_.contacts) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (can_move(bodies_[i])) motions_[i].offset = offset_at(motions_[i], 1, dt_);
+    }
+    return;
+  }
+  {
+    const PhaseClock clock(counts_.seconds.narrow);
+    narrow_->place(bodies_, motions_, dt_, all_anew_);
+  }
+  found_.clear();
+  find_touches([&](std::span<const ProxyPair> pairs) { return narrow_->sweep(pairs, 0, options_.gate, found_); });
+  const PhaseClock clock(counts_.seconds.response);
+  if (plan_.response) {
+    if (options_.response) {
+      play(motions_, touches_, counts_);
+    } else {  // to show that leaving it out changes nothing
+      std::vector<BodyMotion> motions = motions_;
+      std::vector<Touch> processed;
+      StepReport counts;
+      play(motions, processed, counts);
+    }
+  }
+  if (options_.response) return;
+  touches_ = found_;
+  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) { return a.time < b.time; });
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (can_move(bodies_[i])) motions_[i].offset = offset_at(motions_[i], 1, dt_);
+  }
+}
+
+/// The events of the step, then the correction of what overlapped at its start and still does at its end.
+void Stepper::play(std::vector<BodyMotion>& motions, std::vector<Touch>& processed, StepReport& counts) {
+  has_links_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) has_links_[i] = is_moved_by_impulses(bodies_[i]);
+  neighbors_.begin(proxies_, plan_.all_bounds ? std::span<const ProxyPair>() : std::span<const ProxyPair>(pairs_),
+                   has_links_, plan_.all_bounds);
+  const int max_events = options_.policy == TimePolicy::clamp ? 1 : options_.max_events;
+  const EventLoop::Scene scene{bodies_, dt_, max_events, options_.contact_rounds, options_.gate, *narrow_, neighbors_};
+  EventLoop(scene, motions).run(found_, processed, counts);
+  std::vector<ProxyPair> overlapping;
+  for (const Touch& touch : found_) {
+    if (touch.at_start) overlapping.push_back({touch.first, touch.second});
+  }
+  if (overlapping.empty()) return;
+  for (const ProxyPair& pair : overlapping) {
+    for (const std::uint32_t end : {pair.first, pair.second}) {
+      narrow_->place_one(end, bodies_[end], motions[end], 1, dt_);
+    }
+  }
+  std::vector<Touch> still;
+  narrow_->look(overlapping, still);
+  for (const Touch& touch : still) {
+    part_bodies(bodies_[touch.first], bodies_[touch.second], motions[touch.first], motions[touch.second], touch.normal,
+                touch.penetration, options_.correction);
+  }
+}
+
+}  // namespace thinwall
