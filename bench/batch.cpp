@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <thinwall/swept/batch.hpp>
+#include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/batch/table.hpp>
-#include <thinwall/swept/batch/targets.hpp>
 #include <thinwall/swept/certified_batch.hpp>
 
 #include "floors.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <thinwall/discrete/aabb.hpp>
-#include <thinwall/discrete/boxes/box_gap.hpp>
+#include <thinwall/discrete/boxes/box_pair.hpp>
 #include <thinwall/discrete/entry/near_path.hpp>
 
 namespace thinwall {

@@ -10,8 +10,8 @@
 
 #include <atomic>
 
-#include <thinwall/swept/batch/sides.hpp>
-#include <thinwall/swept/batch/threads.hpp>
+#include <thinwall/swept/batch/rows.hpp>
+#include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {

@@ -4,7 +4,7 @@
 
 #include <thinwall/swept/certified/certificate_stage.hpp>
 #include <thinwall/swept/certified/exact_stage.hpp>
-#include <thinwall/swept/certified/slab_filter.hpp>
+#include <thinwall/swept/certified/filters.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {

@@ -4,7 +4,7 @@
 
 #include <variant>
 
-#include <thinwall/discrete/grouped_pairs.hpp>
+#include <thinwall/discrete/dispatch.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {

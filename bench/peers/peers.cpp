@@ -1,12 +1,67 @@
-/// What do others take for the same queries, and what do they get wrong?
-/// Casts, rays, contacts and overlap tests of the libraries that the build found, on the queries of pairs.cpp, beside our own
-/// front door; their objects are made beforehand. Counters as there: what is missed, what is hit in error, how far off.
-/// A new peer is a file that defines add_NAME() and a line below.
-
 #include <array>
 #include <cstdio>
 
+#include <thinwall/discrete/manifold.hpp>
+
 #include "peers/peer.hpp"
+
+namespace thinwall::bench {
+
+template const Shots<Ball, Box>& any_shots();
+template const Shots<Ball, Ball>& any_shots();
+template const Shots<Box, Box>& any_shots();
+template const Shots<Ball, Pill>& any_shots();
+template const Shots<Pill, Box>& any_shots();
+template const Shots<Box, TurnedBox>& any_shots();
+template const Rays<Ball>& any_rays();
+template const Rays<Box>& any_rays();
+template const Rays<TurnedBox>& any_rays();
+template const Rays<Pill>& any_rays();
+template const Poses<Ball, Ball>& any_poses();
+template const Poses<Box, Box>& any_poses();
+template const Poses<Ball, Box>& any_poses();
+template const Poses<TurnedBox, TurnedBox>& any_poses();
+template const Poses<Pill, Pill>& any_poses();
+
+const Shots<Ball, Box>& wall_shots() { return thin_wall_shots(); }
+
+}  // namespace thinwall::bench
+
+// ---- Our own front door, in the same run.
+
+namespace thinwall::bench {
+
+bool add_thinwall() {
+  const auto as_it_is = [](const auto& query) { return query; };
+  for_each_cast([&](const std::string& pair, auto set, const Operations& least) {
+    add_row("time_of_impact/" + pair + "/thinwall", set, least, as_it_is, [](const auto& q) {
+      const Toi<double> toi = time_of_impact(q.a, q.b);
+      return toi.status == ToiStatus::apart ? never : toi.time;
+    });
+  });
+  for_each_ray([&](const std::string& shape, auto set, const Operations& least) {
+    add_row("raycast/" + shape + "/thinwall", set, least, as_it_is, [](const auto& q) {
+      const auto hit = raycast(q.ray, q.shape);
+      return hit ? hit->t : never;
+    });
+  });
+  for_each_pose([&](const std::string& pair, auto set) {
+    add_row("contact/" + pair + "/thinwall", set, {}, as_it_is, [](const auto& q) {
+      const auto found = contact(q.a, q.b);
+      return found ? found->penetration : never;
+    });
+    add_row("overlaps/" + pair + "/thinwall", set, {}, as_it_is,
+            [](const auto& q) { return overlaps(q.a, q.b) ? -1.0 : never; });
+  });
+  return true;
+}
+
+}  // namespace thinwall::bench
+
+// ---- What do others take for the same queries, and what do they get wrong?
+// Casts, rays, contacts and overlap tests of the libraries that the build found, on the queries of pairs.cpp, beside our own
+// front door; their objects are made beforehand. Counters as there: what is missed, what is hit in error, how far off.
+// A new peer is a file that defines add_NAME() and a line below.
 
 namespace {
 

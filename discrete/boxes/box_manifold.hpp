@@ -9,7 +9,7 @@
 /// Source: derived here. The normal of least overlap leads to a point of the reference face, so at least one point is
 /// left.
 
-#include <thinwall/discrete/boxes/face_polygon.hpp>
+#include <thinwall/discrete/boxes/box_pair.hpp>
 #include <thinwall/discrete/manifold.hpp>
 #include <thinwall/discrete/obb.hpp>
 

@@ -1,15 +1,25 @@
 #pragma once
-/// Two boxes, seen from the first one's axes: do they overlap?
-///
-/// The separating axes are the three face normals of each box and the nine products of an edge of each. Every test
-/// compares true dot products along one vector n: it certifies a gap along n however short n is, so nearly parallel
-/// edges (whose product is almost zero) need no tolerance.
-///
-/// Source: Ericson, Real-Time Collision Detection, 2005, section 4.4.1.
+/// Two boxes that do not turn: one seen from the other, their faces, and the gap between them.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
 
 #include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/directions.hpp>
+#include <thinwall/discrete/numbers/range.hpp>
+#include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall {
+
+// ---- Two boxes, seen from the first one's axes: do they overlap?
+//
+// The separating axes are the three face normals of each box and the nine products of an edge of each. Every test
+// compares true dot products along one vector n: it certifies a gap along n however short n is, so nearly parallel
+// edges (whose product is almost zero) need no tolerance.
+//
+// Source: Ericson, Real-Time Collision Detection, 2005, section 4.4.1.
 
 template <Scalar S> struct BoxPair {
   Vec3<S> half_a, half_b;  ///< [length] half extents
@@ -91,6 +101,357 @@ template <Scalar S> struct BoxPoints {
 /// at right angles to an axis.
 template <Scalar S> Vec3<S> farthest_corner(const Vec3<S>& n) {
   return n.unaryExpr([](const S& x) { return x > S(0) ? S(1) : x < S(0) ? S(-1) : S(0); });
+}
+
+// ---- A face of one box laid over a face of another: clipping, and the choice of four corners out of up to eight. Seen in
+// the other face's coordinates: x and y across it from its middle, z the depth below it.
+// Source: the clipping is Sutherland and Hodgman's, one side after the other; the choice is derived here.
+
+/// A convex polygon; a square clipped by four lines has at most eight corners.
+template <Scalar S> struct FacePolygon {
+  std::array<Vec3<S>, 8> points;  ///< [length] the first `count` are corners, in order around it
+  int count = 0;
+
+  const Vec3<S>& operator[](int i) const { return points[static_cast<std::size_t>(i)]; }
+  void add(const Vec3<S>& point) { points[static_cast<std::size_t>(count++)] = point; }
+};
+
+/// The part of the polygon where side * p[axis] <= limit, for side 1 or -1. A corner beyond the line by no more than
+/// `noise` [length] is on it, so that faces that touch in a point keep that point.
+template <Scalar S>
+FacePolygon<S> clipped(const FacePolygon<S>& polygon, int axis, const S& side, const S& limit, const S& noise) {
+  FacePolygon<S> kept;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vec3<S>& p = polygon[i];
+    const Vec3<S>& q = polygon[i + 1 < polygon.count ? i + 1 : 0];
+    const S p_beyond = (side * p[axis] - limit) - noise, q_beyond = (side * q[axis] - limit) - noise;
+    if (p_beyond <= S(0)) kept.add(p);
+    if ((p_beyond < S(0) && q_beyond > S(0)) || (p_beyond > S(0) && q_beyond < S(0))) {
+      Vec3<S> crossing = p + (q - p) * (p_beyond / (p_beyond - q_beyond));
+      crossing[axis] = side * limit;
+      kept.add(crossing);
+    }
+  }
+  return kept;
+}
+
+/// The parallelogram middle +- e1 +- e2, clipped to |x| <= half_x and |y| <= half_y.
+template <Scalar S>
+FacePolygon<S> parallelogram_over_face(const Vec3<S>& middle, const Vec3<S>& e1, const Vec3<S>& e2, const S& half_x,
+                                       const S& half_y) {
+  FacePolygon<S> polygon;
+  polygon.add(middle + e1 + e2);
+  polygon.add(middle - e1 + e2);
+  polygon.add(middle - e1 - e2);
+  polygon.add(middle + e1 - e2);
+  const S noise = gap_noise(largest(middle, e1, e2));
+  for (const S& side : {S(1), S(-1)}) {
+    polygon = clipped(polygon, 0, side, half_x, noise);
+    polygon = clipped(polygon, 1, side, half_y, noise);
+  }
+  return polygon;
+}
+
+/// The corners less than `noise` [length] above the face, which is at z = 0.
+template <Scalar S> FacePolygon<S> corners_below(const FacePolygon<S>& polygon, const S& noise) {
+  FacePolygon<S> below;
+  for (int i = 0; i < polygon.count; ++i) {
+    if (polygon[i][2] >= -noise) below.add(polygon[i]);
+  }
+  return below;
+}
+
+/// The mean of the deepest corners: of those less than `noise` [length] above the deepest. The polygon has a corner.
+template <Scalar S> Vec3<S> middle_of_deepest(const FacePolygon<S>& polygon, const S& noise) {
+  S depth = polygon[0][2];
+  for (int i = 1; i < polygon.count; ++i) depth = std::max(depth, polygon[i][2]);
+  Vec3<S> sum = Vec3<S>::Zero();
+  int deepest = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    if (polygon[i][2] < depth - noise) continue;
+    sum += polygon[i];
+    ++deepest;
+  }
+  return sum / S(deepest);
+}
+
+/// Up to four of the corners, by index: the deepest; the one farthest from it, seen along the depth; the one farthest
+/// from the line of these two; the one farthest outside the triangle. Ties go to the first, and what adds less than
+/// `noise` [length] is left out.
+template <Scalar S> struct CornerChoice {
+  std::array<int, 4> index{};
+  int count = 0;
+};
+
+template <Scalar S> CornerChoice<S> chosen_corners(const FacePolygon<S>& polygon, const S& noise) {
+  CornerChoice<S> choice;
+  if (polygon.count == 0) return choice;
+  int deepest = 0;
+  for (int i = 1; i < polygon.count; ++i) {
+    if (polygon[i][2] > polygon[deepest][2]) deepest = i;
+  }
+  const auto keep = [&](int i) { choice.index[static_cast<std::size_t>(choice.count++)] = i; };
+  const auto squared_length = [&](int i, int j) -> S {
+    const S x = polygon[j][0] - polygon[i][0], y = polygon[j][1] - polygon[i][1];
+    return x * x + y * y;
+  };
+  const auto area = [&](int i, int j, int k) -> S {  // twice, > 0 if k lies to the left of the way from i to j
+    return (polygon[j][0] - polygon[i][0]) * (polygon[k][1] - polygon[i][1]) -
+           (polygon[j][1] - polygon[i][1]) * (polygon[k][0] - polygon[i][0]);
+  };
+  // The corner of largest value(i), kept if that is more than `least`.
+  const auto keep_largest = [&](S least, const auto& value) {
+    int best = -1;
+    for (int i = 0; i < polygon.count; ++i) {
+      const S here = value(i);
+      if (!(here > least)) continue;
+      least = here;
+      best = i;
+    }
+    if (best >= 0) keep(best);
+    return best;
+  };
+  keep(deepest);
+  const int second = keep_largest(noise * noise, [&](int i) { return squared_length(deepest, i); });
+  if (second < 0) return choice;
+  const S length =
+      safe_norm<S>({polygon[second][0] - polygon[deepest][0], polygon[second][1] - polygon[deepest][1], 0});
+  const int third = keep_largest(noise * length, [&](int i) { return largest(area(deepest, second, i)); });
+  if (third < 0) return choice;
+  const S turn = area(deepest, second, third) > S(0) ? S(-1) : S(1);
+  keep_largest(noise * length, [&](int i) {
+    return std::max(S(turn * area(deepest, second, i)),
+                    std::max(S(turn * area(second, third, i)), S(turn * area(third, deepest, i))));
+  });
+  return choice;
+}
+
+// ---- Two boxes whose shortest way out is across a face of one of them: where on that face they meet.
+// Source: derived here. The normal of least overlap leads to a point of the face, so that clipping leaves one at
+// least.
+
+/// The same two boxes, A and B exchanged, in B's axes.
+template <Scalar S> BoxPair<S> seen_from_b(const BoxPair<S>& pair) {
+  return {pair.half_b, pair.half_a, -(pair.axes.transpose() * pair.between), pair.axes.transpose()};
+}
+
+/// A face of one of the two boxes.
+struct BoxFace {
+  int axis = -1;          ///< the axis across the face, 0 to 2; -1: no face
+  bool of_b = false;      ///< whose
+  bool negative = false;  ///< on the negative side of that axis
+};
+
+/// The face that the unit vector n, from A to B, is normal to, up to this sine; one of A's before one of B's.
+template <Scalar S> BoxFace face_along(const BoxPair<S>& pair, const Vec3<S>& n, const S& sine) {
+  const int axis_a = axis_along(n, sine);
+  if (axis_a >= 0) return {axis_a, false, n[axis_a] < S(0)};
+  const Vec3<S> outward_b = -(pair.axes.transpose() * n);
+  const int axis_b = axis_along(outward_b, sine);
+  return axis_b < 0 ? BoxFace{} : BoxFace{axis_b, true, outward_b[axis_b] < S(0)};
+}
+
+/// The rounding of a length computed from the two.
+template <Scalar S> S box_noise(const BoxPair<S>& pair) {
+  return gap_noise(largest(pair.between, pair.half_a, pair.half_b));
+}
+
+/// The face of B that looks most squarely at the face of A across `axis`, clipped to it: in the coordinates of
+/// face_polygon.hpp, x and y along A's next two axes, z the depth below A's face.
+template <Scalar S> FacePolygon<S> facing_polygon(const BoxPair<S>& pair, int axis, bool negative) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  int incident = 0;
+  for (int j = 1; j < 3; ++j) {
+    if (largest(pair.axes(axis, j)) > largest(pair.axes(axis, incident))) incident = j;
+  }
+  const auto over_face = [&](const Vec3<S>& p) -> Vec3<S> { return {p[u], p[v], negative ? p[axis] : S(-p[axis])}; };
+  const auto half_edge = [&](int j) -> Vec3<S> { return over_face(pair.axes.col(j)) * pair.half_b[j]; };
+  const Vec3<S> outward = half_edge(incident);
+  Vec3<S> middle = over_face(pair.between) + (outward[2] < S(0) ? Vec3<S>(-outward) : outward);
+  middle[2] += pair.half_a[axis];
+  return parallelogram_over_face<S>(middle, half_edge((incident + 1) % 3), half_edge((incident + 2) % 3),
+                                    pair.half_a[u], pair.half_a[v]);
+}
+
+/// A point of such a polygon, on B, and the point of A's face above it.
+template <Scalar S> BoxPoints<S> points_at(const BoxPair<S>& pair, int axis, bool negative, const Vec3<S>& over_face) {
+  const S side = negative ? S(-1) : S(1);
+  BoxPoints<S> points;
+  points.on_a[(axis + 1) % 3] = over_face[0];
+  points.on_a[(axis + 2) % 3] = over_face[1];
+  points.on_b = points.on_a;
+  points.on_a[axis] = side * pair.half_a[axis];
+  points.on_b[axis] = side * (pair.half_a[axis] - over_face[2]);
+  return points;
+}
+
+/// The deepest points of boxes that part along the face of A across `axis`: the corner of B that is farthest inside, or
+/// where B lies along the face, to rounding, the middle of what the two share. A corner beside the face (the axes of a box
+/// given in float are not quite at right angles in double) counts as lying along it.
+template <Scalar S> BoxPoints<S> deepest_points_on_face(const BoxPair<S>& pair, int axis, bool negative) {
+  const S side = negative ? S(-1) : S(1), noise = box_noise(pair);
+  const Vec3<S> inward = pair.axes.row(axis).transpose() * -side;
+  BoxPoints<S> points;
+  points.on_b = pair.between + pair.axes * pair.half_b.cwiseProduct(farthest_corner(inward));
+  points.on_a = points.on_b;
+  points.on_a[axis] = side * pair.half_a[axis];
+  bool alongside = false;
+  for (int k = 0; k < 3; ++k) {
+    alongside = alongside || (pair.half_b[k] > S(0) && largest(inward[k]) * pair.half_b[k] <= noise) ||
+                largest(points.on_a[k]) > pair.half_a[k] + noise;
+  }
+  if (!alongside) return points;
+  const FacePolygon<S> polygon = facing_polygon(pair, axis, negative);
+  return polygon.count > 0 ? points_at(pair, axis, negative, middle_of_deepest(polygon, noise)) : points;
+}
+
+// ---- How far apart two boxes are and where, or which way out of each other is shortest.
+//
+// Closest points of boxes apart are a corner of one and the other box, or an edge of each; of the edges only the pair
+// that faces each other along their product can serve. Source: derived here.
+
+/// farthest_corner(), but to rounding, and with `side` in place of 0.
+template <Scalar S> Vec3<S> facing_corner(const Vec3<S>& n, int side) {
+  const S noise = gap_noise(largest(n));
+  return n.unaryExpr([&](const S& x) { return x > noise ? S(1) : x < -noise ? S(-1) : S(side); });
+}
+
+/// The closest points of the two edges along axes i and j that face each other when n points from A to B. Where n is normal
+/// to a face, to rounding, two of its edges face the other box alike: `side_a` and `side_b`, -1 or 1, name one of them, 0
+/// the middle of the face.
+template <Scalar S>
+BoxPoints<S> closest_on_edges(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n, int side_a = 0, int side_b = 0) {
+  const Vec3<S> across = pair.direction(i, j), edge_b = pair.axes.col(j);
+  Vec3<S> corner_a = pair.half_a.cwiseProduct(facing_corner(n, side_a));
+  Vec3<S> corner_b = pair.half_b.cwiseProduct(facing_corner<S>(-(pair.axes.transpose() * n), side_b));
+  corner_a[i] = 0;
+  corner_b[j] = 0;
+  const Vec3<S> start_b = pair.between + pair.axes * corner_b, r = start_b - corner_a;
+  const auto clamp = [](const S& x, const S& h) { return std::min(h, std::max(S(-h), x)); };
+  BoxPoints<S> points;
+  S s = clamp(S(cross(r, edge_b).dot(across) / across.squaredNorm()), pair.half_a[i]);
+  const S t = clamp(S(s * edge_b[i] - r.dot(edge_b)), pair.half_b[j]);
+  s = clamp(S(r[i] + t * edge_b[i]), pair.half_a[i]);
+  points.on_a = corner_a + axis_vector<S>(i) * s;
+  points.on_b = start_b + edge_b * t;
+  return points;
+}
+
+/// How many of a box's edges along `axis` face a box that lies along n: two where n is normal to a face.
+template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
+  const S noise = gap_noise(largest(n));
+  return largest(n[(axis + 1) % 3]) > noise && largest(n[(axis + 2) % 3]) > noise ? 1 : 2;
+}
+
+/// Closest points of boxes that are apart. Of those as near as each other, to rounding, the ones whose direction parts the
+/// boxes best: distances tell directions apart only to the square root of a rounding.
+template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
+  BoxPoints<S> best;
+  S least = std::numeric_limits<S>::infinity();
+  const auto overlap = [&](const Vec3<S>& n) { return pair.overlap(safe_unit(n)); };
+  const auto consider = [&](const Vec3<S>& on_a, const Vec3<S>& on_b) {
+    const Vec3<S> gap = on_b - on_a;
+    const S distance = safe_norm(gap), rounding = 4 * std::numeric_limits<S>::epsilon() * distance;
+    const bool ties = largest(S(distance - least)) <= rounding;
+    if (ties ? overlap(gap) < overlap(best.on_b - best.on_a) : distance < least) {
+      least = distance;
+      best = {on_a, on_b};
+    }
+  };
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3<S> sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    const Vec3<S> of_b = pair.between + pair.axes * pair.half_b.cwiseProduct(sign);
+    consider(of_b.cwiseMin(pair.half_a).cwiseMax(-pair.half_a), of_b);
+    const Vec3<S> of_a = pair.half_a.cwiseProduct(sign);
+    const Vec3<S> in_b = pair.axes.transpose() * (of_a - pair.between);
+    consider(of_a, pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b));
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Vec3<S> n = pair.direction(i, j);
+      if (n == Vec3<S>::Zero()) continue;
+      const Vec3<S> towards_b = pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n;
+      const int sides_a = edges_facing(towards_b, i), sides_b = edges_facing<S>(pair.axes.transpose() * towards_b, j);
+      for (int k = 0; k < sides_a * sides_b; ++k) {
+        const BoxPoints<S> points =
+            closest_on_edges<S>(pair, i, j, towards_b, k % sides_a == 0 ? -1 : 1, k < sides_a ? -1 : 1);
+        consider(points.on_a, points.on_b);
+      }
+    }
+  }
+  return best;
+}
+
+/// The deepest points of boxes that part along the unit vector n, found on the axes (i, j). Edges whose product is
+/// normal to a face, to rounding, meet on that face.
+template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n) {
+  BoxFace face;
+  if (j < 0) {
+    face = {i, false, n[i] < S(0)};
+  } else if (i < 0) {
+    face = {j, true, pair.axes.col(j).dot(n) > S(0)};
+  } else {
+    face = face_along(pair, n, gap_noise(S(1)));
+  }
+  if (face.axis < 0) return closest_on_edges(pair, i, j, n);
+  if (!face.of_b) return deepest_points_on_face(pair, face.axis, face.negative);
+  const BoxPoints<S> seen = deepest_points_on_face(seen_from_b(pair), face.axis, face.negative);
+  return {pair.between + pair.axes * seen.on_b, pair.between + pair.axes * seen.on_a};
+}
+
+/// The axis, of the fifteen, along which the shadows overlap least: the most negative where the boxes are apart.
+template <Scalar S> struct LeastOverlap {
+  S overlap = std::numeric_limits<S>::infinity();  ///< [length]
+  int axis_a = 0, axis_b = -1;                     ///< as direction(); an axis whatever the numbers
+  Vec3<S> normal = axis_vector<S>(0);              ///< unit, from A to B
+};
+
+/// Of equal ones the first: A's faces, B's faces, edges.
+template <Scalar S> LeastOverlap<S> least_overlap(const BoxPair<S>& pair) {
+  LeastOverlap<S> least;
+  each_separating_axis([&](int i, int j) {
+    const Vec3<S> n = pair.direction(i, j);
+    const S length = safe_norm(n);
+    if (length == S(0)) return true;
+    const S overlap = pair.overlap(n) / length;
+    if (overlap < least.overlap) {
+      least = {overlap, i, j, (pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n) / length};
+    }
+    return true;
+  });
+  return least;
+}
+
+/// The gap from A to B in A's axes, with B's point relative to B's center.
+/// Degenerate: among axes of equal overlap the first wins: A's faces, B's faces, edges; coincident centers go positive.
+template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
+  CoreGap<S> gap;
+  BoxPoints<S> points;
+  if (!boxes_overlap(pair)) {
+    points = closest_points(pair);
+    gap.distance = safe_norm<S>(points.on_b - points.on_a);
+    gap.normal = safe_unit<S>(points.on_b - points.on_a);
+  }
+  if (gap.distance <= box_noise(pair)) {
+    const LeastOverlap<S> least = least_overlap(pair);
+    gap.normal = least.normal;
+    points = deepest_points(pair, least.axis_a, least.axis_b, gap.normal);
+    gap.distance = -least.overlap;
+  }
+  gap.local_a = points.on_a;
+  gap.local_b = points.on_b - pair.between;
+  return gap;
+}
+
+/// The same with the normal of a plane that parts the boxes by all of the gap. Beside nearly parallel faces or edges many
+/// points are as near as rounding can tell, and the line through two of them may lean: then an axis parts them more.
+template <Scalar S> CoreGap<S> parting_gap(const BoxPair<S>& pair) {
+  CoreGap<S> gap = box_gap(pair);
+  if (gap.distance > S(0)) {
+    const LeastOverlap<S> axis = least_overlap(pair);
+    if (axis.overlap < pair.overlap(gap.normal)) gap.normal = axis.normal;
+  }
+  return gap;
 }
 
 }  // namespace thinwall

@@ -25,7 +25,6 @@
 #undef THINWALL_ALLOWED_DEPRECATED_HEADERS
 #endif
 
-#include <thinwall/discrete/broad_phase/pair_sink.hpp>
 #include <thinwall/discrete/broad_phase/proxy.hpp>
 
 namespace thinwall {

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include <thinwall/discrete/broad_phase/pair_sink.hpp>
 #include <thinwall/discrete/broad_phase/proxy.hpp>
 
 namespace thinwall {

@@ -11,7 +11,7 @@
 
 #include <thinwall/discrete/broad_phase.hpp>
 #include <thinwall/discrete/broad_phase/r_tree.hpp>
-#include <thinwall/discrete/grouped_pairs.hpp>
+#include <thinwall/discrete/dispatch.hpp>
 #include <thinwall/swept/dispatch.hpp>
 
 // What removing from an R-tree needs; after r_tree.hpp, which silences Boost's note about a header of its own.

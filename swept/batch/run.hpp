@@ -2,6 +2,10 @@
 /// What passes between the front door of a batch and its vector code.
 
 #include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/obb.hpp>
@@ -41,3 +45,56 @@ std::size_t run_certified_spheres(const Rows<double>& a, const Rows<double>& b, 
                                   const Answers<double>& out);
 
 }  // namespace thinwall::batch
+
+// ---- What a batch asks of its spans: equal lengths, and answers that overwrite nothing it still reads.
+
+namespace thinwall::batch {
+
+/// One span of a batch.
+struct Column {
+  std::span<const std::byte> bytes;
+  std::size_t rows = 0;
+  const char* what = "";  ///< it belongs to
+};
+
+template <class T> Column column_of(std::span<T> column, const char* what) {
+  return {std::as_bytes(column), column.size(), what};
+}
+
+/// The number of rows of all. Throws std::invalid_argument where two differ, or an answer shares memory with any other
+/// column.
+std::size_t common_rows(std::span<const Column> read, std::span<const Column> answers);
+
+}  // namespace thinwall::batch
+
+// ---- Which vectors batches use.
+
+namespace thinwall {
+
+/// The instruction sets that batches are built for and that this machine has, the widest first: "AVX3" is AVX-512. The
+/// last is scalar code and always there.
+std::vector<std::string> vector_targets();
+
+/// Makes batches use the target of that name from now on, in every thread; "" is the widest again. Throws std::invalid_argument
+/// for one that vector_targets() does not name. For tests and benchmarks: call it while no batch runs.
+void use_vectors(const std::string& name);
+
+/// The one in use.
+std::string vectors_in_use();
+
+// ---- How a batch is shared among threads.
+
+struct BatchOptions {
+  int threads = 1;  ///< >= 0; 0, and any number above, is as many as the machine has
+};
+
+namespace batch {
+
+/// Calls `visit(begin, end)` for blocks of `block` rows that cover [0, rows), by as many threads as asked for; in order, by
+/// this one alone, where one is asked for or one block is all. Throws std::invalid_argument for less than 0 threads.
+void for_each_block(std::size_t rows, std::size_t block, const BatchOptions& options,
+                    const std::function<void(std::size_t begin, std::size_t end)>& visit);
+
+}  // namespace batch
+
+}  // namespace thinwall

@@ -5,8 +5,7 @@
 /// shape's corner or edge, shows contact by `upper`. A miss needs one plane for the whole step, an overlap one point.
 /// Nothing here takes the guess for true: a wrong one proves nothing, and the integers decide.
 
-#include <thinwall/swept/certified/position_proof.hpp>
-#include <thinwall/swept/certified/shared_point_proof.hpp>
+#include <thinwall/swept/certified/proofs.hpp>
 #include <thinwall/swept/methods/closed_form.hpp>
 
 namespace thinwall {

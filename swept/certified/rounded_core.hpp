@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include <thinwall/swept/certified/ball_filter.hpp>
+#include <thinwall/swept/certified/filters.hpp>
 #include <thinwall/swept/certified/simplex.hpp>
 #include <thinwall/swept/serves.hpp>
 

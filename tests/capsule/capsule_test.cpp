@@ -1,9 +1,11 @@
 // The capsule at one instant, by hand.
 
 #include <gtest/gtest.h>
-#include <thinwall/capsule/capsule.hpp>
 
-#include "support/scalars.hpp"
+#include <thinwall/capsule/capsule.hpp>
+#include <thinwall/capsule/capsule_from.hpp>
+
+#include "support/real.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -153,6 +155,100 @@ TYPED_TEST(CapsuleQueries, validity_and_nan) {
     EXPECT_FALSE(contact(this->rod, bad).has_value());
     EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, bad).has_value());
   }
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- A capsule by center, axis, height and radius.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class CapsuleFrom : public ::testing::Test {};
+TYPED_TEST_SUITE(CapsuleFrom, Scalars, ScalarNames);
+
+TYPED_TEST(CapsuleFrom, height_is_end_to_end) {
+  using S = TypeParam;
+  const auto c = capsule_from<S>({1, 2, 3}, {0, 0, 5}, 6, 1);
+  EXPECT_EQ(c.a, (Vec3<S>(1, 2, 1)));
+  EXPECT_EQ(c.b, (Vec3<S>(1, 2, 5)));
+  EXPECT_EQ(c.radius, S(1));
+  EXPECT_EQ(center(c), (Vec3<S>(1, 2, 3)));
+}
+
+TYPED_TEST(CapsuleFrom, of_two_radii_is_a_ball) {
+  using S = TypeParam;
+  const auto c = capsule_from<S>({1, 2, 3}, {1, 1, 1}, 2, 1);
+  EXPECT_EQ(c.a, c.b);
+  EXPECT_TRUE(valid(c));
+}
+
+TYPED_TEST(CapsuleFrom, axis_may_have_any_length) {
+  using S = TypeParam;
+  const int far = std::min(std::numeric_limits<S>::max_exponent, 16000) - 8;
+  const auto unit = capsule_from<S>({0, 0, 0}, {1, -2, 3}, 4, 1);
+  for (const int e : {far, -far}) {
+    const auto c = capsule_from<S>({0, 0, 0}, times_power_of_two(Vec3<S>(1, -2, 3), e), 4, 1);
+    EXPECT_EQ(c.b, unit.b);
+  }
+}
+
+TYPED_TEST(CapsuleFrom, impossible_sizes_make_no_valid_capsule) {
+  using S = TypeParam;
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, 1}, next_down(S(2)), 1)));
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, 1}, 2, -1)));
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, 0}, 4, 1)));
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, infinity<S>()}, 4, 1)));
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, 1}, nan<S>(), 1)));
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, 1}, infinity<S>(), 1)));
+  EXPECT_FALSE(valid(capsule_from<S>({0, 0, 0}, {0, 0, 1}, 4, nan<S>())));
+  const Sphere<S> ball{{0, 0, 0}, 1};
+  EXPECT_FALSE(overlaps(capsule_from<S>({0, 0, 0}, {0, 0, 1}, 1, 1), ball));
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- Which way a capsule leaves a triangle that its core only touches.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class CapsuleOnTriangle : public ::testing::Test {
+ protected:
+  const Triangle<S> floor{{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}};
+
+  static void expect_normal(const Capsule<S>& capsule, const Triangle<S>& triangle, const Vec3<S>& normal) {
+    const Separation<S> there = separation(capsule, triangle), back = separation(triangle, capsule);
+    EXPECT_EQ(there.distance, -capsule.radius);
+    EXPECT_EQ(there.normal, normal);
+    EXPECT_EQ(back.normal, -normal);
+    const Triangle<S> parted = moved(triangle, Vec3<S>(normal * capsule.radius));
+    EXPECT_EQ(separation(capsule, parted).distance, S(0));
+  }
+};
+TYPED_TEST_SUITE(CapsuleOnTriangle, Scalars, ScalarNames);
+
+TYPED_TEST(CapsuleOnTriangle, an_end_on_the_face_leaves_to_its_own_side) {
+  this->expect_normal({{0, 0, 0}, {0, 0, 2}, 0.5}, this->floor, {0, 0, -1});
+  this->expect_normal({{0, 0, -2}, {0, 0, 0}, 0.5}, this->floor, {0, 0, 1});
+  this->expect_normal({{0, 0, 0}, {1, 1, 2}, 0.5}, this->floor, {0, 0, -1});
+}
+
+TYPED_TEST(CapsuleOnTriangle, a_core_along_the_face_leaves_upwards) {
+  this->expect_normal({{-1, -1, 0}, {1, -1, 0}, 0.5}, this->floor, {0, 0, 1});
+}
+
+TYPED_TEST(CapsuleOnTriangle, a_core_across_an_edge_leaves_across_both) {
+  this->expect_normal({{0, -4, -1}, {0, -4, 1}, 0.5}, this->floor, {0, 1, 0});
+  this->expect_normal({{-1, -4, -1}, {1, -4, 1}, 0.5}, this->floor, {0, 1, 0});
+}
+
+TYPED_TEST(CapsuleOnTriangle, a_triangle_without_area_is_its_edges) {
+  using S = TypeParam;
+  const Triangle<S> wire{{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}};
+  this->expect_normal({{0, -1, 0}, {0, 1, 0}, 0.5}, wire, {0, 0, 1});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Bodies of any type through std::variant, one by one and grouped by type pair.
 
 #include <thinwall/discrete/boxes/box_manifold.hpp>
-#include <thinwall/discrete/grouped_pairs.hpp>
+#include <thinwall/discrete/dispatch.hpp>
 
 #include "support/shaker.hpp"
 

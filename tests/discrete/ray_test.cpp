@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <thinwall/discrete/aabb.hpp>
 
-#include "support/scalars.hpp"
+#include "support/real.hpp"
 
 namespace thinwall::testing {
 namespace {

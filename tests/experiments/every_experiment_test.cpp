@@ -14,7 +14,6 @@
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall_embedded.hpp>
 
-#include "support/described_tables.hpp"
 #include "support/experiment_run.hpp"
 
 namespace thinwall {

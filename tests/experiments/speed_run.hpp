@@ -11,7 +11,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/program.hpp"
 
 namespace thinwall {
 

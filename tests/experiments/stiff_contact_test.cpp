@@ -1,6 +1,9 @@
-/// The stiff contact's settings and answers, and whether a wrong theory would be noticed.
+/// The science of the stiff contact: its formulas against eigenvalues and continuous time, without any of the schemes; growth of a
+/// spring that holds both ways (case 53); bounces off a wall that only pushes (case 54).
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,7 +16,348 @@
 #include "support/experiment_run.hpp"
 
 namespace thinwall {
+
 namespace {
+
+/// The larger root of x^2 - trace x + determinant, for the one-step matrices that docs/stiff_contact.md writes down.
+double spectral_radius(Scheme scheme, double zeta, double step) {
+  const double damp = 2 * zeta * step, square = step * step;
+  double trace = 2 - damp, determinant = 1 - damp + square;  // explicit
+  if (scheme == Scheme::semi_implicit) {
+    trace = 2 - square - damp;
+    determinant = 1 - damp;
+  } else if (scheme == Scheme::implicit_euler) {
+    determinant = 1 / (1 + damp + square);
+    trace = (2 + damp) * determinant;
+  }
+  const std::complex<double> root = std::sqrt(std::complex<double>(trace * trace / 4 - determinant));
+  return std::max(std::abs(trace / 2 + root), std::abs(trace / 2 - root));
+}
+
+const std::vector<double> ratios = {0, 0.01, 0.1, 0.5, 0.9, 1, 1.1, 2, 10, 100};
+
+TEST(StiffTheory, an_eigenvalue_leaves_the_unit_circle_at_the_limit) {
+  for (const Scheme scheme : {Scheme::explicit_euler, Scheme::semi_implicit}) {
+    for (const double zeta : ratios) {
+      const double limit = *step_limit(scheme, zeta);
+      if (limit > 0) {
+        EXPECT_LE(spectral_radius(scheme, zeta, 0.999 * limit), 1 + 1e-12) << name(scheme) << " " << zeta;
+      }
+      EXPECT_GT(spectral_radius(scheme, zeta, 1.001 * limit + 1e-3), 1 + 1e-7) << name(scheme) << " " << zeta;
+    }
+  }
+}
+
+TEST(StiffTheory, implicit_euler_has_no_limit) {
+  for (const double zeta : ratios) {
+    EXPECT_FALSE(step_limit(Scheme::implicit_euler, zeta));
+    for (const double step : {1e-3, 1.0, 1e3, 1e6}) {
+      EXPECT_LT(spectral_radius(Scheme::implicit_euler, zeta, step), 1) << zeta << " " << step;
+    }
+  }
+}
+
+TEST(StiffTheory, limits_have_the_values_of_the_formula) {
+  EXPECT_EQ(step_limit(Scheme::explicit_euler, 0), 0);
+  EXPECT_EQ(step_limit(Scheme::explicit_euler, 0.25), 0.5);
+  EXPECT_EQ(step_limit(Scheme::explicit_euler, 1), 2);
+  EXPECT_NEAR(*step_limit(Scheme::explicit_euler, 1.25), 1, 1e-15);  // 2 (1.25 - 0.75)
+  EXPECT_EQ(step_limit(Scheme::semi_implicit, 0), 2);
+  EXPECT_NEAR(*step_limit(Scheme::semi_implicit, 0.75), 1, 1e-15);               // 2 (1.25 - 0.75)
+  for (const Scheme scheme : {Scheme::explicit_euler, Scheme::semi_implicit}) {  // no digit is lost far out
+    EXPECT_NEAR(*step_limit(scheme, 1e8) * 1e8, 1, 1e-15);
+  }
+}
+
+/// The oscillation with classical Runge-Kutta until the wall would pull: what a bounce is in continuous time.
+struct Slow {
+  double speed, depth;
+};
+Slow slow_bounce(double zeta) {
+  const auto acceleration = [&](double x, double v) { return -x - 2 * zeta * v; };
+  const double h = 1e-4;
+  double x = 0, v = 1;
+  Slow result = {0, 0};
+  while (x + 2 * zeta * v >= 0) {
+    const double v1 = v, a1 = acceleration(x, v);
+    const double v2 = v + h / 2 * a1, a2 = acceleration(x + h / 2 * v1, v2);
+    const double v3 = v + h / 2 * a2, a3 = acceleration(x + h / 2 * v2, v3);
+    const double v4 = v + h * a3, a4 = acceleration(x + h * v3, v4);
+    x += h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
+    v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    result.depth = std::max(result.depth, x);
+  }
+  result.speed = -v;
+  return result;
+}
+
+TEST(StiffTheory, restitution_and_depth_are_those_of_continuous_time) {
+  for (const double zeta : {0.0, 0.1, 0.5, 0.99, 1.0, 1.01, 3.0}) {
+    const Slow slow = slow_bounce(zeta);
+    EXPECT_NEAR(restitution(zeta), slow.speed, 1e-7) << zeta;
+    EXPECT_NEAR(deepest(zeta), slow.depth, 1e-7) << zeta;
+  }
+  EXPECT_EQ(restitution(0), 1);
+  EXPECT_NEAR(restitution(1), std::exp(-2), 1e-15);
+  EXPECT_NEAR(restitution(1 + 1e-9), restitution(1 - 1e-9), 1e-8);
+  EXPECT_NEAR(restitution(1e4) * 4e8, 1, 1e-6);  // 1 / (2 zeta)^2
+}
+
+TEST(StiffTheory, bounds_end_where_stability_does) {
+  EXPECT_FALSE(bounce_bounds(2));
+  EXPECT_FALSE(bounce_bounds(1e6));
+  EXPECT_NEAR(bounce_bounds(1.2)->lower, 0.8, 1e-15);
+  EXPECT_NEAR(bounce_bounds(1.2)->upper, 1.25, 1e-15);
+}
+
+// Growth, measured: against stepping, and against the limits.
+
+/// The largest of |sqrt(k) depth| and |sqrt(m) speed| after each step from one of the unit states; up to `last` steps.
+std::int64_t stepped_until(Scheme scheme, const Spring& s, double step, double bound, std::int64_t last) {
+  const double depth_unit = 1 / std::sqrt(s.stiffness), speed_unit = 1 / std::sqrt(s.mass);
+  Motion a = {depth_unit, 0}, b = {0, speed_unit};
+  for (std::int64_t n = 1; n <= last; ++n) {
+    a = stepped(scheme, s, Pull::both_ways, step, a);
+    b = stepped(scheme, s, Pull::both_ways, step, b);
+    const double largest = std::max({std::abs(a.depth) / depth_unit, std::abs(b.depth) / depth_unit,
+                                     std::abs(a.speed) / speed_unit, std::abs(b.speed) / speed_unit});
+    if (!(largest < bound)) return n;
+  }
+  return 0;
+}
+
+TEST(StiffGrowth, case_53_the_limits_lie_in_their_brackets) {
+  for (const Scheme scheme : all_schemes) {
+    for (const double stiffness : {1.0, 1e5, 1e10}) {
+      for (const double zeta : {0.0, 1e-5, 1e-3, 0.1, 0.5, 0.9, 1.0, 1.1, 3.0, 1e3, 1e5}) {
+        const LimitBracket bracket = measured_limit(scheme, 2, stiffness, zeta);
+        const auto limit = step_limit(scheme, zeta);
+        if (!limit) {
+          EXPECT_TRUE(std::isinf(bracket.unstable)) << zeta;
+          continue;
+        }
+        EXPECT_LE(bracket.stable, *limit) << name(scheme) << " " << stiffness << " " << zeta;
+        EXPECT_GE(bracket.unstable, *limit) << name(scheme) << " " << stiffness << " " << zeta;
+        if (*limit > 0) {
+          EXPECT_LT(bracket.unstable, 1.001 * bracket.stable) << name(scheme) << " " << zeta;
+        }
+      }
+    }
+  }
+}
+
+/// An undamped explicit step grows always: by half of step^2.
+TEST(StiffGrowth, undamped_explicit_grows_at_the_least_step_that_is_tried) {
+  const LimitBracket bracket = measured_limit(Scheme::explicit_euler, 1, 1e4, 0);
+  EXPECT_EQ(bracket.stable, 0);
+  EXPECT_EQ(bracket.unstable, 0x1p-14);
+}
+
+TEST(StiffGrowth, powers_are_what_stepping_gives) {
+  for (const Scheme scheme : all_schemes) {
+    for (const double zeta : {0.0, 0.1, 2.0}) {
+      for (const double step : {0.05, 0.4, 1.9, 2.1, 30.0}) {
+        const Spring spring = spring_of(3, 1e6, zeta);
+        const double seconds = step / frequency(spring);
+        const std::int64_t stepped = stepped_until(scheme, spring, seconds, 0x1p32, 20000);
+        const std::int64_t found = blow_up_step(scheme, spring, seconds);
+        EXPECT_EQ(found > 0, fate(scheme, spring, seconds) == Fate::grows);
+        if (stepped == 0) {
+          EXPECT_TRUE(found == 0 || found > 20000) << name(scheme) << " " << zeta << " " << step;
+          continue;
+        }
+        EXPECT_GE(found, stepped) << name(scheme) << " " << zeta << " " << step;
+        EXPECT_LE(static_cast<double>(found - stepped), 10 / std::min(step, 1.0)) << name(scheme) << " " << zeta;
+      }
+    }
+  }
+}
+
+TEST(StiffGrowth, below_the_limit_a_state_decays) {
+  const Spring spring = spring_of(1, 1e8, 0.1);
+  EXPECT_EQ(fate(Scheme::semi_implicit, spring, 1.8 / frequency(spring)), Fate::decays);
+  EXPECT_EQ(fate(Scheme::semi_implicit, spring, 1.82 / frequency(spring)), Fate::grows);
+  const Spring undamped = spring_of(1, 1e8, 0);
+  EXPECT_EQ(fate(Scheme::semi_implicit, undamped, 1.99 / frequency(undamped)), Fate::holds);
+  EXPECT_EQ(fate(Scheme::semi_implicit, undamped, 2.01 / frequency(undamped)), Fate::grows);
+}
+
+/// At h omega = 1 and zeta = 1/2 two semi-implicit steps make nothing of anything.
+TEST(StiffGrowth, a_step_whose_square_is_zero_decays) {
+  EXPECT_EQ(fate(Scheme::semi_implicit, spring_of(1, 1, 0.5), 1), Fate::decays);
+}
+
+TEST(StiffGrowth, nothing_overflows) {
+  for (const double stiffness : {1e-12, 1e18}) {
+    for (const double mass : {1e-12, 1e12}) {
+      const LimitBracket bracket = measured_limit(Scheme::semi_implicit, mass, stiffness, 0.5);
+      EXPECT_NEAR(bracket.unstable, *step_limit(Scheme::semi_implicit, 0.5), 1e-4);
+      const Spring spring = spring_of(mass, stiffness, 1e5);
+      EXPECT_EQ(blow_up_step(Scheme::semi_implicit, spring, 1e6 / frequency(spring)), 1);
+    }
+  }
+}
+
+// Energy, what splitting the step changes, and who gets through.
+
+constexpr Approach usual = {.mass = 1, .speed = 10, .radius = 0.05, .thickness = 0.02, .blow_up = 10};
+
+PenaltyContact contact_by(Scheme scheme, Detection detection, double step, double zeta = 0, double stiffness = 1e10) {
+  return {scheme, detection, stiffness, zeta, step};
+}
+
+struct SpeedRange {
+  double least = 1e300, most = 0;
+};
+
+SpeedRange speeds(const PenaltyContact& contact, int phases) {
+  SpeedRange range;
+  for (int i = 0; i < phases; ++i) {
+    const Bounce b = bounce(usual, contact, static_cast<double>(i) / phases);
+    EXPECT_EQ(b.ending, Ending::returned);
+    range.least = std::min(range.least, b.speed);
+    range.most = std::max(range.most, b.speed);
+  }
+  return range;
+}
+
+TEST(StiffBounce, case_54_linear_stability_is_not_enough) {
+  const SpeedRange fine = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 0.3), 2000);
+  EXPECT_NEAR(fine.least, 0.989, 5e-4);
+  EXPECT_NEAR(fine.most, 1.011, 5e-4);
+  const SpeedRange rough = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 1.5), 2000);
+  EXPECT_NEAR(rough.least, 0.80, 5e-3);
+  EXPECT_NEAR(rough.most, 1.25, 5e-3);
+  const SpeedRange last = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 1.9), 2000);
+  EXPECT_NEAR(last.least, 0.38, 5e-3);
+  EXPECT_NEAR(last.most, 2.61, 5e-3);  // z^2 - 1: the ball is a whole path deep, and one step throws it out
+}
+
+TEST(StiffBounce, the_bounds_hold_and_are_nearly_reached) {
+  for (const double step : {0.1, 0.3, 0.77, 1.3, 1.7, 1.99}) {
+    const Interval bounds = *bounce_bounds(step);
+    const SpeedRange range = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, step), 500);
+    EXPECT_GE(range.least, bounds.lower - 1e-9) << step;
+    EXPECT_LE(range.most, bounds.upper + 1e-9) << step;
+  }
+  const SpeedRange fine = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 0.1), 500);
+  EXPECT_NEAR((1 - fine.least) / (1 - bounce_bounds(0.1)->lower), 1, 0.05);
+}
+
+/// Explicit steps gain about pi z / 2, implicit ones lose it, semi-implicit ones neither.
+TEST(StiffBounce, errors_shrink_with_the_step_as_the_schemes_order_says) {
+  const auto error = [](Scheme scheme, double step) {
+    return bounce_all(usual, contact_by(scheme, Detection::discrete, step), 1, 50).mean_speed() - 1;
+  };
+  EXPECT_NEAR(error(Scheme::explicit_euler, 0.01), 0.01 * std::acos(-1) / 2, 3e-4);
+  EXPECT_NEAR(error(Scheme::implicit_euler, 0.01), -0.01 * std::acos(-1) / 2, 3e-4);
+  const auto rms = [](double step) {
+    return bounce_all(usual, contact_by(Scheme::semi_implicit, Detection::discrete, step), 1, 200).rms_error();
+  };
+  EXPECT_LT(rms(0.02), 1e-4);
+  EXPECT_NEAR(std::log2(rms(0.03) / rms(0.015)), 2, 1);
+}
+
+TEST(StiffBounce, goes_over_into_continuous_time) {
+  for (const Scheme scheme : all_schemes) {
+    for (const Detection detection : all_detections) {
+      for (const double zeta : {0.1, 0.5, 1.5}) {
+        const ContactTally t = bounce_all(usual, contact_by(scheme, detection, 0.003, zeta), 1, 10);
+        EXPECT_EQ(t.returned, 10);
+        EXPECT_NEAR(t.mean_speed(), restitution(zeta), 0.01) << name(scheme) << " " << name(detection) << " " << zeta;
+        EXPECT_NEAR(t.deepest * 1e5 / 10, deepest(zeta), 0.02) << name(scheme) << " " << name(detection) << " " << zeta;
+      }
+    }
+  }
+}
+
+/// The spring is relaxed at first touch, so it does not push there.
+TEST(StiffBounce, splitting_an_undamped_explicit_or_semi_implicit_step_changes_nothing) {
+  for (const Scheme scheme : {Scheme::explicit_euler, Scheme::semi_implicit}) {
+    for (const double step : {0.1, 0.77, 1.9, 5.0}) {
+      for (const double phase : {0.1, 0.5, 0.93}) {
+        const Bounce whole = bounce(usual, contact_by(scheme, Detection::discrete, step), phase);
+        const Bounce split = bounce(usual, contact_by(scheme, Detection::toi_split, step), phase);
+        EXPECT_NEAR(split.speed / whole.speed, 1, 1e-9) << name(scheme) << " " << step;
+        EXPECT_EQ(split.contact_steps, whole.contact_steps + 1);
+      }
+    }
+  }
+}
+
+/// ... and what splitting is good for: less depends on the phase, and the ball goes less deep.
+TEST(StiffBounce, splitting_a_damped_step_takes_away_most_of_the_phase) {
+  for (const Scheme scheme : all_schemes) {
+    const SpeedRange whole = speeds(contact_by(scheme, Detection::discrete, 0.1, 0.5), 100);
+    const SpeedRange split = speeds(contact_by(scheme, Detection::toi_split, 0.1, 0.5), 100);
+    EXPECT_LT(split.most - split.least, (whole.most - whole.least) / 10) << name(scheme);
+  }
+}
+
+/// The failure is specified too: 100 paths from front to middle, and the ball is out on the other side.
+TEST(StiffBounce, long_steps_tunnel_unless_the_rest_of_a_split_step_is_implicit) {
+  const double step = 100 * reach(usual) / usual.speed * 1e5;
+  for (const double phase : {0.1, 0.5, 0.93}) {
+    for (const Scheme scheme : all_schemes) {
+      EXPECT_EQ(bounce(usual, contact_by(scheme, Detection::discrete, step), phase).ending, Ending::escaped);
+    }
+    EXPECT_EQ(bounce(usual, contact_by(Scheme::semi_implicit, Detection::toi_split, step), phase).ending,
+              Ending::escaped);
+    EXPECT_EQ(bounce(usual, contact_by(Scheme::implicit_euler, Detection::toi_split, step), phase).ending,
+              Ending::returned);
+  }
+}
+
+TEST(StiffBounce, a_soft_wall_lets_the_ball_through_at_any_step) {
+  for (const Scheme scheme : all_schemes) {
+    EXPECT_EQ(bounce(usual, contact_by(scheme, Detection::toi_split, 0.05, 0, 100), 0.5).ending, Ending::escaped);
+  }
+}
+
+TEST(StiffBounce, blow_up_is_reported_at_the_step_where_it_happens) {
+  const Bounce fast = bounce(usual, contact_by(Scheme::semi_implicit, Detection::discrete, 100), 0.5);
+  EXPECT_EQ(fast.blow_up_step, 2);  // the first step enters, the second throws it out
+  EXPECT_GT(fast.speed, 1000);
+  EXPECT_EQ(bounce(usual, contact_by(Scheme::semi_implicit, Detection::discrete, 1), 0.5).blow_up_step, 0);
+}
+
+/// Thrown back from the far side and the near side in turn, faster each time, until numbers end.
+TEST(StiffBounce, never_gives_a_number_that_is_none) {
+  for (const Scheme scheme : all_schemes) {
+    for (const Detection detection : all_detections) {
+      for (const double zeta : {0.0, 0.1, 0.5, 1.0, 100.0}) {
+        for (const double step : {0.1, 1.0, 3.0, 30.0, 1e4, 1e6}) {
+          for (const double stiffness : {1.0, 1e4, 1e10}) {
+            const ContactTally t = bounce_all(usual, contact_by(scheme, detection, step, zeta, stiffness), 1, 3);
+            EXPECT_EQ(t.bounces(), 3);
+            EXPECT_TRUE(std::isfinite(t.speed_sum));
+            if (t.returned > 0) {
+              EXPECT_TRUE(std::isfinite(t.fastest) && std::isfinite(t.deepest));
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+/// At 2 zeta h omega = 1 the damper stops a ball that just touches: the second step finds nothing to do.
+TEST(StiffBounce, a_ball_that_rests_at_the_wall_ends_the_run) {
+  const Bounce b = bounce(usual, contact_by(Scheme::semi_implicit, Detection::discrete, 1, 0.5), 0);
+  EXPECT_EQ(b.ending, Ending::unfinished);
+  EXPECT_EQ(b.speed, 0);
+  EXPECT_EQ(b.contact_steps, 2);
+}
+
+TEST(StiffBounce, walls_and_balls_may_be_thin) {
+  for (const Approach thin : {Approach{1, 10, 0, 0.02, 10}, Approach{1, 10, 0.05, 0, 10}}) {
+    EXPECT_EQ(bounce(thin, contact_by(Scheme::semi_implicit, Detection::discrete, 0.3), 0.5).ending, Ending::returned);
+    EXPECT_EQ(bounce(thin, contact_by(Scheme::implicit_euler, Detection::toi_split, 1e4), 0.5).ending,
+              Ending::returned);
+  }
+}
+
+// ---- The stiff contact's settings and answers, and whether a wrong theory would be noticed.
 
 /// Small enough for a debug build, and still with every kind of cell: soft and stiff, undamped, damped and overdamped.
 constexpr std::string_view few_contacts = R"(
@@ -223,4 +567,5 @@ TEST(StiffContact, refuses_what_cannot_be_asked) {
 }
 
 }  // namespace
+
 }  // namespace thinwall

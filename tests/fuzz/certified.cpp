@@ -3,7 +3,7 @@
 #include <thinwall/swept/certified.hpp>
 
 #include "fuzz/finding.hpp"
-#include "fuzz/moderate.hpp"
+#include "fuzz/numbers.hpp"
 
 namespace thinwall::fuzz {
 namespace {

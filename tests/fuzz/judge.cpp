@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fuzz/finding.hpp"
-#include "fuzz/moderate.hpp"
+#include "fuzz/numbers.hpp"
 #include "fuzz/referee.hpp"
 
 namespace thinwall::fuzz {

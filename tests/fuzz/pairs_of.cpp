@@ -1,7 +1,7 @@
 // Every pair with one shape as the later, at one scalar: compiled once for each, for all of them in one file take minutes.
 
 #include "fuzz/pairs_of.hpp"
-#include "fuzz/impact_checks.hpp"
+#include "fuzz/checks.hpp"
 
 namespace thinwall::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <thinwall/experiments/accuracy/oracle.hpp>
-#include "fuzz/exhibit.hpp"
+#include "fuzz/finding.hpp"
 
 namespace thinwall::fuzz {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <thinwall/swept/batch.hpp>
+#include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/batch/table.hpp>
-#include <thinwall/swept/batch/targets.hpp>
 
-#include "support/moving_shaker.hpp"
+#include "support/shaker.hpp"
 #include "support/thorough.hpp"
 
 namespace thinwall::testing {

@@ -5,7 +5,7 @@
 
 #include <thinwall/experiments/accuracy/oracle.hpp>
 
-#include "support/certified_judge.hpp"
+#include "support/certified.hpp"
 
 namespace thinwall::testing {
 

@@ -5,7 +5,7 @@
 
 #include "support/draw.hpp"
 #include "support/errors.hpp"
-#include "support/judge_vectors.hpp"
+#include "support/judge.hpp"
 #include "support/property.hpp"
 #include "support/transforms.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs of an experiment in memory, for its tests.
+/// What the tables of every experiment owe their reader.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,10 +8,27 @@
 #include <string_view>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
+
+/// Every row of a table is as long as its columns are many, and every column has a description and,
+/// if it is a number, a unit.
+inline void expect_described_tables(const Outcome& outcome) {
+  for (const Table& t : outcome.tables) {
+    for (const std::vector<Value>& row : t.rows) ASSERT_EQ(row.size(), t.columns.size()) << t.name;
+    for (const Column& column : t.columns) {
+      EXPECT_FALSE(column.description.empty()) << t.name << " " << column.name;
+      EXPECT_EQ(column.unit.empty(), column.type == ColumnType::text || column.type == ColumnType::boolean)
+          << t.name << " " << column.name;
+    }
+  }
+}
+
+// ---- Runs of an experiment in memory, for its tests.
 
 /// Configured by `text`, laid over the experiment's defaults. Throws UsageError.
 inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_view text,

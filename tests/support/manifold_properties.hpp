@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/scalars.hpp"
+#include "support/real.hpp"
 #include "support/shaker.hpp"
 
 namespace thinwall::testing {

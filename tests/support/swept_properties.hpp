@@ -4,7 +4,7 @@
 #include <thinwall/swept/swept_volume.hpp>
 
 #include "support/discrete_properties.hpp"
-#include "support/draw_moving.hpp"
+#include "support/draw.hpp"
 #include "support/judge.hpp"
 
 namespace thinwall::testing {

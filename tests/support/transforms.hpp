@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "support/bodies.hpp"
-#include "support/scalars.hpp"
+#include "support/real.hpp"
 
 namespace thinwall::testing {
 

@@ -3,12 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include "support/claimed_properties.hpp"
+#include "support/claims_judge.hpp"
 
 namespace thinwall::testing {
 namespace {
 
 TEST(Claims, are_kept_on_every_pair_in_double) { check_every_pair<double>(6000); }
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- The same for a float query, which is computed in double: the answer must be no later after it is rounded to float.
+
+namespace thinwall::testing {
+namespace {
+
+TEST(Claims, are_kept_on_every_pair_in_float) { check_every_pair<float>(2500); }
 
 }  // namespace
 }  // namespace thinwall::testing

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/box_cases.hpp"
+#include "support/exact_cases.hpp"
 #include "support/judge.hpp"
-#include "support/pair_cases.hpp"
-#include "support/sphere_cases.hpp"
+#include "support/pair.hpp"
 #include "support/transforms.hpp"
 
 namespace thinwall::testing {

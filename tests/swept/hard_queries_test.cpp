@@ -1,11 +1,17 @@
 /// Queries that once got a wrong answer, found by feeding raw numbers to every pair.
 
+#include <algorithm>
+#include <limits>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <thinwall/discrete/queries.hpp>
+#include <thinwall/swept/methods/centre_ray.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
+
 namespace {
 
 using V = Vec3<double>;
@@ -115,5 +121,182 @@ TEST(HardQueries, ray_from_inside_an_enormous_sphere_stays_at_its_origin) {
   EXPECT_EQ(hit->point, ray.origin);
 }
 
+// ---- Shapes in touch, or as near as rounding can tell, where the side one is seen from is noise. Found by feeding raw numbers
+// to every pair.
+
+using V = Vec3<double>;
+using F = Vec3<float>;
+
+TEST(TouchToRounding, segment_that_starts_on_a_triangle_and_goes_in_hits_it) {  // truly at 3.6e-18
+  const Moving segment{Capsule<double>{V(2, -8, -9), V(-8, 0, -0x1p-5), 0}, V(2, 0, 0x1.8000000008p+1)};
+  const Moving triangle{Triangle<double>{V(-0x1.7d9601fda252ap+2, -0x1.38c4a93b8ae3ap+1, -0x1.30365c4f767ddp+0),
+                                         V(-0x1.bb2c03fb44a54p+1, 0x1.d161537bd427dp+2, -0x1.a2d39856bb9c8p+3),
+                                         V(0x1.84d3fc04bb5acp+1, 0x1.5f1ee788ea38cp+0, 0x1.67e4d1d844c12p+1)},
+                        V(-6, -0x1.14e50cp-1, 0.3)};
+  const auto toi = time_of_impact(segment, triangle);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_LT(toi.time, 1e-16);
+}
+
+TEST(TouchToRounding, segment_that_seems_to_recede_once_it_is_there_hits_the_triangle) {
+  const Moving segment{Capsule<double>{V(-9.2, 0x1.80000000002p+1, 0), V(0, -0x1.838d78p-2, 0), 0},
+                       V(0x1.4888888888888p+3, -0x1.c1a84c5aaaacbp+4, -0x1.4409794p+3)};
+  const Moving triangle{
+      Triangle<double>{V(1, -0x1.838d78p-2, -9.2), V(16, -64, -5.6), V(0, -16, -0x1.3282d22666666p+3)}, V(0, 0, -2)};
+  const auto toi = time_of_impact(segment, triangle);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_NEAR(toi.time, 0x1.e7bf7f7befa87p-1, 0x1p-50);
+}
+
+TEST(TouchToRounding, segment_that_starts_on_a_plate_touches_it) {
+  const Moving segment{Capsule<float>{F(2, -5, -2), F(-0.2F, 2, 0.2F), 0}, F(-7, -2, 3)};
+  const auto toi = time_of_impact(segment, at_rest(Aabb<float>{F(0x1.1d14ap-3F, 0.75F, -0.5F), F(0, 0.75F, 4.6F)}));
+  EXPECT_NE(toi.status, ToiStatus::apart);
+  EXPECT_LT(toi.time, 1e-7F);
+}
+
+TEST(TouchToRounding, segment_through_a_box_overlaps_it_though_its_way_in_is_the_closest_point_found) {
+  const Moving segment{Capsule<double>{V(-0.6, -8, 5), V(-0.6, -0x1.64ec8p-1, -0x1.8p-4), 0}, V(0.5, -2.6, 2.5)};
+  const auto box = at_rest(Aabb<double>{V(-0x1.8dca66666666p-4, -7, 5), V(2, 0.7, 0x1.4d89cp+0)});
+  EXPECT_LT(separation(segment.shape, box.shape).distance, -0.5);
+  EXPECT_EQ(time_of_impact(segment, box).status, ToiStatus::overlapping);
+}
+
+TEST(TouchToRounding, triangle_with_two_equal_corners_keeps_its_bits_at_any_scale) {
+  const Moving sphere{Sphere<double>{V(-0.8, -0x1.0f135cf53a706p+3, 0x1.55cb443f674eep+1), 0.8},
+                      V(-0x1.ecabc4p-1, 0.4, -3)};
+  const Moving triangle{Triangle<double>{V(-8, -0.8, -0.8), V(-0.8, -0.8, -0.8), V(-0.8, -0.8, -0.8)}, V(0, -8, 0.8)};
+  const auto toi = time_of_impact(sphere, triangle);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  for (const int e : {-700, -300, 300, 700}) {
+    const auto far = time_of_impact(scaled(sphere, e), scaled(triangle, e));
+    EXPECT_EQ(far.time, toi.time) << e;
+    EXPECT_EQ(far.normal, toi.normal) << e;
+  }
+}
+
+TEST(TouchToRounding, center_ray_that_starts_in_what_its_body_does_not_overlap_has_a_normal) {
+  const Moving capsule{Capsule<double>{V(-0x1.63c000000ffcep+353, -0x1.50ef63ccea089p-197, -0x1.31b628f713334p-947),
+                                       V(-0x1.bb9060faaba8dp-193, 0x1.2203537bc019dp-658, -0x1.cae542c69b37dp-963),
+                                       0x1.be2dc8a9cc467p-729},
+                       V(-0x1.489315528e02dp+814, -0x1.13001db6dbcb7p+909, 0x1.b9568f3df17bdp+863)};
+  const Moving triangle{Triangle<double>{V(0x1.73f21c0cfd2p+511, 0x1.94764ded94e81p+371, 0x1.023c321612732p-489),
+                                         V(-0x1.4dc398c4afa1dp-336, 0x1.825410b836332p-827, 0x1.1a3ba5e0403d9p+118),
+                                         V(-0x1.ecdc9ffbd5043p+815, -0x1.9c802c9249b13p+910, -0x1.ba8a47251275dp-680)},
+                        V(-0x1.0de9883421985p-472, -0x1.fe9de77ec61e5p+817, 0x1.b9568f3df17bdp+863)};
+  const auto toi = time_of_impact(CentreRay<double>{}, capsule, triangle);
+  EXPECT_TRUE(toi.status != ToiStatus::hit || safe_norm(toi.normal) > 0.5);
+}
+
+/// How far apart the plane across the separation's normal shows two sets of corners, rounded by R, to be.
+double parted(const V& n, const std::vector<V>& a, const std::vector<V>& b, double R) {
+  double ahead = -1e300, behind = 1e300;
+  for (const V& x : a) ahead = std::max(ahead, n.dot(x));
+  for (const V& x : b) behind = std::min(behind, n.dot(x));
+  return behind - ahead - R;
+}
+
+TEST(TouchToRounding,
+     capsule_and_triangle_are_parted_by_their_normal_by_all_of_the_gap) {  // not by the slope of an edge
+  const Capsule<double> capsule{V(-8, -8, -0x1.fffffff8p+2), V(-0x1.fffffff8p+2, 0x1.bfbbb8p-1, -0x1.fffffff8p+2),
+                                0x1.fffffff8p+2};
+  const Triangle<double> triangle{V(-0x1.0dafecp-28, -0x1.fffffff8p+2, -0x1.fffffff8p+2),
+                                  V(-0x1.0dafecp-28, 0x1.0000000000002p+1, 2), V(0x1.1333332d17d36p+3, 8, 5)};
+  const auto gap = separation(capsule, triangle);
+  EXPECT_NEAR(parted(gap.normal, {capsule.a, capsule.b}, {triangle.a, triangle.b, triangle.c}, capsule.radius),
+              gap.distance, 1e-14);
+}
+
+TEST(TouchToRounding,
+     sphere_beside_an_edge_and_all_but_its_corner_is_parted_by_the_edge) {  // 2e-9 of it from the corner
+  const Triangle<double> t{V(-7, 3, -8), V(-8, 3, 0), V(-6, 0x1.00000004p+2, -0x1.00000004p+2)};
+  const Sphere<double> ball{V(0, 0, -2), 7};
+  const auto gap = separation(t, ball);
+  EXPECT_NEAR(parted(gap.normal, {t.a, t.b, t.c}, {ball.center}, ball.radius), gap.distance, 1e-14);
+}
+
+TEST(TouchToRounding, boxes_beside_each_other_are_parted_by_an_axis) {
+  const Obb<double> upper{V(-1, 1, 1), V(1, 1, 1), Mat3<double>::Identity()};
+  const Aabb<double> lower{V(-1, -1, -1), V(0x1.ffffffffcp-1, 0x1.cc0aap-4, 2)};
+  const auto gap = separation(upper, lower);
+  EXPECT_EQ(gap.normal, V(0, -1, 0));
+  EXPECT_EQ(gap.distance, 1 - 0x1.cc0aap-4);
+}
+
+TEST(TouchToRounding, parallel_rods_are_parted_across_them) {  // not from one's end to the other's, 2^-24 further on
+  Mat3<double> axes = Mat3<double>::Identity();
+  axes.col(0) << 0.6, 0.8, 0;
+  axes.col(1) << -0.8, 0.6, 0;
+  const V half(0x1p-20, 0x1p-25, 7);
+  const auto gap = separation(Obb<double>{V(0x1p-25, -7, 0x1p-24), half, axes}, Obb<double>{V(1, 4, 0), half, axes});
+  EXPECT_NEAR(gap.normal[2], 0, 1e-14);
+}
+
+TEST(TouchToRounding,
+     boxes_that_pass_corner_by_corner_do_not_hit) {  // by 6 u; the turned one's arithmetic said they do
+  const Moving turned{
+      Obb<double>{V(-0x1.3333333333334p-2, 8, -0x1.999999999999ap-1),
+                  V(0x1.3333333333334p-2, 0x1.999999999999ap-2, 0x1.3333333333334p-2), Mat3<double>::Identity()},
+      V(-0x1.bfffp+2, -0x1.ccccccccccccep-1, -0x1.b4fc44p-1)};
+  const Moving box{Aabb<double>{V(-0x1.2324552d524ddp-2, -0x1.5a49d3006dae8p-2, 0x1.999999999999ap-1),
+                                V(0x1.3333333333334p-2, 0x1.fp+2, 0x1.804p+2)},
+                   V(-0x1.199999999999ap+0, 1, -0x1.b4fc43fffffffp-1)};
+  EXPECT_EQ(time_of_impact(turned, box).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(box, turned).status, ToiStatus::apart);
+}
+
+TEST(TouchToRounding, ray_from_afar_through_a_capsule_hits_it) {  // in float a place on the path is known to 4 lengths
+  const Capsule<float> capsule{F(0, 4, 0x1.fffffcp+0F), F(-0.4F, 0, -0.15F), 0x1.fffffcp+0F};
+  for (const float x : {0.375F, -0.125F}) {
+    const Ray<float> ray{F(x, 0x1p+26F, 0.5F), F(2, -0x1p+27F, 0), 1};
+    const auto hit = raycast(ray, capsule);
+    ASSERT_TRUE(hit) << x;
+    EXPECT_NEAR(hit->t, 0.5F, 0x1p-23F);
+    const Obb<float> box{F(0, 2, 1), F(2, 2, 2), Mat3<float>::Identity()};
+    EXPECT_TRUE(raycast(ray, box)) << x;
+  }
+}
+
+TEST(TouchToRounding, center_at_the_corner_of_a_sliver_is_no_distance_from_it) {
+  const float r = 0x1.00004p+3F;
+  const auto gap = separation(Triangle<float>{F(-0x1.f8028cp-1F, -0x1.f908p-1F, 0), F(r, r, r), F(r, 0x1.004p+3F, r)},
+                              Sphere<float>{F(r, r, r), r});
+  EXPECT_NEAR(gap.distance, -r, 2e-6F);
+}
+
+TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_scale) {
+  Mat3<double> about_z = Mat3<double>::Identity(), about_y = Mat3<double>::Identity();
+  about_z.col(0) << 0.6, 0.8, 0;
+  about_z.col(1) << -0.8, 0.6, 0;
+  about_y.col(0) << 0.6, 0, -0.8;
+  about_y.col(2) << 0.8, 0, 0.6;
+  const double h = 0x1.3333333333334p-1;
+  const Obb<double> a{V(2, 4, 6), V(h, h, h), about_z}, b{V(-h, -h, -h), V(h, h, h), about_y};
+  const auto near = separation(a, b);
+  for (const int e : {-700, 700}) {
+    const auto far = separation(scaled(a, e), scaled(b, e));
+    EXPECT_EQ(far.distance, times_power_of_two(near.distance, e)) << e;
+    EXPECT_EQ(far.normal, near.normal) << e;
+  }
+}
+
+TEST(TouchToRounding,
+     segment_tilted_by_a_rounding_meets_a_long_plate_where_it_does) {  // the plane of contact is 13 u early
+  const Moving segment{Capsule<double>{V(-8, -8, -8), V(-0x1.fffffffffffcp+2, -0.8, 7), 0},
+                       V(0x1.fffffffffffep+2, 4.4, 0.5)};
+  const auto toi = time_of_impact(segment, at_rest(Obb<double>{V(0, 0, 0), V(0, 2, 1.6), Mat3<double>::Identity()}));
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_NEAR(toi.time, 0x1.ffffffffffff9p-1, 0x1p-53);  // by the same form with 60 digits
+}
+
+TEST(TouchToRounding, center_in_a_triangle_that_its_body_misses_does_not_hit_it_at_rest) {
+  const auto segment = at_rest(Capsule<double>{V(-1, 6, 2), V(-6, -2.5, -2.5), 0});
+  const double huge = std::numeric_limits<double>::max();
+  const auto triangle = at_rest(Triangle<double>{V(-2.5, huge, -6.25), V(-0.5, -0x1p+52, 0x1p-4), V(-7.984375, 0, -8)});
+  const auto toi = time_of_impact(CentreRay<double>{}, segment, triangle);
+  EXPECT_TRUE(toi.status != ToiStatus::hit || safe_norm(toi.normal) > 0.5);
+}
+
 }  // namespace
+
 }  // namespace thinwall

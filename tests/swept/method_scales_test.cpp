@@ -5,7 +5,7 @@
 #include <thinwall/swept/shapes.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
-#include "support/moving_shaker.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/draw_moving.hpp"
+#include "support/draw.hpp"
 #include "support/judge.hpp"
 #include "support/method_claims.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <thinwall/discrete/broad_phase.hpp>
 
-#include "support/draw_proxies.hpp"
+#include "support/draw.hpp"
 #include "support/property.hpp"
 
 namespace thinwall::testing {

@@ -1,15 +1,56 @@
-/// The choice, with costs that are given: nothing is timed here.
+/// A wish, and advice on it with costs that nobody measured.
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
 
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/advise/advice.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/factors.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/thin_wall/results.hpp>
+#include <thinwall/swept/certified.hpp>
 
-#include "experiments/advise/given_costs.hpp"
+#include "support/experiment_run.hpp"
 
 namespace thinwall {
+
+/// The bullet of the textbook: it tunnels 7 times in 10, and a step is 3 1/3 times as long as its contact.
+inline const Wish bullet_wish = {.cell = bullet};
+
+/// Both kinds of steps take `ns`, known to within 1 %.
+inline StepCost costing(double ns) {
+  const QueryTime time = {ns, {0.99 * ns, 1.01 * ns}};
+  return {time, time};
+}
+
+/// The methods cost 10, 20, 30 ... ns in the order of the list.
+inline Advice advice_on(const Wish& wish) {
+  const std::vector<Candidate> methods = candidates(wish);
+  std::vector<StepCost> costs;
+  for (std::size_t i = 0; i < methods.size(); ++i) costs.push_back(costing(10 * static_cast<double>(i + 1)));
+  return advise(wish, methods, costs);
+}
+
+inline const AdviceRow& row_of(const Advice& advice, const std::string& method) {
+  const auto row = std::ranges::find_if(advice.rows, [&](const AdviceRow& r) { return r.method.name == method; });
+  if (row == advice.rows.end()) throw std::runtime_error("no row of " + method);
+  return *row;
+}
+
+inline bool has_row(const Advice& advice, const std::string& method) {
+  return std::ranges::any_of(advice.rows, [&](const AdviceRow& row) { return row.method.name == method; });
+}
+
+// ---- The choice, with costs that are given: nothing is timed here.
+
 namespace {
 
 Wish with_step(Wish wish, double step) {
@@ -165,5 +206,274 @@ TEST(Advice, a_point_against_a_sheet_is_missed_by_every_pose) {
 
 TEST(Advice, of_nothing_is_nothing) { EXPECT_EQ(advise(bullet_wish, {}, {}).advised(), nullptr); }
 
+// ---- What the advice reads like, and what a script gets of it.
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<Wish> all_sorts() {
+  std::vector<Wish> wishes(5, bullet_wish);
+  wishes[1] = {.cell = {123456.789, 1.0 / 3, 0.0123456789, 1e-9, 89.87654321, Wall::infinite, 0}, .miss = 0.123456789};
+  wishes[1].late = 1.23456789e-7;
+  wishes[2].cell.radius = wishes[2].cell.thickness = 0;
+  wishes[3].miss = 1;
+  wishes[4].cell.speed = 1e-9;
+  return wishes;
+}
+
+TEST(AdviceText, fits_a_terminal) {
+  for (const Wish& wish : all_sorts()) {
+    const std::string text = advice_text(advice_on(wish));
+    EXPECT_TRUE(text.ends_with(".\n"));
+    for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), 100U) << line;
+  }
+}
+
+TEST(AdviceText, says_what_to_use_and_what_it_costs) {
+  EXPECT_EQ(
+      advice_sentence(advice_on(bullet_wish)),
+      "Use substeps_4: no shot tunnels, none is seen more than 0.0417 m late, and a step takes 30 ns, the least of "
+      "the 11 methods here that meet the wish. If a ball in the wall is pushed out the shorter way, 40 % go through, seen "
+      "or not. Testing only the end of each step would do from 200 steps a second on.");
+  EXPECT_EQ(
+      advice_sentence(advice_on({.cell = bullet, .miss = 0.75})),
+      "Use end_of_step: 70 % of the shots tunnel, none is seen more than 0.05 m late, and a step takes 10 ns, the "
+      "least of the 12 methods here that meet the wish. If a ball in the wall is pushed out the shorter way, 85 % go "
+      "through, seen or not.");
+  EXPECT_EQ(advice_sentence(advise(bullet_wish, {}, {})), "No method here meets the wish at this step.");
+}
+
+TEST(AdviceText, a_point_against_a_sheet_is_explained) {
+  const std::string text = advice_text(advice_on(all_sorts()[2]));
+  EXPECT_NE(text.find("A point and a wall of no thickness are in contact for an instant"), std::string::npos);
+  EXPECT_NE(text.find("end of each step would not do at any step"), std::string::npos);
+  EXPECT_NE(text.find("no formula"), std::string::npos);
+}
+
+TEST(AdviceText, a_bound_is_rounded_to_the_safe_side) {
+  EXPECT_EQ(rounded_down_text(0.0199999, 4), "0.01999");
+  EXPECT_EQ(rounded_down_text(0.02, 4), "0.02");
+  EXPECT_EQ(rounded_down_text(0.005, 4), "0.005");
+  EXPECT_EQ(rounded_down_text(999.96, 4), "999.9");
+  for (double x = 1e-9; x < 1e9; x *= 1.37) {
+    EXPECT_LE(std::stod(rounded_down_text(x, 4)), x);
+    EXPECT_GE(std::stod(rounded_down_text(x, 4)), x * 0.9989);
+  }
+}
+
+TEST(AdviceText, json_has_every_number) {
+  const Advice advice = advice_on({.cell = bullet, .late = 0.05});
+  const nlohmann::json json = nlohmann::json::parse(advice_json(advice).dump());
+  EXPECT_EQ(json["method"], advice.advised()->method.name);
+  EXPECT_EQ(json["advice"], advice_sentence(advice));
+  EXPECT_EQ(json["step_s"], 1.0 / 60);
+  EXPECT_EQ(json["late_m"], 0.05);
+  ASSERT_EQ(json["methods"].size(), advice.rows.size());
+  for (std::size_t i = 0; i < advice.rows.size(); ++i) {
+    const nlohmann::json& row = json["methods"][i];
+    EXPECT_EQ(row["method"], advice.rows[i].method.name);
+    EXPECT_EQ(row["meets"], advice.rows[i].meets);
+    EXPECT_EQ(row["chance"], *advice.rows[i].theory.probability);
+    EXPECT_FALSE(row["chance_formula"].get<std::string>().empty()) << row["method"];
+    EXPECT_FALSE(row["latest_formula"].get<std::string>().empty()) << row["method"];
+    EXPECT_EQ(row["longest_step_s"], *advice.rows[i].longest_step);
+    EXPECT_EQ(row["contact_ns"]["median"], advice.rows[i].cost.contact.median);
+    EXPECT_EQ(row["clear_ns"]["lower"], advice.rows[i].cost.clear.spread.lower);
+  }
+}
+
+TEST(AdviceText, json_is_null_where_theory_is_silent) {
+  const nlohmann::json json = nlohmann::json::parse(advice_json(advice_on(all_sorts()[2])).dump());
+  for (const nlohmann::json& row : json["methods"]) {
+    if (row["method"] == "bisection") {
+      EXPECT_TRUE(row["chance"].is_null());
+    }
+    if (row["method"] == "end_of_step") {
+      EXPECT_TRUE(row["longest_step_s"].is_null());
+    }
+  }
+}
+
+TEST(AdviceText, the_experiment_refuses_what_it_cannot_fire) {
+  Wish wish = bullet_wish;
+  wish.cell.radius = wish.cell.thickness = 0;
+  try {
+    check_config(wish, candidates(wish));
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("--toml: the experiment cannot fire this")) << error.what();
+  }
+}
+
+/// Costs are measured, so that only their form is tested: positive, and inside their interval.
+TEST(AdviceCosts, are_medians_with_an_interval) {
+  const std::vector<Candidate> methods = candidates(bullet_wish);
+  const std::vector<StepCost> costs = measure_costs(bullet, methods, {.queries = 64, .rounds = 5, .round_ns = 1e4});
+  ASSERT_EQ(costs.size(), methods.size());
+  const Cell slow = all_sorts()[4].cell;  // its step is far too short for the grid of the poses
+  EXPECT_EQ(measure_costs(slow, methods, {.queries = 64, .rounds = 1, .round_ns = 1e4}).size(), methods.size());
+  for (const StepCost& cost : costs) {
+    for (const QueryTime& time : {cost.clear, cost.contact}) {
+      EXPECT_GT(time.spread.lower, 0);
+      EXPECT_TRUE(time.spread.contains(time.median));
+    }
+  }
+}
+
+// ---- Advice and experiment agree: the configuration that the advice comes with is fired, and every method is counted within
+// what its formula allows.
+
+constexpr std::int64_t shots = 2000;
+
+/// What the experiment found of a method, at the wish's own cell.
+struct Found {
+  std::int64_t tunneled;
+  double latest;  ///< [m]
+};
+
+class Fired {
+ public:
+  explicit Fired(const Wish& wish)
+      : wish_(wish),
+        outcome_(outcome_of(
+            *run_of(thin_wall_experiment(), check_config(wish, candidates(wish)), {.seed = 3, .trials = shots}))) {}
+
+  bool self_test_passed() const { return outcome_.self_test_passed; }
+
+  Found found(const std::string& method) const {
+    const Table& table = table_of(outcome_, "cells");
+    for (std::size_t row = table.rows.size(); row-- > 0;) {  // the bullet of the textbook comes first
+      if (value_of(table, row, "method") != Value(method)) continue;
+      EXPECT_EQ(value_of(table, row, "speed"), Value(wish_.cell.speed));
+      EXPECT_EQ(value_of(table, row, "step"), Value(wish_.cell.step));
+      EXPECT_EQ(value_of(table, row, "radius"), Value(wish_.cell.radius));
+      EXPECT_EQ(value_of(table, row, "thickness"), Value(wish_.cell.thickness));
+      EXPECT_EQ(value_of(table, row, "angle_deg"), Value(wish_.cell.angle_deg));
+      EXPECT_EQ(value_of(table, row, "wall"), Value(std::string("infinite")));
+      EXPECT_EQ(value_of(table, row, "shots"), Value(shots));
+      const Value& latest = value_of(table, row, "lateness_max");
+      return {std::get<std::int64_t>(value_of(table, row, "tunneled")),
+              std::holds_alternative<double>(latest) ? std::get<double>(latest) : 0};
+    }
+    throw std::runtime_error(method + " was not fired");
+  }
+
+ private:
+  Wish wish_;
+  Outcome outcome_;
+};
+
+/// The counts that a chance allows in all but one run in 10 000.
+Interval counts_of(double chance) {
+  if (chance <= no_chance) return {0, 0};
+  if (chance == 1) return {double{shots}, double{shots}};
+  return binomial_range(shots, chance, 0.9999);
+}
+
+/// The experiment rounds the wall up and the step down by one part in 2^20, and times are known to rounding.
+double rounded_up(double length, const Cell& cell) { return length + 0x1p-20 * (length + 1e-6 * step_length(cell)); }
+
+void expect_agreement(const Wish& wish) {
+  SCOPED_TRACE(cell_factors().key(wish.cell));
+  const Fired fired(wish);
+  EXPECT_TRUE(fired.self_test_passed());
+  const Advice advice = advice_on(wish);
+  for (const AdviceRow& row : advice.rows) {
+    if (!row.method.fired || !row.theory.probability) continue;
+    const Found found = fired.found(row.method.name);
+    EXPECT_TRUE(counts_of(*row.theory.probability).contains(static_cast<double>(found.tunneled)))
+        << row.method.name << ": " << found.tunneled << " of " << shots << ", theory " << *row.theory.probability;
+    if (const auto latest = row.theory.largest_lateness()) {
+      EXPECT_LE(found.latest, rounded_up(*latest, wish.cell)) << row.method.name;
+    }
+    if (!row.meets) continue;
+    EXPECT_LE(static_cast<double>(found.tunneled), counts_of(wish.miss).upper) << row.method.name;
+    if (wish.late) {
+      EXPECT_LE(found.latest, rounded_up(*wish.late, wish.cell)) << row.method.name;
+    }
+  }
+}
+
+TEST(AdviceAgreement, bullet_of_the_textbook) { expect_agreement(bullet_wish); }
+
+TEST(AdviceAgreement, slanted_and_fast) {
+  Wish wish = bullet_wish;
+  wish.cell = {700, 1.0 / 240, 0.003, 0.02, 35, Wall::infinite, 0};
+  wish.miss = 0.95;
+  expect_agreement(wish);
+}
+
+TEST(AdviceAgreement, a_point_and_a_wall) {
+  Wish wish = bullet_wish;
+  wish.cell.radius = 0;
+  wish.miss = 0.5;
+  expect_agreement(wish);
+}
+
+TEST(AdviceAgreement, a_sheet_and_a_bound_on_lateness) {
+  Wish wish = {.cell = {50, 0.01, 0.05, 0, 70, Wall::infinite, 0}, .miss = 0.2, .late = 0.1};
+  expect_agreement(wish);
+}
+
+TEST(AdviceAgreement, a_step_shorter_than_the_contact) {
+  Wish wish = bullet_wish;
+  wish.cell.step = 0.001;
+  expect_agreement(wish);
+}
+
+/// At the longest step that is called safe the count is within the wish, and a tenth beyond it is not.
+TEST(AdviceAgreement, the_longest_step_is_safe_and_a_longer_one_is_not) {
+  for (const double miss : {0.0, 0.4}) {
+    Wish wish = bullet_wish;
+    wish.miss = miss;
+    wish.cell.step = *longest_step(wish, row_of(advice_on(wish), "end_of_step").method.theory);
+    EXPECT_TRUE(counts_of(miss).contains(static_cast<double>(Fired(wish).found("end_of_step").tunneled))) << miss;
+    wish.cell.step *= 1.1;
+    EXPECT_GT(static_cast<double>(Fired(wish).found("end_of_step").tunneled), counts_of(miss).upper) << miss;
+  }
+}
+
+/// What docs/advise.md says of a ball that is in contact when it starts, uniformly along its path in the wall.
+TEST(AdviceAgreement, a_start_in_contact_is_lost_on_tested_poses_alone) {
+  Cell cell = bullet;
+  cell.step = 0.0025;  // half the contact: none that starts before the wall is missed
+  const Target aimed = target(cell);
+  const std::vector<std::string_view> names = method_names();
+  const std::vector<std::string> methods(names.begin(), names.end()), scalars = {"double"};
+  for (const ThinWallMethod& method : thin_wall_methods(methods, std::vector<std::int64_t>{2}, scalars)) {
+    Tally tally;
+    for (std::uint64_t i = 0; i < shots; ++i) {
+      const double share = uniform(random_words({7, 7}, i, 0)[0]);
+      const Vec3<double> start = {-aimed.half_extents[0] - aimed.radius + share * slab_chord(cell), 0, 0};
+      method.fire(aimed, start, tally);
+    }
+    const double lost = method.poses_per_step > 0 ? 0.5 / method.poses_per_step : 0;
+    EXPECT_TRUE(counts_of(lost).contains(static_cast<double>(tally.tunneled))) << method.name << ": " << tally.tunneled;
+  }
+}
+
+/// The certified answers are not in the method list and so not in the experiment: its shots are put to them here.
+TEST(AdviceAgreement, certified_answers_miss_no_shot_and_are_never_late) {
+  const Target aimed = target(bullet);
+  const auto wall = at_rest(Aabb<double>{Vec3<double>::Zero(), aimed.half_extents});
+  const Theory theory = row_of(advice_on(bullet_wish), "certified").theory;
+  EXPECT_EQ(*theory.probability, 0);
+  EXPECT_EQ(*theory.largest_lateness(), 0);
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const Vec3<double> start = random_start(aimed, random_stream(bullet, 5), i);
+    const Moving ball{Sphere<double>{start, aimed.radius}, aimed.displacement};
+    const CertifiedToi toi = certified_time_of_impact(ball, wall);
+    ASSERT_EQ(toi.verdict, ToiStatus::hit);
+    const double contact = path_to_contact(aimed, start) / aimed.step_length;
+    EXPECT_LE(toi.lower, contact * (1 + 1e-15));
+    EXPECT_LE(contact - toi.lower, theory.widest / aimed.step_length + 1e-15);
+  }
+}
+
 }  // namespace
+
 }  // namespace thinwall

@@ -7,8 +7,7 @@
 
 #include <thinwall/experiments/lab/draw.hpp>
 
-#include "support/console.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/program.hpp"
 
 namespace thinwall {
 namespace {

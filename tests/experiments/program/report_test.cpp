@@ -9,7 +9,7 @@
 #include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 
-#include "support/toy_program.hpp"
+#include "support/toy.hpp"
 
 namespace thinwall {
 namespace {

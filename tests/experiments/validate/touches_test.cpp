@@ -10,7 +10,7 @@
 #include <thinwall/experiments/validate/exact_verdict.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
-#include "support/scalars.hpp"
+#include "support/real.hpp"
 
 namespace thinwall {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <thinwall/experiments/program/program.hpp>
 
-#include "support/temporary_folder.hpp"
+#include "support/program.hpp"
 
 namespace thinwall {
 namespace {

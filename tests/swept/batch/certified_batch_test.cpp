@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/batch/table.hpp>
-#include <thinwall/swept/batch/targets.hpp>
 #include <thinwall/swept/certified_batch.hpp>
 
-#include "support/certified_judge.hpp"
-#include "support/certified_queries.hpp"
+#include "support/certified.hpp"
 #include "support/thorough.hpp"
 
 namespace thinwall::testing {

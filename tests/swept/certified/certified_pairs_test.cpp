@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/certified.hpp"
 #include "support/certified_oracle.hpp"
-#include "support/certified_queries.hpp"
 #include "support/thorough.hpp"
 
 namespace thinwall::testing {

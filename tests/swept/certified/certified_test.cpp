@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/box_cases.hpp"
-#include "support/certified_judge.hpp"
+#include "support/certified.hpp"
+#include "support/exact_cases.hpp"
 #include "support/judge.hpp"
-#include "support/pair_cases.hpp"
-#include "support/sphere_cases.hpp"
+#include "support/pair.hpp"
 
 namespace thinwall::testing {
 namespace {

@@ -1,0 +1,385 @@
+// Two balls at one instant, by hand.
+
+#include <gtest/gtest.h>
+
+#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/obb.hpp>
+#include <thinwall/discrete/sphere.hpp>
+
+#include "support/real.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class SphereSphere : public ::testing::Test {
+ protected:
+  using Vec = Vec3<S>;
+  const Sphere<S> ball{{0, 0, 0}, 1};
+};
+TYPED_TEST_SUITE(SphereSphere, Scalars, ScalarNames);
+
+TYPED_TEST(SphereSphere, touching_counts_and_one_ulp_decides) {
+  using S = TypeParam;
+  EXPECT_TRUE(overlaps(this->ball, Sphere<S>{{2, 0, 0}, 1}));
+  EXPECT_TRUE(overlaps(this->ball, Sphere<S>{{next_down(S(2)), 0, 0}, 1}));
+  EXPECT_FALSE(overlaps(this->ball, Sphere<S>{{next_up(S(2)), 0, 0}, 1}));
+  EXPECT_TRUE(overlaps(Sphere<S>{{0, 0, 0}, 2}, Sphere<S>{{3, 4, 0}, 3}));  // 3-4-5
+}
+
+TYPED_TEST(SphereSphere, contact_of_a_touch_has_no_depth) {
+  using S = TypeParam;
+  const auto touch = contact(this->ball, Sphere<S>{{2, 0, 0}, 1});
+  ASSERT_TRUE(touch.has_value());
+  EXPECT_EQ(touch->penetration, S(0));
+  EXPECT_EQ(touch->normal, Vec3<S>(1, 0, 0));
+}
+
+TYPED_TEST(SphereSphere, contact_points_are_relative_to_the_centers) {
+  using S = TypeParam;
+  const auto found = contact(Sphere<S>{{8, 16, -4}, 1}, Sphere<S>{{8, 17.5, -4}, 2});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->normal, Vec3<S>(0, 1, 0));
+  EXPECT_EQ(found->penetration, S(1.5));
+  EXPECT_EQ(found->local_a, Vec3<S>(0, 1, 0));
+  EXPECT_EQ(found->local_b, Vec3<S>(0, -2, 0));
+}
+
+TYPED_TEST(SphereSphere, apart_has_a_distance_and_no_contact) {
+  using S = TypeParam;
+  const Sphere<S> other{{3, 0, 4}, 2};
+  EXPECT_FALSE(contact(this->ball, other).has_value());
+  const Separation<S> gap = separation(this->ball, other);
+  EXPECT_EQ(gap.distance, S(2));
+  EXPECT_EQ(gap.normal, Vec3<S>(S(3) / S(5), 0, S(4) / S(5)));
+  EXPECT_TRUE(((gap.point_b - gap.point_a) - gap.normal * gap.distance).norm() <= 8 * unit<S>());
+}
+
+TYPED_TEST(SphereSphere, coincident_centers_part_along_x_whichever_way_round) {
+  using S = TypeParam;
+  const Sphere<S> small{{0, 0, 0}, 0.25};
+  for (const auto& found : {contact(this->ball, small), contact(small, this->ball)}) {
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->normal, Vec3<S>(1, 0, 0));
+    EXPECT_EQ(found->penetration, S(1.25));
+  }
+  EXPECT_EQ(separation(this->ball, small).distance, S(-1.25));
+  EXPECT_EQ(separation(this->ball, small).normal, Vec3<S>(1, 0, 0));
+}
+
+TYPED_TEST(SphereSphere, points) {
+  using S = TypeParam;
+  const Sphere<S> point{{1, 2, 3}, 0};
+  EXPECT_TRUE(overlaps(point, point));
+  ASSERT_TRUE(contact(point, point).has_value());
+  EXPECT_EQ(contact(point, point)->penetration, S(0));
+  EXPECT_EQ(contact(point, point)->normal, Vec3<S>(1, 0, 0));
+  EXPECT_FALSE(overlaps(point, Sphere<S>{{1, 2, next_up(S(3))}, 0}));
+  const S least = std::numeric_limits<S>::min();
+  EXPECT_FALSE(overlaps(Sphere<S>{{0, 0, 0}, 0}, Sphere<S>{{least, 0, 0}, 0}));
+  EXPECT_TRUE(overlaps(Sphere<S>{{0, 0, 0}, 0}, Sphere<S>{{least, 0, 0}, least}));
+}
+
+TYPED_TEST(SphereSphere, one_within_the_other) {
+  using S = TypeParam;
+  const auto found = contact(Sphere<S>{{0, 0, 0}, 8}, Sphere<S>{{0, 0, 1}, 1});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->penetration, S(8));
+  EXPECT_EQ(found->normal, Vec3<S>(0, 0, 1));
+}
+
+TYPED_TEST(SphereSphere, validity) {
+  using S = TypeParam;
+  EXPECT_TRUE(valid(this->ball));
+  EXPECT_TRUE(valid(Sphere<S>{{0, 0, 0}, 0}));
+  for (const S& bad : {nan<S>(), infinity<S>(), S(-infinity<S>())}) {
+    EXPECT_FALSE(valid(Sphere<S>{{0, bad, 0}, 1}));
+    EXPECT_FALSE(valid(Sphere<S>{{0, 0, 0}, bad}));
+  }
+  EXPECT_FALSE(valid(Sphere<S>{{0, 0, 0}, -1}));
+}
+
+TYPED_TEST(SphereSphere, nan_is_no_contact) {
+  using S = TypeParam;
+  for (const Sphere<S>& bad : {Sphere<S>{{nan<S>(), 0, 0}, 1}, Sphere<S>{{0, 0, 0}, nan<S>()}}) {
+    EXPECT_FALSE(overlaps(this->ball, bad));
+    EXPECT_FALSE(overlaps(bad, this->ball));
+    EXPECT_FALSE(contact(this->ball, bad).has_value());
+    EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, bad).has_value());
+    EXPECT_NE(separation(this->ball, bad).distance, separation(this->ball, bad).distance);
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- Two axis-aligned boxes at one instant, by hand.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class AabbAabb : public ::testing::Test {
+ protected:
+  const Aabb<S> box{{0, 0, 0}, {1, 2, 3}};
+};
+TYPED_TEST_SUITE(AabbAabb, Scalars, ScalarNames);
+
+TYPED_TEST(AabbAabb, faces_edges_and_corners_touch) {
+  using S = TypeParam;
+  const Vec3<S> half(1, 1, 1);
+  EXPECT_TRUE(overlaps(this->box, Aabb<S>{{2, 0, 0}, half}));
+  EXPECT_TRUE(overlaps(this->box, Aabb<S>{{2, 3, 0}, half}));
+  EXPECT_TRUE(overlaps(this->box, Aabb<S>{{-2, 3, -4}, half}));
+  EXPECT_FALSE(overlaps(this->box, Aabb<S>{{next_up(S(2)), 0, 0}, half}));
+  EXPECT_FALSE(overlaps(this->box, Aabb<S>{{2, 3, next_up(S(4))}, half}));
+  EXPECT_TRUE(overlaps(this->box, Aabb<S>{{2, 3, next_down(S(4))}, half}));
+}
+
+TYPED_TEST(AabbAabb, parts_along_the_axis_of_least_penetration) {
+  using S = TypeParam;
+  const auto found = contact(this->box, Aabb<S>{{0.5, -2.75, 1}, {1, 1, 1}});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->normal, Vec3<S>(0, -1, 0));
+  EXPECT_EQ(found->penetration, S(0.25));
+}
+
+TYPED_TEST(AabbAabb, contact_acts_at_the_centers) {  // no torque: an axis-aligned box must not turn
+  using S = TypeParam;
+  const auto found = contact(this->box, Aabb<S>{{1.5, 1, 2}, {1, 1, 1}});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->local_a, Vec3<S>(0, 0, 0));
+  EXPECT_EQ(found->local_b, Vec3<S>(0, 0, 0));
+}
+
+TYPED_TEST(AabbAabb, ties_take_the_lowest_axis_and_its_positive_side) {
+  using S = TypeParam;
+  const Aabb<S> cube{{4, 4, 4}, {1, 1, 1}};
+  for (const auto& found : {contact(cube, cube), contact(cube, Aabb<S>{{4, 4, 4}, {1, 1, 1}})}) {
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->normal, Vec3<S>(1, 0, 0));
+    EXPECT_EQ(found->penetration, S(2));
+  }
+  const auto corner = contact(cube, Aabb<S>{{2.5, 2.5, 2.5}, {1, 1, 1}});
+  ASSERT_TRUE(corner.has_value());
+  EXPECT_EQ(corner->normal, Vec3<S>(-1, 0, 0));
+  EXPECT_EQ(corner->penetration, S(0.5));
+}
+
+TYPED_TEST(AabbAabb, distance_between_corners_is_euclidean) {
+  using S = TypeParam;
+  const Separation<S> gap = separation(this->box, Aabb<S>{{5, 7, 0}, {1, 1, 1}});
+  EXPECT_EQ(gap.distance, S(5));  // 3 and 4
+  EXPECT_EQ(gap.normal, Vec3<S>(S(3) / S(5), S(4) / S(5), 0));
+  EXPECT_EQ(gap.point_a[0], S(1));
+  EXPECT_EQ(gap.point_a[1], S(2));
+  EXPECT_EQ(gap.point_b[0], S(4));
+  EXPECT_EQ(gap.point_b[1], S(6));
+  EXPECT_EQ(gap.point_a[2], gap.point_b[2]);
+}
+
+TYPED_TEST(AabbAabb, one_within_the_other) {
+  using S = TypeParam;
+  const Separation<S> gap = separation(Aabb<S>{{0, 0, 0}, {8, 8, 8}}, Aabb<S>{{0, 0, -1}, {1, 1, 1}});
+  EXPECT_EQ(gap.distance, S(-8));
+  EXPECT_EQ(gap.normal, Vec3<S>(0, 0, -1));
+}
+
+TYPED_TEST(AabbAabb, plates_rods_and_points) {
+  using S = TypeParam;
+  const Aabb<S> plate{{0, 0, 0}, {0, 8, 8}}, rod{{0, 0, 0}, {8, 0, 0}}, point{{0, 4, 0}, {0, 0, 0}};
+  EXPECT_TRUE(overlaps(plate, rod));
+  EXPECT_TRUE(overlaps(plate, point));
+  EXPECT_TRUE(overlaps(point, point));
+  EXPECT_FALSE(overlaps(rod, point));
+  EXPECT_FALSE(overlaps(plate, Aabb<S>{{std::numeric_limits<S>::min(), 0, 0}, {0, 8, 8}}));
+  EXPECT_EQ(contact(plate, plate)->penetration, S(0));
+  EXPECT_EQ(contact(plate, plate)->normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(contact(plate, rod)->penetration, S(8));  // -8, 8, 8 on the three axes: y and z part by 8 as well
+  EXPECT_EQ(separation(point, point).distance, S(0));
+}
+
+TYPED_TEST(AabbAabb, validity) {
+  using S = TypeParam;
+  EXPECT_TRUE(valid(this->box));
+  EXPECT_TRUE(valid(Aabb<S>{{0, 0, 0}, {0, 0, 0}}));
+  EXPECT_FALSE(valid(Aabb<S>{{0, 0, 0}, {1, -1, 1}}));
+  for (const S& bad : {nan<S>(), infinity<S>(), S(-infinity<S>())}) {
+    EXPECT_FALSE(valid(Aabb<S>{{0, 0, bad}, {1, 1, 1}}));
+    EXPECT_FALSE(valid(Aabb<S>{{0, 0, 0}, {1, bad, 1}}));
+  }
+}
+
+TYPED_TEST(AabbAabb, nan_is_no_contact) {
+  using S = TypeParam;
+  for (const Aabb<S>& bad : {Aabb<S>{{0, nan<S>(), 0}, {1, 1, 1}}, Aabb<S>{{0, 0, 0}, {1, 1, nan<S>()}}}) {
+    EXPECT_FALSE(overlaps(this->box, bad));
+    EXPECT_FALSE(overlaps(bad, this->box));
+    EXPECT_FALSE(contact(bad, this->box).has_value());
+    EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, bad).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- A box and a ball at one instant, by hand.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class AabbSphere : public ::testing::Test {
+ protected:
+  const Aabb<S> box{{0, 0, 0}, {1, 2, 3}};
+
+  /// The contact of the box with a ball, and the same the other way round, flipped back.
+  Contact<S> both_ways(const Sphere<S>& ball) {
+    const auto there = contact(box, ball);
+    auto back = contact(ball, box);
+    EXPECT_TRUE(there.has_value() && back.has_value());
+    if (!there || !back) return {};
+    EXPECT_EQ(there->normal, Vec3<S>(-back->normal));
+    EXPECT_EQ(there->penetration, back->penetration);
+    EXPECT_EQ(there->local_a, back->local_b);
+    EXPECT_EQ(there->local_b, back->local_a);
+    EXPECT_EQ(there->local_a, Vec3<S>(0, 0, 0));  // an axis-aligned box's contact is at its center
+    return *there;
+  }
+};
+TYPED_TEST_SUITE(AabbSphere, Scalars, ScalarNames);
+
+TYPED_TEST(AabbSphere, face_edge_and_corner_touch) {
+  using S = TypeParam;
+  EXPECT_TRUE(overlaps(this->box, Sphere<S>{{2, 0, 0}, 1}));
+  EXPECT_FALSE(overlaps(this->box, Sphere<S>{{next_up(S(2)), 0, 0}, 1}));
+  EXPECT_TRUE(overlaps(this->box, Sphere<S>{{4, 6, 0}, 5}));
+  EXPECT_FALSE(overlaps(this->box, Sphere<S>{{4, 6, 0}, next_down(S(5))}));
+  EXPECT_TRUE(overlaps(this->box, Sphere<S>{{-2, -4, -5}, 3}));  // 1, 2, 2 from the corner
+  EXPECT_FALSE(overlaps(this->box, Sphere<S>{{-2, -4, -5}, next_down(S(3))}));
+  EXPECT_TRUE(overlaps(Sphere<S>{{-2, -4, -5}, 3}, this->box));
+}
+
+TYPED_TEST(AabbSphere, contact_with_a_face) {
+  using S = TypeParam;
+  const Contact<S> found = this->both_ways({{0, -2.5, 0}, 1});
+  EXPECT_EQ(found.normal, Vec3<S>(0, -1, 0));
+  EXPECT_EQ(found.penetration, S(0.5));
+  EXPECT_EQ(found.local_b, Vec3<S>(0, 1, 0));
+}
+
+TYPED_TEST(AabbSphere, contact_with_an_edge) {
+  using S = TypeParam;
+  const Contact<S> found = this->both_ways({{4, 6, 0}, 5.5});
+  EXPECT_EQ(found.normal, Vec3<S>(S(3) / S(5), S(4) / S(5), 0));
+  EXPECT_EQ(found.penetration, S(0.5));
+}
+
+TYPED_TEST(AabbSphere, a_center_inside_leaves_through_the_nearest_face) {
+  using S = TypeParam;
+  const Contact<S> found = this->both_ways({{0.25, 0, -2.75}, 0.5});
+  EXPECT_EQ(found.normal, Vec3<S>(0, 0, -1));
+  EXPECT_EQ(found.penetration, S(0.75));  // radius and depth
+  EXPECT_EQ(found.local_b, Vec3<S>(0, 0, 0.5));
+  EXPECT_EQ(separation(this->box, Sphere<S>{{0.25, 0, -2.75}, 0.5}).distance, S(-0.75));
+}
+
+TYPED_TEST(AabbSphere, ties_leave_by_the_lowest_axis_on_its_positive_side) {
+  using S = TypeParam;
+  EXPECT_EQ(this->both_ways({{0, 0, 0}, 0.5}).normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(this->both_ways({{0, 0, 0}, 0.5}).penetration, S(1.5));
+  EXPECT_EQ(this->both_ways({{0.5, -1.5, 2.5}, 0.5}).normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(this->both_ways({{-0.5, -1.5, 2.5}, 0.5}).normal, Vec3<S>(-1, 0, 0));
+}
+
+TYPED_TEST(AabbSphere, a_center_on_the_surface) {
+  using S = TypeParam;
+  EXPECT_EQ(this->both_ways({{1, 0, 0}, 0.5}).normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(this->both_ways({{1, 0, 0}, 0.5}).penetration, S(0.5));
+  EXPECT_EQ(this->both_ways({{0, 2, 3}, 0.5}).normal, Vec3<S>(0, 1, 0));
+  EXPECT_EQ(this->both_ways({{1, 2, 3}, 0}).penetration, S(0));  // a point on a corner
+}
+
+TYPED_TEST(AabbSphere, plates_and_points) {
+  using S = TypeParam;
+  const Aabb<S> plate{{0, 0, 0}, {0, 8, 8}}, point{{0, 0, 0}, {0, 0, 0}};
+  EXPECT_TRUE(overlaps(plate, Sphere<S>{{0.25, 0, 0}, 0.25}));
+  EXPECT_FALSE(overlaps(plate, Sphere<S>{{0.25, 0, 0}, next_down(S(0.25))}));
+  const auto on_plate = contact(plate, Sphere<S>{{0, 1, 1}, 0.25});
+  ASSERT_TRUE(on_plate.has_value());
+  EXPECT_EQ(on_plate->normal, Vec3<S>(1, 0, 0));
+  EXPECT_EQ(on_plate->penetration, S(0.25));
+  EXPECT_TRUE(overlaps(point, Sphere<S>{{0, 0, 0}, 0}));
+  EXPECT_FALSE(overlaps(point, Sphere<S>{{0, std::numeric_limits<S>::min(), 0}, 0}));
+  EXPECT_EQ(contact(point, Sphere<S>{{0, 0, 0}, 2})->penetration, S(2));
+}
+
+TYPED_TEST(AabbSphere, separation_gives_a_point_on_each) {
+  using S = TypeParam;
+  const Separation<S> gap = separation(this->box, Sphere<S>{{0.5, 7, 0}, 1});
+  EXPECT_EQ(gap.distance, S(4));
+  EXPECT_EQ(gap.point_a, Vec3<S>(0.5, 2, 0));
+  EXPECT_EQ(gap.point_b, Vec3<S>(0.5, 6, 0));
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- Which axes an oriented box may have.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class ObbAxes : public ::testing::Test {
+ protected:
+  /// A box with one number of its axes off by so much.
+  static Obb<S> off_by(int row, int column, const S& off) {
+    Obb<S> box{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity()};
+    box.axes(row, column) += off;
+    return box;
+  }
+};
+TYPED_TEST_SUITE(ObbAxes, Scalars, ScalarNames);
+
+TYPED_TEST(ObbAxes, are_orthonormal_to_more_than_half_the_digits) {
+  using S = TypeParam;
+  const bool is_float = std::is_same_v<S, float>;
+  const S rounding = power<S>(is_float ? -15 : -32),
+          beyond = power<S>(is_float ? -12 : -29);  // a unit column's square is off by twice that
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      EXPECT_TRUE(valid(this->off_by(row, column, rounding)));
+      EXPECT_FALSE(valid(this->off_by(row, column, beyond)));
+      for (const S& bad : {nan<S>(), infinity<S>(), S(-3), std::numeric_limits<S>::max()}) {
+        EXPECT_FALSE(valid(this->off_by(row, column, bad))) << row << column << bad;
+      }
+    }
+  }
+  for (const S& factor : {S(0), S(0.5), S(2)}) {
+    EXPECT_FALSE(valid(Obb<S>{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity() * factor})) << factor;
+  }
+}
+
+TYPED_TEST(ObbAxes, that_mirror_describe_the_same_box) {
+  using S = TypeParam;
+  const Obb<S> box{{0, 0, 0}, {1, 2, 3}, Mat3<S>::Identity()};
+  Obb<S> mirrored = box;
+  mirrored.axes.col(1) *= S(-1);
+  EXPECT_TRUE(valid(mirrored));
+  const Obb<S> other{{3, 3, 1}, {1, 2, 1}, Mat3<S>{{S(3) / 5, S(-4) / 5, 0}, {S(4) / 5, S(3) / 5, 0}, {0, 0, 1}}};
+  EXPECT_EQ(separation(mirrored, other).distance, separation(box, other).distance);
+  EXPECT_EQ(separation(mirrored, other).normal, separation(box, other).normal);
+  EXPECT_EQ(raycast(Ray<S>{{-4, 1, 2}, {1, 0, 0}}, mirrored)->t, S(3));
+}
+
+TYPED_TEST(ObbAxes, that_lean_make_no_box) {  // nor does a NaN in one of them
+  using S = TypeParam;
+  const Sphere<S> ball{{0, 0, 0}, 1};
+  for (const S& bad : {S(0.5), nan<S>()}) {
+    const Obb<S> box = this->off_by(0, 1, bad);
+    EXPECT_FALSE(overlaps(box, ball));
+    EXPECT_FALSE(contact(ball, box));
+    EXPECT_NE(separation(box, box).distance, separation(box, box).distance);
+    EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, box));
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::testing

@@ -1,0 +1,247 @@
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/experiments/check/check.hpp>
+#include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/svg.hpp>
+
+#include "support/program.hpp"
+
+namespace thinwall {
+
+namespace {
+
+Figure two_panels() {
+  const double gap = std::numeric_limits<double>::quiet_NaN();
+  const Series theory{
+      .label = "theory", .mark = Mark::line, .x = {1, 10, 100}, .y = {0, gap, 1}, .lower = {}, .upper = {}};
+  const Series points{
+      .label = "it's_@{a}", .mark = Mark::points, .x = {1, 10}, .y = {0, 0.5}, .lower = {0, 0.4}, .upper = {0.1, 0.6}};
+  Series residuals = points;
+  residuals.lower.clear();
+  residuals.upper.clear();
+  return {.name = "probability",
+          .title = "Seen",
+          .caption = "Meant.",
+          .panels = {{"x [1]", "p [1]", true, false, 1, {theory, points}},
+                     {"x [1]", "r [1]", true, false, 0.4, {residuals}}}};
+}
+
+bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null") == 0; }
+
+TEST(Plot, is_drawn_the_same_every_time_and_again_by_a_reader) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "probability.gp", plot_script(two_panels()));
+  write_text(folder / "probability.dat", plot_data(two_panels()));
+  ASSERT_EQ(draw(folder.path(), "probability"), "");
+  const std::string first = read_text(folder / "probability.svg");
+  ASSERT_EQ(std::system(("cd " + folder.path().string() + " && gnuplot probability.gp").c_str()), 0);
+  EXPECT_EQ(read_text(folder / "probability.svg"), first);
+  for (const char* text : {"Seen", "x [1]", "p [1]", "r [1]", "it&#39;s_@{a}", "it's_@{a}"}) {
+    if (first.find(text) != std::string::npos) continue;
+    EXPECT_STREQ(text, "it&#39;s_@{a}") << "not in the figure";  // either spelling of the quote is right
+  }
+}
+
+/// A name is the user's, and stands in the script, the legend, at the tics and as the title.
+TEST(Plot, no_name_breaks_a_figure) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  for (const std::string name :
+       {"'",    "''",     "'a",       "a''b",         "it's",         "\"",   "a\"b",  "'\"'\"", "a\\",
+        "\\'",  "\\047'", "'`date`'", "'@small'",     "a{b}_c^d",     "#",    "%g",    "$1",     "a, b; c",
+        "a\nb", "]]>",    "']]>]]>'", "<b>&amp;</b>", "\xef\xbf\xbe", "\xff", "\u00b5"}) {
+    Figure figure = two_panels();
+    figure.title = figure.panels[0].series[0].label = name;
+    figure.panels[0].y_tics = {{0, name}, {1, "one"}};
+    const TemporaryFolder folder;
+    write_text(folder / "probability.gp", plot_script(figure));
+    write_text(folder / "probability.dat", plot_data(figure));
+    ASSERT_EQ(draw(folder.path(), "probability"), "") << name;
+    const std::string svg = read_text(folder / "probability.svg");
+    EXPECT_EQ(xml_fault(svg), "") << name;
+    std::string shown = one_line(name);
+    for (auto at = shown.find("]]>"); at != std::string::npos; at = shown.find("]]>")) shown.insert(at + 2, " ");
+    EXPECT_NE(html_unescaped(svg).find(">" + shown + "<"), std::string::npos) << name;
+    EXPECT_EQ(title_of_script(plot_script(figure)), shown) << "what a check looks for";
+  }
+}
+
+TEST(Plot, says_what_gnuplot_minds) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "broken.gp", "set nonsense\n");
+  const std::string trouble = draw(folder.path(), "broken");
+  EXPECT_TRUE(trouble.starts_with("gnuplot ended with 1: ")) << trouble;
+  EXPECT_EQ(trouble.find('\n'), std::string::npos);
+}
+
+TEST(Plot, data_are_a_block_a_series) {
+  EXPECT_EQ(plot_data(two_panels()),
+            "# panel 1, theory: x y\n1 0\n10 NaN\n100 1\n\n\n"
+            "# panel 1, it's_@{a}: x y lower upper\n1 0 0 0.1\n10 0.5 0.4 0.6\n\n\n"
+            "# panel 2, it's_@{a}: x y\n1 0\n10 0.5\n\n\n");
+}
+
+TEST(Plot, bars_may_lie_along_both_axes) {
+  Figure figure = two_panels();
+  Series& points = figure.panels[0].series[1];
+  points.x_lower = {0.5, 9};
+  points.x_upper = {1, 200};
+  EXPECT_NE(plot_data(figure).find("x y lower upper x_lower x_upper\n1 0 0 0.1 0.5 1\n10 0.5 0.4 0.6 9 200\n"),
+            std::string::npos);
+  EXPECT_NE(plot_script(figure).find("using 5:2:($6-$5):(0) with vectors"), std::string::npos);
+  points.x_upper.pop_back();
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+}
+
+TEST(Plot, cells_stand_between_names) {
+  Figure figure;
+  figure.name = "heat";
+  Series cells{.label = "much", .mark = Mark::cells, .x = {1, 2}, .y = {1, 1}, .lower = {}, .upper = {}};
+  cells.color = "#123456";
+  Panel panel{"x", "y", false, false, 0.5, {cells}};
+  panel.x_tics = {{1, "ten_thousand"}, {2, "more"}};
+  panel.y_tics = {{1, "a rather long name of a row"}};
+  panel.x_groups = {{1.5, "group"}};
+  figure.panels = {panel};
+  const std::string script = plot_script(figure);
+  EXPECT_NE(script.find("linecolor rgb '#123456'"), std::string::npos);
+  EXPECT_NE(script.find("with boxxyerror"), std::string::npos);
+  EXPECT_NE(script.find("set xrange [0.4:2.6]"), std::string::npos) << script;
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "heat.gp", script);
+  write_text(folder / "heat.dat", plot_data(figure));
+  ASSERT_EQ(draw(folder.path(), "heat"), "");
+  const std::string svg = read_text(folder / "heat.svg");
+  for (const char* text : {"ten_thousand", "a rather long name of a row", "group", "much"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+}
+
+TEST(Plot, is_drawn_in_every_format_from_one_script) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const TemporaryFolder folder;
+  write_text(folder / "probability.gp", plot_script(two_panels()));
+  write_text(folder / "probability.dat", plot_data(two_panels()));
+  for (const char* format : {"svg", "pdf", "tex"}) {
+    ASSERT_EQ(draw(folder.path(), "probability", format), "") << format;
+    for (const std::string& file : drawn_files("probability", format))
+      EXPECT_FALSE(read_text(folder / file).empty()) << file;
+  }
+  EXPECT_NE(read_text(folder / "probability-latex.tex").find("it's\\_@\\{a\\}"), std::string::npos)
+      << "as LaTeX wants it";
+  EXPECT_NE(read_text(folder / "probability.svg").find("_@{a}"), std::string::npos) << "as it is";
+}
+
+TEST(Plot, refuses_what_cannot_be_drawn) {
+  Figure figure = two_panels();
+  figure.name = "../up";
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+  figure = two_panels();
+  figure.panels[0].series[0].y.pop_back();
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+  figure.panels.clear();
+  EXPECT_THROW(plot_script(figure), std::logic_error);
+}
+
+TEST(PlotStyle, is_one_look_a_label) {
+  Figure figure = two_panels();
+  for (const char* label : {"a", "b", "c", "d"}) {
+    figure.panels[0].series.push_back(
+        {.label = label, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}});
+  }
+  const auto styles = series_styles(figure);
+  ASSERT_EQ(styles.size(), 6u);
+  EXPECT_EQ(styles[0].color, "#000000") << "theory is black";
+  std::set<std::string> colors;
+  std::set<int> points;
+  for (const SeriesStyle& style : styles) {
+    colors.insert(style.color);
+    if (style.has_points) points.insert(style.point_type);
+  }
+  EXPECT_EQ(colors.size(), 6u);
+  EXPECT_EQ(points.size(), 5u) << "told apart without color too";
+}
+
+TEST(PlotAxis, shows_every_value_and_skips_what_it_cannot_show) {
+  const std::vector<double> values = {0, 1, std::nan(""), 100};
+  const DrawnAxis linear = axis_around(values, false);
+  EXPECT_LT(linear.lower, 0);
+  EXPECT_GT(linear.upper, 100);
+  const DrawnAxis log = axis_around(values, true);
+  EXPECT_LT(log.lower, 1);
+  EXPECT_GT(log.lower, 0.5);
+  EXPECT_GT(log.upper, 100);
+  EXPECT_LT(axis_around(std::vector<double>{5}, false).lower, 5);
+  const std::vector<double> subnormal = {0, 5e-324};
+  EXPECT_EQ(axis_around(subnormal, false).upper, 0.5);
+  EXPECT_EQ(axis_around(subnormal, true).lower, axis_around(std::vector<double>{}, true).lower);
+  EXPECT_LT(axis_around(std::vector<double>{}, true).lower, axis_around(std::vector<double>{}, true).upper);
+}
+
+TEST(PlotAxis, has_round_tics) {
+  EXPECT_EQ(tics({false, -0.04, 1.04}, 360, 44), "0.2");
+  EXPECT_EQ(tics({true, 0.04, 1000}, 640, 80), "1e-2, 1e1") << "from a power of ten on";
+  EXPECT_EQ(tics({true, 1e-12, 1}, 640, 80), "1e-12, 1e2");
+  EXPECT_EQ(tics({true, 9, 60}, 360, 44), "(10, 20, 50)");
+}
+
+TEST(InlineSvg, has_ids_of_its_own) {
+  const std::string svg =
+      "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\"><title>x</title><path id='p1'/>"
+      "<use xlink:href='#p1'/><g id=\"q\" filter=\"url(#q)\"/></svg>";
+  EXPECT_EQ(inline_svg(svg, "fig", "A & B"),
+            "<svg role=\"img\" aria-label=\"A &amp; B\" viewBox=\"0 0 1 1\"><title>A &amp; B</title><path id='fig_p1'/>"
+            "<use xlink:href='#fig_p1'/><g id=\"fig_q\" filter=\"url(#fig_q)\"/></svg>");
+}
+
+TEST(Xml, takes_what_every_reader_takes) {
+  for (
+      const char* good : {
+          "<a/>",
+          "<?xml version=\"1.0\"?>\n<!DOCTYPE svg>\n<!-- c -->\n<svg a='1' b = \"&lt;&#39;&#x1F;'\"><x:g-1 /></svg >\n",
+          "<a>it's > \"b\" &amp; ]] ]&gt; \u00b5<![CDATA[<&]]></a>",
+      }) {
+    EXPECT_EQ(xml_fault(good), "") << good;
+  }
+}
+
+TEST(Xml, names_the_line_and_what_is_wrong) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "there is no element"},
+      {"<a>\n<b>\n</a>", "line 3: </a> ends nothing"},
+      {"<a>", "<a> has no end"},
+      {"<a/><b/>", "a second element"},
+      {"<a/>text", "text outside of the one element"},
+      {"<a>\n]]></a>", "line 2: ]]> in text"},
+      {"<a>b & c</a>", "& without an entity"},
+      {"<a>&nbsp;</a>", "& without an entity"},
+      {"<a>&#x;</a>", "& without an entity"},
+      {"<a>&lt</a>", "& without an entity"},
+      {"<a b='1' b='2'/>", "b stands twice"},
+      {"<a b='1'c='2'/>", "a blank is missing in <a>"},
+      {"<a b=1/>", "\" is missing"},
+      {"<a b='<'/>", "< in an attribute"},
+      {"<a b/>", "= is missing"},
+      {"<a><1/></a>", "a name is missing"},
+      {"<a><!-- -- --></a>", "> is missing"},
+      {"<a><![CDATA[</a>", "]]> is missing"},
+      {"<a>\xef\xbf\xbe</a>", "no letter: \\xef"},
+      {"<a>\x1b</a>", "no letter: \\x1b"},
+      {"<a>\xff</a>", "no letter: \\xff"},
+  };
+  for (const auto& [text, fault] : cases) {
+    EXPECT_NE(xml_fault(text).find(fault), std::string::npos) << text << "\n" << xml_fault(text);
+  }
+}
+
+}  // namespace
+
+}  // namespace thinwall

@@ -1,0 +1,430 @@
+/// What a run does with what it finds in its folder: go on, answer at once, start over, or refuse.
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/experiments/lab/comparison.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
+
+#include "support/toy.hpp"
+
+namespace thinwall {
+
+namespace {
+
+using ResultFolderTest = ToyProgram;
+
+TEST_F(ResultFolderTest, goes_on_after_an_interruption_and_ends_with_the_same_bytes) {
+  ASSERT_EQ(run({"--threads", "1"}).status, 0);
+  const auto whole = files_in(out);
+  out = folder / "interrupted";
+  ToyControl::computed = 0;
+  ToyControl::interrupt_after = 8;
+  const Reply reply = run({"--threads", "1"});
+  EXPECT_EQ(reply.status, 130);
+  EXPECT_EQ(reply.out, "");
+  EXPECT_NE(reply.err.find("to continue:\nthinwall run toy --out " + out + " --threads 1\n"), std::string::npos)
+      << reply.err;
+  EXPECT_EQ(files_in(out).size(), 1u) << "the journal alone";
+  const Reply again = run({"--threads", "1"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.err.find("8 of 20 units were read from the journal\n"), std::string::npos) << again.err;
+  EXPECT_EQ(ToyControl::computed, 20);
+  EXPECT_EQ(read_text(out + "/data/cells.csv"), whole.at("data/cells.csv"));
+  EXPECT_EQ(read_text(out + "/datapackage.json"), whole.at("datapackage.json"));
+  EXPECT_EQ(manifest().at("resumed_units"), 8);
+}
+
+TEST_F(ResultFolderTest, keeps_what_was_finished_when_a_unit_fails) {
+  ToyControl::fail_at = 5;
+  const Reply reply = run({"--threads", "1"});
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_NE(reply.err.find("failed: unit 'cell 4' failed: no luck\n"), std::string::npos) << reply.err;
+  ToyControl::fail_at = 0;
+  ToyControl::computed = 0;
+  EXPECT_EQ(run({"--threads", "1"}).status, 0);
+  EXPECT_LE(ToyControl::computed, 19);
+}
+
+TEST_F(ResultFolderTest, computes_a_damaged_row_again_and_says_so) {
+  ToyControl::interrupt_after = 8;
+  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  std::string journal = read_text(out + "/journal.tsv");
+  journal[journal.find("cell 3\t") + 8] ^= 1;
+  write_text(out + "/journal.tsv", journal);
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_NE(reply.err.find("journal.tsv:5: the row of 'cell 3' is damaged"), std::string::npos) << reply.err;
+  EXPECT_NE(reply.err.find("7 of 20 units were read"), std::string::npos) << reply.err;
+}
+
+TEST_F(ResultFolderTest, answers_at_once_where_the_result_lies_already) {
+  const Reply first = run();
+  const auto files = files_in(out);
+  ToyControl::computed = 0;
+  const Reply second = run({"--threads", "1"});
+  EXPECT_EQ(second.status, 0);
+  EXPECT_EQ(second.out, first.out);
+  EXPECT_EQ(ToyControl::computed, 0);
+  EXPECT_EQ(files_in(out), files);
+}
+
+TEST_F(ResultFolderTest, mends_a_result_that_lost_a_file_but_overwrites_no_change) {
+  ASSERT_EQ(run().status, 0);
+  const std::string cells = read_text(out + "/data/cells.csv");
+  std::filesystem::remove(out + "/data/cells.csv");
+  EXPECT_EQ(run().status, 0);
+  EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
+  write_text(out + "/plots/squares.gp", "# my own\n");
+  std::filesystem::remove(out + "/data/cells.csv");
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 2);
+  EXPECT_EQ(
+      reply.err,
+      "--out " + out + ": plots/squares.gp was changed since the run wrote it; name another folder, or move it away\n");
+  EXPECT_EQ(read_text(out + "/plots/squares.gp"), "# my own\n");
+}
+
+TEST_F(ResultFolderTest, refuses_the_folder_of_another_run) {
+  ASSERT_EQ(run({"--seed", "1"}).status, 0);
+  const auto files = files_in(out);
+  const Reply reply = run({"--seed", "2"});
+  EXPECT_EQ(reply.status, 2);
+  EXPECT_EQ(reply.err,
+            "--out " + out + ": holds another run (seed = 1, not 2); name another folder, or delete this one\n");
+  EXPECT_EQ(files_in(out), files);
+  out = folder / "unfinished";
+  ToyControl::interrupt_after = 3;
+  ASSERT_EQ(run().status, 130);
+  EXPECT_EQ(run({"--trials", "5"}).status, 2);
+}
+
+TEST_F(ResultFolderTest, refuses_a_folder_that_holds_things_of_others) {
+  std::filesystem::create_directories(out + "/data");
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 2);
+  EXPECT_EQ(reply.err, "--out " + out + ": holds 'data', which is not ours; name another folder\n");
+  write_text(out + "/manifest.json", "{}");
+  EXPECT_EQ(run().err,
+            "--out " + out +
+                ": holds a manifest.json that is not ours (manifest.json: key 'thinwall_manifest': missing); "
+                "name another folder\n");
+}
+
+TEST_F(ResultFolderTest, refuses_a_folder_where_another_run_is_at_work) {
+  FolderLock other;
+  std::filesystem::create_directories(out);
+  ASSERT_TRUE(other.take(out));
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 2);
+  EXPECT_EQ(reply.err, "--out " + out + ": another run is at work here; wait for it or name another folder\n");
+}
+
+TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_work) {
+  const RunIdentity theirs{"toy", R"({"cells":20,"experiment":"toy","speed":[1,10],"trials":10})", 0, std::nullopt,
+                           "another"};
+  std::filesystem::create_directories(out);
+  Journal(out + "/journal.tsv", identity_text(theirs)).add("cell 1", {0.1, "777000"});
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_NE(reply.err.find("begun by another build of the program; it is kept as journal.old.tsv"), std::string::npos);
+  EXPECT_EQ(read_text(out + "/data/cells.csv").find("777000"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
+}
+
+TEST_F(ResultFolderTest, clears_what_a_run_left_that_was_killed_while_it_wrote) {
+  ToyControl::interrupt_after = 3;
+  ASSERT_EQ(run().status, 130);
+  const std::string left = out + "/" + temporary_name();
+  std::filesystem::create_directories(left + "/data");
+  write_text(left + "/data/half.csv", "half");
+  write_text(out + "/" + temporary_name(), "half a journal");
+  EXPECT_EQ(run().status, 0);
+  EXPECT_FALSE(std::filesystem::exists(out + "/data/half.csv"));
+  for (const auto& [name, text] : files_in(out)) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(ResultFolderTest, takes_no_row_of_another_seed) {
+  ASSERT_EQ(run().status, 0);
+  const std::string cells = read_text(out + "/data/cells.csv");
+  std::map<std::string, std::string> journals;
+  for (const char* seed : {"0", "99"}) {
+    out = folder / seed;
+    ToyControl::interrupt_after = 8;
+    ASSERT_EQ(run({"--threads", "1", "--seed", seed}).status, 130);
+    journals[seed] = read_text(out + "/journal.tsv");
+  }
+  out = folder / "0";
+  const auto first_row = [](const std::string& text) { return text.find('\n') + 1; };
+  write_text(out + "/journal.tsv",
+             journals["0"].substr(0, first_row(journals["0"])) + journals["99"].substr(first_row(journals["99"])));
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_NE(reply.err.find("journal.tsv:2: the row of 'cell 0' is damaged, or of another run"), std::string::npos)
+      << reply.err;
+  EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
+}
+
+// ---- A manifest from anywhere: whatever it holds, every command that reads it answers in a line.
+
+struct ManifestTest : ToyProgram {
+  std::string good;
+
+  void SetUp() override {
+    ASSERT_EQ(run({"--seed", "3", "--trials", "7"}).status, 0);
+    good = read_text(out + "/manifest.json");
+  }
+
+  /// Every command that reads the manifest, which says `text`, names `fault` in a line.
+  void expect_fault(const std::string& text, const std::string& fault) const {
+    SCOPED_TRACE(fault);
+    write_text(out + "/manifest.json", text);
+    for (const char* command : {"report", "cite", "reproduce"}) {
+      const Reply reply = call({command, out});
+      EXPECT_EQ(reply.status, 2) << command;
+      EXPECT_EQ(reply.err, out + "/manifest.json: " + fault + "\n") << command;
+    }
+    EXPECT_EQ(run().err, "--out " + out + ": holds a manifest.json that is not ours (manifest.json: " + fault +
+                             "); name another folder\n");
+    const Reply check = call({"report", out, "--check"});
+    EXPECT_EQ(check.status, 1);
+    EXPECT_TRUE(check.out.starts_with("manifest.json: " + fault + "\n")) << check.out;
+    write_text(out + "/manifest.json", good);
+  }
+
+  /// The same, with `value` where `pointer` leads.
+  void expect_fault(const std::string& pointer, const nlohmann::json& value, const std::string& fault) const {
+    nlohmann::json json = nlohmann::json::parse(good);
+    json[nlohmann::json::json_pointer(pointer)] = value;
+    expect_fault(json.dump(), fault);
+  }
+};
+
+TEST_F(ManifestTest, of_another_type_or_out_of_range_is_named_by_its_key) {
+  const std::string trials = " is not allowed; a whole number from 1 to 9223372036854775807";
+  expect_fault("/trials", 0, "key 'trials': 0" + trials);
+  expect_fault("/trials", -5, "key 'trials': -5" + trials);
+  expect_fault("/trials", 3.5, "key 'trials': 3.5" + trials);
+  expect_fault("/trials", 0x1p70, "key 'trials': 1.1805916207174113e+21" + trials);
+  expect_fault("/trials", "7", "key 'trials': \"7\"" + trials);
+  expect_fault("/seed", -1, "key 'seed': -1 is not allowed; a whole number from 0 to 18446744073709551615");
+  const std::string toml = " is not allowed; an object of what TOML can hold: no null, no whole number above 2^63 - 1";
+  expect_fault("/config", nlohmann::json::array(), "key 'config': []" + toml);
+  expect_fault("/config", {{"cells", nullptr}}, "key 'config': {\"cells\":null}" + toml);
+  expect_fault("/experiment", "a\x1b{}", "key 'experiment': \"a\\u001b{}\" is not allowed; a name of a-z, 0-9 and _");
+  expect_fault("/program/commit", "a}, note={b",
+               "key 'program.commit': \"a}, note={b\" is not allowed; hexadecimal digits, or \"unknown\"");
+  expect_fault("/run_id", "%", "key 'run_id': \"%\" is not allowed; hexadecimal digits");
+  expect_fault("/finished", "2031", "key 'finished': \"2031\" is not allowed; a time as 2031-02-03T04:05:06Z");
+  expect_fault("/self_test_passed", 1, "key 'self_test_passed': 1 is not allowed; true or false");
+  expect_fault("/files", {{"a", 1}}, "key 'files': {\"a\":1} is not allowed; an object of texts");
+  expect_fault("/machine", nlohmann::json(), "key 'machine': null is not allowed; an object");
+  expect_fault("/thinwall_manifest", 2, "key 'thinwall_manifest': 2 is not allowed; a whole number from 1 to 1");
+}
+
+TEST_F(ManifestTest, nested_deeper_than_anything_could_print_is_refused) {
+  const std::string deep = std::string(20000, '[') + std::string(20000, ']');
+  std::string text = good;
+  text.replace(text.find("\"cells\": 20"), 11, "\"cells\": " + deep);
+  const std::string fault = "is not one JSON object, nested at most 64 deep";
+  expect_fault(text, fault);
+  expect_fault(deep, fault);
+  expect_fault(good.substr(0, good.size() / 2), fault);
+  write_text(out + "/datapackage.json", deep);
+  EXPECT_EQ(call({"report", out, "--check"}).status, 1);
+  const std::string shard = folder / "shard";
+  ASSERT_EQ(call({"run", "toy", "--shard", "1/1", "--out", shard}).status, 0);
+  text = read_text(shard + "/shard.json");
+  text.replace(text.find("\"cells\": 20"), 11, "\"cells\": " + deep);
+  write_text(shard + "/shard.json", text);
+  EXPECT_NE(call({"merge", shard}).err.find("its shard.json is damaged, or not ours"), std::string::npos);
+}
+
+// ---- What is not ours, in a folder that a command is given, stays as it is.
+
+namespace fs = std::filesystem;
+
+struct ForeignFiles : ToyProgram {
+  void expect_refusal(const Reply& reply, const std::map<std::string, std::string>& before) const {
+    EXPECT_EQ(reply.status, 2) << reply.out << reply.err;
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+    EXPECT_EQ(files_in(folder.path()), before);
+  }
+};
+
+TEST_F(ForeignFiles, under_our_names_are_refused_and_kept) {
+  for (const char* name : {"journal.tsv", "journal.old.tsv", "manifest.json", "manifest.old.json", "report.html"}) {
+    SCOPED_TRACE(name);
+    fs::create_directories(out + "/.staging");
+    write_text(out + "/" + name, "mine\n");
+    write_text(out + "/.staging/also", "mine\n");
+    expect_refusal(run(), files_in(folder.path()));
+    fs::remove_all(out);
+    fs::create_directories(out + "/" + name + "/folder");
+    expect_refusal(run(), files_in(folder.path()));
+    fs::remove_all(out);
+  }
+}
+
+TEST_F(ForeignFiles, that_a_manifest_names_outside_its_folder_are_no_files_of_a_result) {
+  ASSERT_EQ(run().status, 0);
+  write_text(folder / "mine", "mine\n");
+  for (const std::string& outside : {std::string("../mine"), folder / "mine", std::string("data/../../mine")}) {
+    nlohmann::json json = manifest();
+    json["files"][outside] = "0";
+    fs::remove(out + "/manifest.json");
+    write_text(out + "/manifest.old.json", json.dump());
+    expect_refusal(run(), files_in(folder.path()));
+    fs::rename(out + "/manifest.old.json", out + "/manifest.json");
+    expect_refusal(call({"reproduce", out}), files_in(folder.path()));
+    json["files"].erase(outside);
+    write_text(out + "/manifest.json", json.dump());
+  }
+}
+
+TEST_F(ForeignFiles, in_the_way_of_a_rerun_are_not_removed_with_it) {
+  ASSERT_EQ(run().status, 0);
+  fs::create_directories(out + ".again");
+  write_text(out + ".again/notes.txt", "mine\n");
+  expect_refusal(call({"reproduce", out}), files_in(folder.path()));
+  expect_refusal(call({"reproduce", out, "--out", out}), files_in(folder.path()));
+  expect_refusal(call({"reproduce", out, "--out", out + "/deeper"}), files_in(folder.path()));
+}
+
+struct MineBesideOurs : ForeignFiles {
+  const std::vector<std::string> names = {
+      ".staging/notes",         ".drawing/notes", "journal.tsv.new", "journal.rank-my",
+      "journal.rank-notes.tsv", "notes",          "data/notes",      ".thinwall-0123456789/notes",
+      "plots/mine.gp",          "plots/mine.pdf"};
+
+  void put() const {
+    for (const std::string& name : names) {
+      fs::create_directories(fs::path(out + "/" + name).parent_path());
+      write_text(out + "/" + name, "mine\n");
+    }
+  }
+  void expect_kept(const std::string& where) const {
+    for (const std::string& name : names) EXPECT_EQ(read_text(where + "/" + name), "mine\n") << name;
+  }
+};
+
+TEST_F(MineBesideOurs, stay_whatever_a_run_does) {
+  ASSERT_EQ(run().status, 0);
+  put();
+  EXPECT_NE(run().err.find("complete already"), std::string::npos);
+  expect_kept(out);
+  fs::remove(out + "/data/cells.csv");
+  EXPECT_EQ(run().status, 0) << "it is replaced";
+  EXPECT_TRUE(fs::exists(out + "/data/cells.csv"));
+  expect_kept(out);
+  EXPECT_EQ(call({"report", out, "--figures", "pdf"}).err.find("mine"), std::string::npos);
+  expect_kept(out);
+}
+
+TEST_F(MineBesideOurs, stay_in_a_rerun_that_went_on) {
+  ASSERT_EQ(run().status, 0);
+  ToyControl::interrupt_after = 8;
+  ASSERT_EQ(call({"reproduce", out, "--threads", "1"}).status, 130);
+  write_text(out + ".again/notes.txt", "mine\n");
+  const Reply reply = call({"reproduce", out});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_NE(reply.err.find(out + ".again: stays, for it holds what the rerun did not write\n"), std::string::npos);
+  EXPECT_EQ(files_in(out + ".again"), (std::map<std::string, std::string>{{"notes.txt", "mine\n"}}));
+}
+
+TEST_F(ForeignFiles, that_a_run_would_write_over_are_refused_while_it_is_unfinished) {
+  for (const char* name : {"report.html", "trace.jsonl", "data/mine.csv", "journal.rank-1.tsv"}) {
+    ToyControl::interrupt_after = 3;
+    ASSERT_EQ(run({"--threads", "1"}).status, 130);
+    fs::create_directories(fs::path(out + "/" + name).parent_path());
+    write_text(out + "/" + name, "mine\n");
+    expect_refusal(run(), files_in(folder.path()));
+    fs::remove_all(out);
+  }
+}
+
+TEST_F(ForeignFiles, are_not_followed_where_they_are_links) {
+  fs::create_directories(folder / "mine");
+  write_text(folder / "mine/cells.csv", "mine\n");
+  const auto mine = files_in(folder / "mine");
+  fs::create_directories(out);
+  fs::create_directory_symlink(folder / "mine", out + "/data");
+  EXPECT_EQ(run().err, "--out " + out + ": holds 'data', which is not ours; name another folder\n");
+  fs::remove_all(out);
+  ToyControl::interrupt_after = 3;
+  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  fs::create_symlink(folder / "none", out + "/report.html");
+  expect_refusal(run(), files_in(folder.path()));
+  fs::remove(out + "/report.html");
+  fs::rename(out + "/journal.tsv", folder / "journal");
+  fs::create_symlink(folder / "journal", out + "/journal.tsv");
+  expect_refusal(run(), files_in(folder.path()));
+  EXPECT_EQ(files_in(folder / "mine"), mine);
+}
+
+TEST_F(ForeignFiles, are_kept_when_a_complete_result_is_cleared_up) {
+  ASSERT_EQ(run().status, 0);
+  for (const char* name : {"journal.tsv", "journal.old.tsv", "manifest.old.json"})
+    write_text(out + "/" + name, "mine\n");
+  const auto before = files_in(folder.path());
+  EXPECT_EQ(run().status, 0);
+  EXPECT_EQ(files_in(folder.path()), before);
+}
+
+TEST_F(ForeignFiles, do_not_hide_that_a_table_of_times_was_lost) {
+  ASSERT_EQ(run().status, 0);
+  fs::remove(out + "/data/timings.csv");
+  ToyControl::computed = 0;
+  EXPECT_EQ(run().status, 0);
+  EXPECT_GT(ToyControl::computed, 0);
+  EXPECT_TRUE(fs::exists(out + "/data/timings.csv"));
+}
+
+std::string difference(const std::string& file, const std::string& recorded, const std::string& rerun) {
+  const auto found = first_difference(file, recorded, rerun);
+  return found ? to_text(*found) : "none";
+}
+
+TEST(FileDifference, names_row_column_and_both_values_of_a_table) {
+  const std::string a = "name,hits\n\"a, \"\"b\"\"\",1\n\"two\nlines\",2\nc,\n";
+  EXPECT_EQ(difference("t.csv", a, a), "none");
+  EXPECT_EQ(difference("t.csv", a, "name,hits\n\"a, \"\"b\"\"\",1\n\"two\nlines\",3\nd,9\n"),
+            "t.csv: row 2, column 'hits': recorded 2, rerun 3");
+  EXPECT_EQ(difference("t.csv", a, "name,hits\n\"a, \"\"b\"\"\",1\n\"two\nlines\",2\nc,7\n"),
+            "t.csv: row 3, column 'hits': recorded nothing, rerun 7");
+  EXPECT_EQ(difference("t.csv", a, "name,hits\n\"a, \"\"c\"\"\",1\n"),
+            "t.csv: row 1, column 'name': recorded a, \"b\", rerun a, \"c\"");
+}
+
+TEST(FileDifference, tells_missing_rows_and_other_columns) {
+  EXPECT_EQ(difference("t.csv", "x\n1\n2\n", "x\n1\n"), "t.csv: row 2: recorded 2, rerun nothing");
+  EXPECT_EQ(difference("t.csv", "x\n1\n", "x\n1\n2\n"), "t.csv: row 2: recorded nothing, rerun 2");
+  EXPECT_EQ(difference("t.csv", "x,y\n1,2\n", "x\n1\n"), "t.csv: the columns: recorded x,y, rerun x");
+  EXPECT_EQ(difference("t.csv", "", "x\n1\n"), "t.csv: the columns: recorded nothing, rerun x");
+  EXPECT_EQ(difference("t.csv", "x\n1\n", "x\n\"1\"\n"), "t.csv: line 2: recorded 1, rerun \"1\"");
+}
+
+TEST(FileDifference, names_the_line_of_any_other_file_and_shows_where_it_differs) {
+  EXPECT_EQ(difference("a.md", "one\ntwo\n", "one\n2\n"), "a.md: line 2: recorded two, rerun 2");
+  EXPECT_EQ(difference("a.md", "one\n", "one\ntwo\n"), "a.md: line 2: recorded nothing, rerun two");
+  EXPECT_EQ(difference("a.md", "one\n", "one"), "a.md: line 1: recorded the end, rerun another end of the last line");
+  const std::string same(200, '=');
+  EXPECT_EQ(difference("a.md", same + "1", same + "2"),
+            "a.md: line 1: recorded ...====================1, rerun ...====================2");
+}
+
+TEST(FileDifference, forgives_a_citation_its_day_and_its_program) {
+  const std::string a = "@misc{a,\n  note   = {run 5, commit abc},\n  date   = {2026-11-22}\n}\n";
+  EXPECT_EQ(difference("cite.bib", a, "@misc{a,\n  note   = {run 5, commit def},\n  date   = {2027-01-01}\n}\n"),
+            "none");
+  EXPECT_NE(difference("cite.bib", a, "@misc{a,\n  note   = {run 6, commit abc},\n  date   = {2026-11-22}\n}\n"),
+            "none");
+  EXPECT_NE(difference("cite.txt", a, "@misc{a,\n  note   = {run 5, commit def},\n  date   = {2026-11-22}\n}\n"),
+            "none");
+}
+
+}  // namespace
+
+}  // namespace thinwall

@@ -1,0 +1,237 @@
+#include <atomic>
+#include <csignal>
+#include <functional>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/experiments/lab/journal.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
+
+#include "support/program.hpp"
+
+namespace thinwall {
+
+namespace {
+
+struct RunnerTest : testing::Test {
+  TemporaryFolder folder;
+  std::string file = folder / "journal.tsv";
+  std::atomic<int> computed = 0;
+
+  std::vector<Unit> squares(int count) {
+    std::vector<Unit> units;
+    for (int i = 0; i < count; ++i) {
+      units.push_back({"unit " + std::to_string(i), i + 1, [this, i] {
+                         ++computed;
+                         return std::to_string(i * i);
+                       }});
+    }
+    return units;
+  }
+};
+
+TEST_F(RunnerTest, keeps_the_order_of_the_units_for_any_thread_count) {
+  const auto units = squares(200);
+  for (const int threads : {1, 2, 3, 8}) {
+    Journal journal(folder / std::to_string(threads), "the run");
+    const UnitResults results = compute_units(units, journal, {.threads = threads, .stop = {}, .on_progress = {}});
+    EXPECT_TRUE(results.complete);
+    for (std::size_t i = 0; i < units.size(); ++i) EXPECT_EQ(results.results[i], std::to_string(i * i));
+  }
+}
+
+TEST_F(RunnerTest, stops_between_units_and_goes_on_where_it_was) {
+  const auto units = squares(50);
+  std::size_t kept = 0;
+  {
+    Journal journal(file, "the run");
+    const auto stop = [&] { return computed >= 20; };
+    const UnitResults results = compute_units(units, journal, {.threads = 2, .stop = stop, .on_progress = {}});
+    EXPECT_FALSE(results.complete);
+  }
+  kept = static_cast<std::size_t>(computed);
+  EXPECT_GE(kept, 20u);
+  EXPECT_LE(kept, 22u);
+  Journal journal(file, "the run");
+  std::vector<Progress> seen;
+  const UnitResults results = compute_units(
+      units, journal,
+      {.threads = 2, .stop = {}, .on_progress = [&](const Progress& progress) { seen.push_back(progress); }});
+  EXPECT_TRUE(results.complete);
+  EXPECT_EQ(results.resumed, kept);
+  EXPECT_EQ(computed, 50);
+  for (std::size_t i = 0; i < units.size(); ++i) EXPECT_EQ(results.results[i], std::to_string(i * i));
+  ASSERT_EQ(seen.size(), 51 - kept);
+  EXPECT_EQ(seen.front().units_done, kept);
+  EXPECT_EQ(seen.front().trials_done, seen.front().trials_resumed);
+  EXPECT_EQ(seen.back().trials_done, seen.back().trials);
+  EXPECT_EQ(seen.back().trials, 50 * 51 / 2);
+}
+
+TEST_F(RunnerTest, names_a_unit_that_fails_and_keeps_the_others) {
+  auto units = squares(5);
+  units[4].compute = []() -> std::string { throw std::runtime_error("no luck"); };
+  {
+    Journal journal(file, "the run");
+    try {
+      compute_units(units, journal, {.threads = 1, .stop = {}, .on_progress = {}});
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "unit 'unit 4' failed: no luck");
+    }
+  }
+  EXPECT_EQ(Journal(file, "the run").finished().size(), 4u);
+}
+
+TEST_F(RunnerTest, refuses_two_units_of_one_name) {
+  auto units = squares(2);
+  units[1].key = units[0].key;
+  Journal journal(file, "the run");
+  EXPECT_THROW(compute_units(units, journal, {.threads = 1, .stop = {}, .on_progress = {}}), std::logic_error);
+}
+
+TEST(RunIdentity, tells_what_differs) {
+  const RunIdentity ours{"toy", R"({"radius":1,"speed":[1,2]})", 7, std::nullopt, "program"};
+  EXPECT_EQ(identity_difference(identity_text(ours), ours), "");
+  EXPECT_TRUE(same_program(identity_text(ours), ours));
+  auto theirs = ours;
+  theirs.program = "another";
+  EXPECT_EQ(identity_difference(identity_text(theirs), ours), "");
+  EXPECT_FALSE(same_program(identity_text(theirs), ours));
+  theirs.trials = 5;
+  EXPECT_EQ(identity_difference(identity_text(theirs), ours), "trials = 5, not none");
+  theirs.seed = 8;
+  EXPECT_EQ(identity_difference(identity_text(theirs), ours), "seed = 8, not 7");
+  theirs = ours;
+  theirs.config = R"({"radius":1,"speed":[1,3]})";
+  EXPECT_EQ(identity_difference(identity_text(theirs), ours), "speed = [1,3], not [1,2]");
+  theirs.config = R"({"radius":1,"speed":[1,2],"more":1})";
+  EXPECT_EQ(identity_difference(identity_text(theirs), ours), "keys that are unknown here");
+  EXPECT_EQ(identity_difference("garbage", ours), "something that cannot be read");
+}
+
+int computed = 0;  // by this process
+
+std::string compute() {
+  ++computed;
+  return "";
+}
+
+std::string compute_forever() {
+  for (volatile bool forever = true; forever;) continue;
+  return "";
+}
+
+/// Ten units that trials cut, and some that they do not.
+class UnevenRun final : public Run {
+ public:
+  UnevenRun(std::int64_t trials, std::vector<Unit> whole, std::string (*work)() = compute)
+      : trials_(trials), whole_(std::move(whole)), work_(work) {}
+
+  std::vector<Unit> units() const override {
+    std::vector<Unit> units = whole_;
+    for (int i = 0; i < 10; ++i) units.push_back({"cut " + std::to_string(i), trials_, work_});
+    return units;
+  }
+  Outcome finish(const std::vector<std::string>&, const std::vector<double>&) const override { return {}; }
+
+ private:
+  std::int64_t trials_;
+  std::vector<Unit> whole_;
+  std::string (*work_)();
+};
+
+RunEstimate estimate_of(std::int64_t trials, const std::vector<Unit>& whole, double budget) {
+  return estimate(
+      UnevenRun(trials, whole).units(), [&](std::int64_t fewer) { return std::make_unique<UnevenRun>(fewer, whole); },
+      budget);
+}
+
+TEST(Estimate, is_made_from_few_trials_and_by_another_process) {
+  computed = 0;
+  const RunEstimate told = estimate_of(std::int64_t(1) << 60, {{"whole", 3, compute}}, 0.2);
+  EXPECT_EQ(computed, 0);
+  EXPECT_EQ(told.unknown, 0);
+  EXPECT_EQ(told.cut_tried, 10);
+  EXPECT_EQ(told.whole, 1);
+  EXPECT_EQ(told.whole_tried, 1);
+  EXPECT_GT(told.seconds, 0);
+}
+
+TEST(Estimate, ends_where_a_unit_does_not) {
+  const RunEstimate told =
+      estimate_of(100, {{"endless", 3, compute_forever}, {"a", 1, compute}, {"b", 2, compute}}, 0.5);
+  EXPECT_EQ(told.cut_tried, 10);
+  EXPECT_EQ(told.whole, 3);
+  EXPECT_EQ(told.whole_tried, 2);  // those of few trials come first
+  EXPECT_EQ(told.unknown, 1);
+  EXPECT_TRUE(basis_text(told).ends_with(", 2 of 3 units tried whole, 1 unit too long to try")) << basis_text(told);
+}
+
+TEST(Estimate, says_what_it_knows_nothing_of) {
+  const RunEstimate told = estimate_of(100, {{"endless", 3, compute_forever}}, 0.2);
+  EXPECT_EQ(told.unknown, 1);
+  EXPECT_TRUE(basis_text(told).ends_with(", 1 unit too long to try")) << basis_text(told);
+  const auto endless = [](std::int64_t trials) {
+    return std::make_unique<UnevenRun>(trials, std::vector<Unit>(), compute_forever);
+  };
+  EXPECT_EQ(basis_text(estimate(endless(100)->units(), endless, 0.05)), "10 units too long to try");
+}
+
+TEST(Estimate, tries_no_unit_that_says_how_long_it_takes) {
+  const auto tried = []() -> std::string { throw std::logic_error("it was tried"); };
+  const RunEstimate told = estimate_of(1, {{"a", 1, tried, 3}, {"b", 1, tried, 3}}, 0.2);
+  EXPECT_EQ(told.whole_tried, 12);
+  EXPECT_GE(told.seconds, 6);
+}
+
+TEST(Estimate, passes_over_trials_that_are_too_few) {
+  const UnevenRun run(1000, {});
+  const auto again = [](std::int64_t trials) {
+    if (trials < 10) throw UsageError("too few");
+    return std::make_unique<UnevenRun>(trials, std::vector<Unit>());
+  };
+  EXPECT_GE(estimate(run.units(), again, 0.2).trials, 16);
+}
+
+TEST(Estimate, of_a_run_of_one_trial_is_the_run_itself) {
+  const RunEstimate told = estimate_of(1, {}, 0.2);
+  EXPECT_EQ(told.cut_tried, 0);
+  EXPECT_EQ(told.whole_tried, 10);
+  EXPECT_EQ(told.unknown, 0);
+}
+
+using std::chrono::milliseconds;
+
+TEST(StopGuard, ends_what_does_not_heed_a_stop) {
+  watch_for_stop();
+  std::promise<void> ended;
+  const StopGuard guard(milliseconds(10), [&] { ended.set_value(); });
+  std::raise(SIGINT);
+  EXPECT_EQ(ended.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
+}
+
+TEST(StopGuard, leaves_alone_what_ends_in_time_or_is_not_asked_to) {
+  watch_for_stop();
+  bool ended = false;
+  {
+    const StopGuard guard(milliseconds(0), [&] { ended = true; });
+  }
+  EXPECT_FALSE(ended) << "nobody asked";
+  std::raise(SIGTERM);
+  {
+    const StopGuard guard(std::chrono::hours(1), [&] { ended = true; });
+  }
+  EXPECT_FALSE(ended) << "it ended within its hour";
+  watch_for_stop();
+}
+
+}  // namespace
+
+}  // namespace thinwall

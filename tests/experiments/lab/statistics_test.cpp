@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <boost/math/distributions/binomial.hpp>
+
+#include <thinwall/experiments/lab/judge.hpp>
+#include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
+
+namespace thinwall {
+
+namespace {
+
+/// 10 of 100, by hand with z = 1.959963984540054.
+TEST(Wilson, agrees_with_its_formula) {
+  const Interval interval = wilson(10, 100);
+  EXPECT_NEAR(interval.lower, 0.0552291370606751, 1e-14);
+  EXPECT_NEAR(interval.upper, 0.17436566150491345, 1e-14);
+}
+
+/// The ends of the interval are the probabilities for which the count is 1.96 standard errors away.
+TEST(Wilson, ends_are_a_normal_quantile_away) {
+  const Interval interval = wilson(37, 1000);
+  EXPECT_NEAR(standard_residual(37, 1000, interval.lower), 1.959963984540054, 1e-10);
+  EXPECT_NEAR(standard_residual(37, 1000, interval.upper), -1.959963984540054, 1e-10);
+}
+
+TEST(Wilson, is_exact_at_the_ends) {
+  for (const std::int64_t n : {1, 2, 3, 7, 10, 1000, 12345, 200000, 1000000007}) {
+    EXPECT_EQ(wilson(0, n).lower, 0);
+    EXPECT_EQ(wilson(n, n).upper, 1);
+    EXPECT_GT(wilson(0, n).upper, 0);
+    EXPECT_LT(wilson(n, n).lower, 1);
+  }
+}
+
+TEST(ClopperPearson, bounds_what_was_never_seen) {
+  const Interval none = clopper_pearson(0, 200000);
+  EXPECT_EQ(none.lower, 0);
+  EXPECT_NEAR(none.upper, 1.84442e-5, 1e-10);
+  EXPECT_NEAR(none.upper, 1 - std::pow(0.025, 1.0 / 200000), 1e-15);
+  EXPECT_EQ(clopper_pearson(200000, 200000).upper, 1);
+  EXPECT_NEAR(clopper_pearson(200000, 200000).lower, std::pow(0.025, 1.0 / 200000), 1e-12);
+}
+
+/// By definition: at the ends, a count this extreme has probability 2.5 %.
+TEST(ClopperPearson, ends_leave_the_tails_of_the_binomial) {
+  const Interval interval = clopper_pearson(3, 50);
+  using boost::math::binomial;
+  EXPECT_NEAR(1 - cdf(binomial(50, interval.lower), 2), 0.025, 1e-10);
+  EXPECT_NEAR(cdf(binomial(50, interval.upper), 3), 0.025, 1e-10);
+}
+
+/// Summed over all counts, not simulated: Wilson is near .95, Clopper-Pearson never below.
+TEST(Intervals, cover_as_promised) {
+  for (const double p : {0.001, 0.01, 0.1, 0.5}) {
+    const boost::math::binomial counts(2000, p);
+    double wilson_covers = 0, clopper_pearson_covers = 0;
+    for (std::int64_t k = 0; k <= 2000; ++k) {
+      const double weight = pdf(counts, static_cast<double>(k));
+      if (weight < 1e-14) continue;
+      if (wilson(k, 2000).contains(p)) wilson_covers += weight;
+      if (clopper_pearson(k, 2000).contains(p)) clopper_pearson_covers += weight;
+    }
+    EXPECT_NEAR(wilson_covers, 0.95, 0.02) << p;
+    EXPECT_GE(clopper_pearson_covers, 0.95) << p;
+  }
+}
+
+TEST(Ranges, leave_no_more_than_the_tails) {
+  const Interval range = binomial_range(100, 0.95, 0.999);
+  const boost::math::binomial counts(100, 0.95);
+  EXPECT_LE(cdf(counts, range.lower - 1), 0.0005);
+  EXPECT_GT(cdf(counts, range.lower + 1), 0.0005);
+  EXPECT_LE(1 - cdf(counts, range.upper), 0.0005);
+  EXPECT_GT(1 - cdf(counts, range.upper - 2), 0.0005);
+}
+
+/// The sum of two squared standard normals is exponential: its quantile is -2 ln(1 - p).
+TEST(Ranges, chi_square_of_two_is_exponential) {
+  const Interval range = chi_square_range(2, 0.999);
+  EXPECT_NEAR(range.lower, -2 * std::log(1 - 0.0005), 1e-12);
+  EXPECT_NEAR(range.upper, -2 * std::log(0.0005), 1e-10);
+}
+
+TEST(Quantiles, are_values_of_the_list) {
+  const std::vector<double> values = {3, 1, 2, 4};
+  EXPECT_EQ(median(values), 2.5);
+  EXPECT_EQ(median(std::vector<double>{5, 1, 3}), 3);
+  EXPECT_EQ(quantile(values, 0.5), 2);
+  EXPECT_EQ(quantile(values, 0.51), 3);
+  EXPECT_EQ(quantile(values, 1), 4);
+  EXPECT_EQ(quantile(values, 1e-9), 1);
+  EXPECT_TRUE(std::isinf(quantile(std::vector<double>{1, std::numeric_limits<double>::infinity()}, 1)));
+}
+
+/// The median of an exponential variable is ln 2. The percentile bootstrap of 25 values covers it nearly as often as it says.
+TEST(Bootstrap, covers_the_median) {
+  int covered = 0;
+  constexpr int lists = 400;
+  for (std::uint64_t k = 0; k < lists; ++k) {
+    std::vector<double> values;
+    for (std::uint64_t i = 0; i < 25; ++i) values.push_back(-std::log(1 - uniform(random_words({7, k}, i, 0)[0])));
+    const Interval interval = bootstrap_median(values, {8, k});
+    EXPECT_LE(interval.lower, median(values));
+    EXPECT_GE(interval.upper, median(values));
+    covered += interval.contains(std::log(2.0)) ? 1 : 0;
+  }
+  EXPECT_GT(covered, 0.91 * lists);
+  EXPECT_LT(covered, 0.99 * lists);
+}
+
+TEST(StandardResidual, counts_standard_errors) {
+  EXPECT_DOUBLE_EQ(standard_residual(60, 100, 0.5), 2);
+  EXPECT_DOUBLE_EQ(standard_residual(40, 100, 0.5), -2);
+}
+
+/// 200 cells whose true probabilities run from 0.05 to 0.85, each with its own independent shots.
+std::vector<CellCount> simulated(std::uint64_t seed, double (*claimed)(double)) {
+  std::vector<CellCount> cells;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const double truth = 0.05 + 0.004 * static_cast<double>(i);
+    CellCount cell = {"method", "double", 500, 0, claimed(truth)};
+    for (std::uint64_t shot = 0; shot < 500; ++shot)
+      cell.tunneled += uniform(random_words({seed, i}, shot, 0)[0]) < truth;
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+TEST(SelfTest, passes_what_is_true) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto tests = self_test(simulated(seed, [](double truth) { return truth; }));
+    ASSERT_EQ(tests.size(), 1U);
+    EXPECT_EQ(tests[0].judged_cells, 200);
+    EXPECT_TRUE(tests[0].passed()) << "seed " << seed << ": covered " << tests[0].covered << ", chi-square "
+                                   << tests[0].chi_square;
+  }
+}
+
+TEST(SelfTest, fails_a_theory_that_is_five_percent_off) {
+  EXPECT_FALSE(all_passed(self_test(simulated(1, [](double truth) { return 1.05 * truth; }))));
+}
+
+/// Phases spread evenly by mistake give counts that agree too well.
+TEST(SelfTest, fails_counts_that_are_too_good) {
+  auto cells = simulated(1, [](double truth) { return truth; });
+  for (CellCount& cell : cells) cell.tunneled = std::llround(500 * cell.theory);
+  const auto tests = self_test(cells);
+  EXPECT_EQ(tests[0].covered, 200);
+  EXPECT_FALSE(tests[0].passed());
+}
+
+TEST(SelfTest, wants_certain_counts_to_be_exact) {
+  EXPECT_TRUE(all_passed(self_test({{"m", "double", 1000, 0, 0}, {"m", "double", 1000, 1000, 1}})));
+  EXPECT_FALSE(all_passed(self_test({{"m", "double", 1000, 1, 0}})));
+  EXPECT_FALSE(all_passed(self_test({{"m", "double", 1000, 999, 1}})));
+}
+
+TEST(SelfTest, judges_no_cell_with_fewer_than_five_expected) {
+  const auto tests = self_test({{"m", "double", 1000, 40, 0.0049}, {"m", "double", 1000, 0, 0.9951}});
+  EXPECT_EQ(tests[0].other_cells, 2);
+  EXPECT_EQ(tests[0].judged_cells, 0);
+  EXPECT_TRUE(tests[0].passed());
+  EXPECT_TRUE(can_be_judged(1000, 0.005));
+  EXPECT_TRUE(can_be_judged(1000, 0.995));
+}
+
+TEST(SelfTest, keeps_methods_and_scalars_apart) {
+  const auto tests = self_test({{"a", "float", 10, 0, 0}, {"a", "double", 10, 1, 0}, {"b", "float", 10, 0, 0}});
+  ASSERT_EQ(tests.size(), 3U);
+  EXPECT_TRUE(tests[0].passed());
+  EXPECT_FALSE(tests[1].passed());
+  EXPECT_EQ(tests[2].method, "b");
+}
+
+TEST(SelfTest, table_has_a_value_for_every_column) {
+  const Table table = self_test_table(self_test(simulated(1, [](double truth) { return truth; })));
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0].size(), table.columns.size());
+}
+
+/// Known answers of Philox4x64-10, from the file kat_vectors of Random123.
+TEST(Random, knows_the_published_answers) {
+  const r123::Philox4x64 philox;
+  const auto zeros = philox({{0, 0, 0, 0}}, {{0, 0}});
+  EXPECT_EQ(
+      (std::array{zeros[0], zeros[1], zeros[2], zeros[3]}),
+      (std::array<std::uint64_t, 4>{0x16554d9eca36314c, 0xdb20fe9d672d0fdc, 0xd7e772cee186176b, 0x7e68b68aec7ba23b}));
+  constexpr std::uint64_t ones = std::numeric_limits<std::uint64_t>::max();
+  const auto full = philox({{ones, ones, ones, ones}}, {{ones, ones}});
+  EXPECT_EQ(
+      (std::array{full[0], full[1], full[2], full[3]}),
+      (std::array<std::uint64_t, 4>{0x87b092c3013fe90b, 0x438c3c67be8d0224, 0x9cc7d7c69cd777b6, 0xa09caebf594f0ba0}));
+}
+
+TEST(Random, words_are_philox_at_key_and_counter) {
+  EXPECT_EQ(random_words({0, 0}, 0, 0),
+            (RandomWords{0x16554d9eca36314c, 0xdb20fe9d672d0fdc, 0xd7e772cee186176b, 0x7e68b68aec7ba23b}));
+  const auto words = r123::Philox4x64()({{5, 6, 0, 0}}, {{3, 4}});
+  EXPECT_EQ(random_words({3, 4}, 5, 6), (RandomWords{words[0], words[1], words[2], words[3]}));
+}
+
+TEST(Random, seed_stream_trial_and_draw_each_change_every_word) {
+  const RandomWords base = random_words({1, 2}, 3, 4);
+  for (const RandomWords& other :
+       {random_words({2, 2}, 3, 4), random_words({1, 3}, 3, 4), random_words({1, 2}, 4, 4), random_words({1, 2}, 3, 5),
+        random_words({2, 1}, 3, 4), random_words({1, 2}, 4, 3)}) {
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NE(base[i], other[i]);
+  }
+}
+
+TEST(Random, uniform_reaches_zero_but_not_one) {
+  EXPECT_EQ(uniform(0), 0);
+  EXPECT_EQ(uniform(std::numeric_limits<std::uint64_t>::max()), 1 - 0x1p-53);
+  EXPECT_EQ(uniform(std::uint64_t(1) << 63), 0.5);
+}
+
+/// Each word of the block on its own, over 64 bins: the chi-square statistic lies in its central 99.99 %.
+TEST(Random, uniform_is_uniform) {
+  constexpr std::int64_t bins = 64, draws = 128000;
+  const Interval allowed = chi_square_range(bins - 1, 0.9999);
+  for (std::size_t word = 0; word < 4; ++word) {
+    std::vector<std::int64_t> counts(bins);
+    for (std::uint64_t trial = 0; trial < draws; ++trial) {
+      ++counts[static_cast<std::size_t>(bins * uniform(random_words({7, 11}, trial, 0)[word]))];
+    }
+    double sum = 0;
+    for (const std::int64_t count : counts) sum += static_cast<double>((count - 2000) * (count - 2000)) / 2000;
+    EXPECT_TRUE(allowed.contains(sum)) << "word " << word << ": " << sum;
+  }
+}
+
+TEST(Random, streams_differ_in_every_factor_and_not_in_the_sign_of_zero) {
+  const auto stream = [](std::vector<double> factors) { return stream_of(factors); };
+  std::vector<std::uint64_t> streams = {stream({}),     stream({0}),    stream({0, 0}), stream({1, 0}),
+                                        stream({0, 1}), stream({1, 2}), stream({2, 1}), stream({1, 2 + 0x1p-51})};
+  std::sort(streams.begin(), streams.end());
+  EXPECT_EQ(std::adjacent_find(streams.begin(), streams.end()), streams.end());
+  EXPECT_EQ(stream({-0.0}), stream({0.0}));
+  EXPECT_EQ(stream({}), 0xcbf29ce484222325);  // FNV-1a of nothing is its offset basis
+}
+
+}  // namespace
+
+}  // namespace thinwall

@@ -1,0 +1,252 @@
+/// A result run again from its manifest: the same, or what differs and why.
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/lab/files.hpp>
+
+#include "experiments/scenes/scene_text.hpp"
+#include "support/toy.hpp"
+
+namespace thinwall {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReproduceTest : ToyProgram {
+  std::string again = out + ".again";
+
+  Reply reproduce(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words = {"reproduce", out};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words);
+  }
+
+  void change_manifest(const std::string& pointer, const nlohmann::json& value) const {
+    nlohmann::json json = manifest();
+    json[nlohmann::json::json_pointer(pointer)] = value;
+    write_text(out + "/manifest.json", json.dump());
+  }
+
+  void expect_refusal(const std::vector<std::string>& words, const std::string& said) const {
+    const Reply reply = call(words);
+    EXPECT_EQ(reply.status, 2) << reply.err;
+    EXPECT_NE(reply.err.find(said), std::string::npos) << reply.err;
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+    EXPECT_FALSE(fs::exists(again));
+  }
+};
+
+TEST_F(ReproduceTest, finds_the_same_and_leaves_no_trace) {
+  ASSERT_EQ(run({"--seed", "5", "--trials", "7"}).status, 0);
+  const auto files = files_in(folder.path());
+  ToyControl::computed = 0;
+  const Reply reply = reproduce({"--threads", "1"});
+  EXPECT_EQ(reply.status, 0) << reply.out << reply.err;
+  const auto count = std::to_string(manifest().at("files").size());
+  EXPECT_EQ(reply.out, "identical: " + count + " files of " + out +
+                           " came out the same\nby the same program on the same machine\n");
+  EXPECT_EQ(ToyControl::computed, 20) << "it really ran";
+  EXPECT_EQ(files_in(folder.path()), files);
+}
+
+TEST_F(ReproduceTest, runs_the_configuration_of_the_manifest) {
+  write_text(folder / "my.toml", "experiment = \"toy\"\ncells = 5\nspeed = [2.5, 1e300]\n");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
+  ToyControl::computed = 0;
+  EXPECT_EQ(reproduce().status, 0);
+  EXPECT_EQ(ToyControl::computed, 5);
+}
+
+TEST_F(ReproduceTest, keeps_the_rerun_where_it_is_told_to_and_takes_no_result_for_one) {
+  ASSERT_EQ(run().status, 0);
+  const std::string there = folder / "there";
+  EXPECT_EQ(reproduce({"--out", there}).status, 0);
+  EXPECT_TRUE(fs::exists(there + "/manifest.json"));
+  const Reply second = reproduce({"--out", there});
+  EXPECT_EQ(second.status, 2);
+  EXPECT_EQ(second.err, there + ": holds a result already; delete it, or name another folder with --out\n");
+  EXPECT_EQ(reproduce({"--out", out}).status, 2);
+}
+
+TEST_F(ReproduceTest, names_what_differs_and_what_may_explain_it) {
+  ASSERT_EQ(run().status, 0);
+  std::string cells = read_text(out + "/data/cells.csv");
+  cells.replace(cells.find("\n3,9,") + 1, 4, "3,8,");
+  write_text(out + "/data/cells.csv", cells);
+  change_manifest("/files/data~1cells.csv", sha256(cells));
+  change_manifest("/program/compiler", "Another 1.0");
+  change_manifest("/machine/cpu", "Another CPU");
+  const Reply reply = reproduce();
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_NE(reply.out.find("differs: 1 of "), std::string::npos) << reply.out;
+  EXPECT_NE(reply.out.find("  data/cells.csv: row 4, column 'square': recorded 8, rerun 9\n"), std::string::npos)
+      << reply.out;
+  EXPECT_NE(reply.out.find("What may explain it:\n  compiler: recorded Another 1.0, rerun "), std::string::npos)
+      << reply.out;
+  EXPECT_NE(reply.out.find("  CPU: recorded Another CPU, rerun "), std::string::npos) << reply.out;
+  EXPECT_NE(reply.out.find("The rerun is kept in " + again), std::string::npos) << reply.out;
+  EXPECT_TRUE(fs::exists(again + "/manifest.json"));
+  fs::remove_all(again);
+  const auto json = nlohmann::json::parse(reproduce({"--json"}).out);
+  EXPECT_EQ(json.at("identical"), false);
+  EXPECT_EQ(json.at("differences").at(0).at("row"), 4);
+  EXPECT_EQ(json.at("differences").at(0).at("column"), "square");
+  EXPECT_EQ(json.at("facts").at(0).at("fact"), "compiler");
+}
+
+TEST_F(ReproduceTest, says_when_nothing_recorded_explains_a_difference) {
+  ASSERT_EQ(run().status, 0);
+  const std::string cells = read_text(out + "/data/cells.csv") + "20,400,,,true\n";
+  write_text(out + "/data/cells.csv", cells);
+  change_manifest("/files/data~1cells.csv", sha256(cells));
+  const Reply reply = reproduce();
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_NE(reply.out.find("data/cells.csv: row 21: recorded 20,400,,,true, rerun nothing\n"), std::string::npos)
+      << reply.out;
+  EXPECT_NE(reply.out.find("Nothing recorded explains it"), std::string::npos) << reply.out;
+}
+
+TEST_F(ReproduceTest, names_files_that_were_changed_or_lost_since) {
+  ASSERT_EQ(run().status, 0);
+  write_text(out + "/plots/squares.gp", "# my own\n");
+  fs::remove(out + "/tables/cells.md");
+  const Reply reply = reproduce();
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_NE(reply.err.find(out + "/plots/squares.gp: was changed since it was written\n"), std::string::npos)
+      << reply.err;
+  EXPECT_NE(reply.err.find(out + "/tables/cells.md: was lost since it was written\n"), std::string::npos) << reply.err;
+  EXPECT_NE(reply.out.find("differs: 2 of "), std::string::npos) << reply.out;
+  EXPECT_NE(reply.out.find("as it was written, the result came out the same"), std::string::npos) << reply.out;
+}
+
+TEST_F(ReproduceTest, goes_on_after_an_interruption) {
+  ASSERT_EQ(run().status, 0);
+  ToyControl::interrupt_after = 8;
+  const Reply first = reproduce({"--threads", "1"});
+  EXPECT_EQ(first.status, 130);
+  EXPECT_NE(first.err.find("to continue:\nthinwall reproduce " + out), std::string::npos) << first.err;
+  ToyControl::computed = 0;
+  EXPECT_EQ(reproduce({"--threads", "1"}).status, 0);
+  EXPECT_EQ(ToyControl::computed, 12);
+}
+
+TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
+  expect_refusal({"reproduce"}, "reproduce: the folder of a result is missing");
+  expect_refusal({"reproduce", out}, out + ": there is no such folder");
+  fs::create_directory(out);
+  expect_refusal({"reproduce", out}, out + ": holds no manifest.json");
+  write_text(out + "/manifest.json", "{}");
+  expect_refusal({"reproduce", out}, out + "/manifest.json: key 'thinwall_manifest': missing");
+  fs::remove_all(out);
+  ASSERT_EQ(run().status, 0);
+  const std::string good = read_text(out + "/manifest.json");
+  change_manifest("/config/cels", 3);
+  expect_refusal({"reproduce", out}, "key 'cels': unknown key; did you mean 'cells'?");
+  write_text(out + "/manifest.json", good);
+  change_manifest("/experiment", "tyo");
+  expect_refusal({"reproduce", out}, "'tyo' is not allowed; did you mean 'toy'?");
+}
+
+// ---- Scenes from the command line: run, compare, plan; and what is said to what they cannot take.
+
+struct SceneProgram : ToyProgram {
+  std::string file = folder / "my.toml";
+  SceneProgram() { write_text(file, bullet_text("policy = 'discrete'\n")); }
+
+  void expect_refusal(const std::vector<std::string>& words, const std::string& said) const {
+    const Reply reply = call(words);
+    EXPECT_EQ(reply.status, 2) << reply.err;
+    EXPECT_NE(reply.err.find(said), std::string::npos) << reply.err;
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+};
+
+TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
+  const Reply reply = call({"run", file, "--out", out, "--trace", "--threads", "1"});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  EXPECT_NE(reply.out.find("1 pair went through each other unseen"), std::string::npos) << reply.out;
+  for (const char* name :
+       {"manifest.json", "report.html", "resolved.toml", "trace.jsonl", "data/steps.csv", "data/plan.csv",
+        "data/events.csv", "data/tunneled.csv", "data/timings.csv", "plots/tracks.gp"}) {
+    EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
+  }
+  EXPECT_EQ(manifest()["experiment"], "scene");
+  EXPECT_EQ(manifest()["config"]["trace"], true);
+  EXPECT_TRUE(manifest()["files"].contains("trace.jsonl"));
+}
+
+TEST_F(SceneProgram, draws_and_checks_bodies_of_any_name) {
+  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "gnuplot is not installed";
+  std::string text = "experiment = 'scene'\nscene = 'names'\nsteps = 2\n";
+  for (const char* name : {"\\\"", "''", "'first", "]]>", "]]></text><script>x</script>", "a`b`"}) {
+    text += "[[body]]\nshape = 'sphere'\nradius = 1\nvelocity = [1, 0, 0]\nname = \"" + std::string(name) + "\"\n";
+  }
+  write_text(file, text);
+  const Reply reply = call({"run", file, "--out", out});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(reply.err.find("not drawn"), std::string::npos) << reply.err;
+  EXPECT_TRUE(std::filesystem::exists(out + "/plots/tracks.svg"));
+  EXPECT_EQ(call({"report", out, "--check"}).status, 0);
+}
+
+TEST_F(SceneProgram, what_a_folder_resolves_to_gives_it_again) {
+  ASSERT_EQ(call({"run", file, "--out", out, "--plan", "full"}).status, 0);
+  const std::string again = folder / "again";
+  const Reply reply = call({"run", out + "/resolved.toml", "--out", again});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  for (const char* name : {"steps", "events", "bodies", "plan"}) {
+    const std::string csv = std::string("/data/") + name + ".csv";
+    EXPECT_EQ(read_text(out + csv), read_text(again + csv)) << name;
+  }
+}
+
+TEST_F(SceneProgram, compare_answers_and_can_be_resumed) {
+  write_text(file, bullet_text() + "\n[compare]\ndt = [0.02]\nrepeats = 1\n");
+  const Reply reply = call({"compare", file, "--out", out, "--json"});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(nlohmann::json::parse(reply.out)["experiment"], "compare");
+  EXPECT_NE(call({"compare", file, "--out", out}).err.find("complete already"), std::string::npos);
+  EXPECT_EQ(call({"run", out + "/resolved.toml", "--out", folder / "again"}).status, 0);
+}
+
+TEST_F(SceneProgram, plan_prints_what_is_left_out) {
+  const Reply text = call({"plan", file}), full = call({"plan", file, "--plan", "full"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out, full.out);
+  const auto json = nlohmann::json::parse(call({"plan", file, "--json"}).out);
+  EXPECT_EQ(json["scene"], "bullet");
+  EXPECT_FALSE(json["lines"].empty());
+  EXPECT_FALSE(json["full"].get<bool>());
+}
+
+TEST_F(SceneProgram, refuses_what_is_no_scene) {
+  write_text(file, "experiment = 'toy'\n");
+  expect_refusal({"compare", file, "--out", out}, "not a scene");
+  expect_refusal({"run", "toy", "--out", out, "--trace"}, "--trace: only a scene has a trace");
+  expect_refusal({"run", "toy", "--out", out, "--plan", "full"}, "--plan: only a scene has a plan");
+  expect_refusal({"plan", folder / "none.toml"}, "there is no such file");
+  expect_refusal({"compare"}, "compare: the TOML file of a scene is missing");
+  expect_refusal({"plan"}, "plan: the TOML file of a scene is missing");
+  write_text(file, "radius = 1\n");
+  expect_refusal({"plan", file}, "key 'radius': unknown key");
+  expect_refusal({"run", file, "--out", out}, "key 'experiment': missing");
+}
+
+TEST_F(SceneProgram, names_what_is_wrong_in_a_scene) {
+  expect_refusal({"plan", file, "--plan", "fat"}, "--plan: 'fat' is not allowed");
+  write_text(file, bullet_text("polcy = 'clamp'\n"));
+  expect_refusal({"run", file, "--out", out}, "my.toml:3: key 'polcy': unknown key; did you mean 'policy'?");
+  write_text(file, bullet_text() + "mass = 0\n");
+  expect_refusal({"run", file, "--out", out}, "key 'body.mass'");
+}
+
+}  // namespace
+
+}  // namespace thinwall

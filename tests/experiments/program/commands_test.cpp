@@ -1,0 +1,517 @@
+/// `thinwall advise`, as the user calls it.
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/experiments/lab/draw.hpp>
+#include <thinwall/experiments/lab/result_folder.hpp>
+#include <thinwall/experiments/program/command.hpp>
+#include <thinwall/experiments/program/completion.hpp>
+#include <thinwall/experiments/program/program.hpp>
+#include <thinwall/experiments/program/run.hpp>
+
+#include "experiments/scenes/scene_text.hpp"
+#include "experiments/speed_run.hpp"
+#include "support/program.hpp"
+#include "support/toy.hpp"
+
+namespace thinwall {
+
+namespace {
+
+struct AdviseProgram : testing::Test {
+  TemporaryFolder folder;
+
+  static Reply advise(std::vector<std::string> more, const std::string& thickness = "0.01") {
+    std::vector<std::string> words = {"advise", "--speed", "10", "--radius", "0.02", "--thickness", thickness};
+    words.insert(words.end(), more.begin(), more.end());
+    return ToyProgram::call(words);
+  }
+
+  /// `said`: what the one line must start with.
+  static void expect_refusal(const Reply& reply, const std::string& said) {
+    EXPECT_EQ(reply.status, 2) << reply.err;
+    EXPECT_EQ(reply.out, "");
+    EXPECT_TRUE(reply.err.starts_with(said)) << reply.err;
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+  }
+};
+
+TEST_F(AdviseProgram, answers_in_json_and_writes_the_experiment) {
+  const std::string file = folder / "check.toml";
+  const Reply reply = advise({"--fps", "60", "--json", "--toml", file});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_NE(reply.err.find("thinwall run " + file), std::string::npos) << reply.err;
+  const nlohmann::json json = nlohmann::json::parse(reply.out);
+  EXPECT_EQ(json["toml"], file);
+  EXPECT_EQ(json["step_s"], 1.0 / 60);
+  EXPECT_TRUE(json["method"].is_string());
+  const std::string written = read_text(file);
+  EXPECT_EQ(advise({"--step", "0.016666666666666666", "--toml", "-"}).out, written) << "fps and step are the same";
+  EXPECT_NE(written.find("speed = [10]"), std::string::npos);
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
+  EXPECT_EQ(files, 1U);
+}
+
+TEST_F(AdviseProgram, replaces_an_experiment_of_its_own_and_nothing_else) {
+  const std::string file = folder / "check.toml";
+  write_text(file, "# mine\n");
+  expect_refusal(advise({"--fps", "60", "--toml", file}), "--toml " + file + ": is there already");
+  EXPECT_EQ(read_text(file), "# mine\n");
+  write_text(file, advise({"--fps", "30", "--toml", "-"}).out);
+  EXPECT_EQ(advise({"--fps", "60", "--json", "--toml", file}).status, 0);
+  EXPECT_EQ(read_text(file), advise({"--fps", "60", "--toml", "-"}).out);
+}
+
+TEST_F(AdviseProgram, names_what_is_wrong) {
+  expect_refusal(ToyProgram::call({"advise", "--radius", "1"}),
+                 "--speed is missing; a number > 0 and <= 1000000000 [m/s]");
+  expect_refusal(advise({}), "--step [s] or --fps [1/s] is missing");
+  expect_refusal(advise({"--step", "0.1", "--fps", "10"}), "--step and --fps say the same thing twice");
+  expect_refusal(advise({"--fps", "60"}, "-1"), "--thickness: '-1' is not allowed; a number >= 0");
+  expect_refusal(advise({"--fps", "60"}, "1mm"), "--thickness: '1mm' is not allowed");
+  expect_refusal(advise({"--fps", "60"}, ""), "--thickness: '' is not allowed");
+  for (const std::string bad : {"0", "-1", "nan", "inf", "-inf", "1e999", "0x10"}) {
+    expect_refusal(ToyProgram::call({"advise", "--speed", bad}), "--speed: '" + bad + "' is not allowed; a number > 0");
+    expect_refusal(advise({"--step", bad}), "--step: '" + bad + "' is not allowed; a number > 0");
+    expect_refusal(advise({"--fps", bad}), "--fps: '" + bad + "' is not allowed; a number >= 0.001");
+  }
+  for (const std::string bad : {"90", "89.95", "-10", "nan"}) {
+    expect_refusal(advise({"--fps", "60", "--angle", bad}),
+                   "--angle: '" + bad + "' is not allowed; a number >= 0 and <= 89.9");
+  }
+  for (const std::string bad : {"1.01", "-0.1", "nan", "5%"}) {
+    expect_refusal(advise({"--fps", "60", "--miss", bad}),
+                   "--miss: '" + bad + "' is not allowed; a number >= 0 and <= 1");
+  }
+  expect_refusal(
+      ToyProgram::call({"advise", "--speed", "1e-300", "--radius", "1", "--thickness", "1", "--step", "1e-5"}),
+      "--speed 1e-300: in a step of 1e-05 s the ball moves 1e-305 m; at least 1e-30 m is needed");
+  expect_refusal(advise({"--fps", "60", "--late", "-1"}), "--late: '-1' is not allowed; a number >= 0 [m]");
+  expect_refusal(advise({"--fps", "60", "--toml", ""}), "--toml: ''");
+  expect_refusal(advise({"--fps", "60", "--toml", "-", "--json"}), "--toml - and --json");
+  expect_refusal(advise({"--fps", "60", "--toml", folder.path().string()}),
+                 "--toml " + folder.path().string() + ": is a folder");
+  expect_refusal(advise({"--fps", "60", "--toml", folder / "no/where.toml"}),
+                 "--toml " + (folder / "no/where.toml") + ": cannot be");
+}
+
+// ---- BibTeX on stdout: of the software, and of a result.
+
+using CiteTest = ToyProgram;
+
+TEST_F(CiteTest, cites_the_software_as_its_citation_file_does) {
+  const Reply reply = call({"cite"});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_TRUE(reply.out.starts_with("@software{thinwall,\n  author  = {{The thinwall authors}},\n")) << reply.out;
+  EXPECT_NE(reply.out.find("  title   = {thinwall: continuous collision detection and tunneling research},\n"),
+            std::string::npos);
+  EXPECT_NE(reply.out.find("  version = {" + this_software().version + "},\n"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(reply.out, '{'), std::ranges::count(reply.out, '}'));
+}
+
+TEST_F(CiteTest, cites_a_result_as_its_folder_does) {
+  ASSERT_EQ(run({"--seed", "3"}).status, 0);
+  const Reply reply = call({"cite", out});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(reply.out, read_text(out + "/cite.bib"));
+  const std::string run_id = manifest().at("run_id");
+  EXPECT_NE(reply.out.find("@misc{thinwall_toy_" + run_id + ","), std::string::npos) << reply.out;
+  EXPECT_NE(reply.out.find("{What is a square?}"), std::string::npos);
+  EXPECT_NE(reply.out.find("run " + run_id + ", seed 3, commit "), std::string::npos);
+}
+
+TEST_F(CiteTest, replies_in_json) {
+  ASSERT_EQ(run({"--seed", "3"}).status, 0);
+  const auto json = nlohmann::json::parse(call({"cite", out, "--json"}).out);
+  EXPECT_EQ(json.at("result").at("title"), "What is a square?");
+  EXPECT_EQ(json.at("result").at("run_id"), manifest().at("run_id"));
+  EXPECT_EQ(json.at("result").at("commit"), manifest().at("program").at("commit"));
+  EXPECT_EQ(json.at("result").at("date"), manifest().at("finished").get<std::string>().substr(0, 10));
+  EXPECT_FALSE(nlohmann::json::parse(call({"cite", "--json"}).out).contains("result"));
+}
+
+TEST_F(CiteTest, keeps_the_version_and_date_of_the_program_that_made_the_result) {
+  ASSERT_EQ(run().status, 0);
+  auto json = manifest();
+  json["program"]["version"] = "9.8.7";
+  json["program"]["release_date"] = "2031-02-03";
+  write_text(out + "/manifest.json", json.dump());
+  const std::string cited = call({"cite", out}).out;
+  EXPECT_NE(cited.find("  version = {9.8.7},\n  date    = {2031-02-03},\n  year    = {2031},\n"), std::string::npos);
+}
+
+TEST_F(CiteTest, escapes_every_field) {
+  const std::string entry = bibtex(ResultCitation{.experiment = "a_b",
+                                                  .question = "100 %?",
+                                                  .run_id = "1}",
+                                                  .seed = 1,
+                                                  .commit = "a}, note={",
+                                                  .dirty = false,
+                                                  .date = "2031}%"});
+  for (const char* part : {"@misc{thinwall_a_b_1,", "100 \\%?", "run 1\\},", "commit a\\}, note=\\{}", "{2031\\}\\%}"})
+    EXPECT_NE(entry.find(part), std::string::npos) << part << " in\n" << entry;
+}
+
+TEST_F(CiteTest, refuses_what_holds_no_result) {
+  const auto expect_refusal = [](const std::string& target, const std::string& why) {
+    const Reply reply = call({"cite", target});
+    EXPECT_EQ(reply.status, 2);
+    EXPECT_TRUE(reply.out.empty());
+    EXPECT_NE(reply.err.find(target + ": " + why), std::string::npos) << reply.err;
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1);
+  };
+  expect_refusal(folder / "none", "there is no such folder");
+  expect_refusal(folder.path().string(), "holds no manifest.json");
+  write_text(folder / "journal.tsv", "");
+  expect_refusal(folder.path().string(), "holds a run that is not finished");
+  write_text(folder / "manifest.json", "{\"thinwall_manifest\": 1}");
+  EXPECT_EQ(call({"cite", folder.path().string()}).err, folder / "manifest.json: key 'program': missing\n");
+  expect_refusal(folder / "manifest.json", "is not a folder");
+  const Reply nameless = call({"cite", ""});
+  EXPECT_EQ(nameless.status, 2);
+  EXPECT_EQ(nameless.err, "cite: the folder of a result is empty; name one, or none\n");
+}
+
+// ---- The completion scripts, read by the shells they are for.
+
+namespace fs = std::filesystem;
+
+struct CompletionTest : testing::Test {
+  TemporaryFolder folder;
+
+  ProcessResult in_folder(const std::vector<std::string>& words) const { return run_process(words, folder.path()); }
+
+  std::string script(const std::string& shell) const {
+    const ProcessResult reply = in_folder({THINWALL_PROGRAM, "completion", shell});
+    EXPECT_EQ(reply.status, 0) << reply.output;
+    return reply.output;
+  }
+
+  /// What bash offers for the last of the words.
+  std::set<std::string> completed(const std::vector<std::string>& words) const {
+    write_text(folder / ".completion", script("bash"));
+    std::string line = "set -u; source .completion; COMP_WORDS=(";
+    for (const std::string& word : words) line += "'" + word + "' ";
+    line += "); COMP_CWORD=" + std::to_string(words.size() - 1) + "; _thinwall; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const ProcessResult reply = in_folder({"bash", "--norc", "-c", line});
+    EXPECT_EQ(reply.status, 0) << reply.output;
+    std::set<std::string> out;
+    std::istringstream lines(reply.output);
+    for (std::string word; std::getline(lines, word);) {
+      if (!word.empty()) out.insert(word);
+    }
+    return out;
+  }
+
+  using Words = std::set<std::string>;
+};
+
+TEST_F(CompletionTest, bash_completes_commands_experiments_and_options) {
+  EXPECT_EQ(completed({"thinwall", "ru"}), Words{"run"});
+  EXPECT_EQ(completed({"thinwall", "run", "thin_w"}), Words{"thin_wall"});
+  EXPECT_EQ(completed({"thinwall", "run", "--tr"}), (Words{"--trials", "--trace"}));
+  EXPECT_EQ(completed({"thinwall", "run", "thin_wall", "--plan", ""}), (Words{"lean", "full"}));
+  EXPECT_EQ(completed({"thinwall", "completion", "z"}), Words{"zsh"});
+  EXPECT_EQ(completed({"thinwall", "run", "--seed", ""}), Words{}) << "a number";
+  EXPECT_EQ(completed({"thinwall", "nothing", ""}), Words{});
+  const Words commands_offered = completed({"thinwall", ""});
+  for (const Command& command : commands()) EXPECT_TRUE(commands_offered.contains(command.name)) << command.name;
+}
+
+TEST_F(CompletionTest, bash_completes_files_and_folders_where_they_may_stand) {
+  write_text(folder / "thin my.toml", "");
+  write_text(folder / "thin.txt", "");
+  fs::create_directory(folder / "things");
+  EXPECT_EQ(completed({"thinwall", "run", "thin"}), (Words{"thin_wall", "thin my.toml", "things"}));
+  EXPECT_EQ(completed({"thinwall", "compare", "thi"}), (Words{"thin my.toml", "things"}));
+  EXPECT_EQ(completed({"thinwall", "run", "thin_wall", "--out", "th"}), Words{"things"});
+  EXPECT_EQ(completed({"thinwall", "reproduce", "th"}), Words{"things"});
+}
+
+TEST_F(CompletionTest, other_shells_can_read_their_scripts) {
+  for (const char* shell : {"zsh", "fish"}) {
+    const std::string text = script(shell);
+    for (const Command& command : commands()) EXPECT_NE(text.find(command.name), std::string::npos) << command.name;
+    write_text(folder / shell, text);
+    const ProcessResult reply = in_folder({shell, "-n", folder / shell});
+    if (!reply.found) {
+      std::printf("%s is not installed: its script was not read by it\n", shell);
+      continue;
+    }
+    EXPECT_EQ(reply.status, 0) << reply.output;
+    EXPECT_EQ(reply.output, "");
+  }
+}
+
+TEST_F(CompletionTest, refuses_a_shell_it_does_not_know) {
+  const ProcessResult reply = in_folder({THINWALL_PROGRAM, "completion", "bsh"});
+  EXPECT_EQ(reply.status, 2);
+  EXPECT_EQ(reply.output, "completion: 'bsh' is not allowed; did you mean 'bash'? (allowed: bash, zsh, fish)\n");
+}
+
+TEST_F(CompletionTest, knows_every_option_of_every_command_and_its_meaning) {
+  for (const CompletedCommand& command : completed_commands({})) {
+    EXPECT_FALSE(command.summary.empty()) << command.name;
+    EXPECT_TRUE(std::ranges::any_of(command.options, [](const auto& option) { return option.name == "--json"; }))
+        << command.name << " replies to no script";
+    for (const CompletedOption& option : command.options)
+      EXPECT_FALSE(option.meaning.empty()) << command.name << " " << option.name;
+  }
+}
+
+// ---- How the program talks: one JSON value on stdout where it is asked for, everything else as text on stderr, no escape
+// sequence where nobody watches, help that begins with an example, and exit codes as the documents say.
+
+struct MannersTest : ToyProgram {
+  std::string scene = folder / "scene.toml";
+
+  MannersTest() { write_text(scene, bullet_text("policy = 'discrete'\n")); }
+
+  std::vector<std::vector<std::string>> calls() const {
+    const std::string there = folder / "there";
+    return {{"list"},
+            {"run", "toy", "--out", out, "--threads", "1"},
+            {"run", "toy", "--out", out},  // complete already
+            {"run", "toy", "--dry-run"},
+            {"run", "toy", "--list-cells"},
+            {"run", scene, "--out", folder / "scene"},
+            {"compare", scene, "--out", folder / "compare"},
+            {"plan", scene},
+            {"reproduce", out, "--out", there},
+            {"completion", "bash"}};
+  }
+};
+
+TEST_F(MannersTest, json_is_one_value_on_stdout_and_all_else_is_text_on_stderr) {
+  for (std::vector<std::string> words : calls()) {
+    words.emplace_back("--json");
+    const Reply reply = call(words);
+    EXPECT_EQ(reply.status, 0) << words[0] << reply.err;
+    EXPECT_TRUE(nlohmann::json::accept(reply.out)) << words[0] << ": " << reply.out;
+    EXPECT_EQ(std::ranges::count(reply.out, '\n'), 1) << words[0];
+    EXPECT_FALSE(nlohmann::json::accept(reply.err)) << words[0] << ": " << reply.err;
+  }
+}
+
+TEST_F(MannersTest, with_json_bad_input_is_still_a_line_of_text_on_stderr) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {"run", "tyo"},        {"run", "toy", "--seed", "x"}, {"compare", "none.toml"}, {"plan", "none.toml"},
+      {"reproduce", "none"}, {"validate", "none"},          {"completion", "csh"}};
+  for (std::vector<std::string> words : wrong) {
+    words.emplace_back("--json");
+    const Reply reply = call(words);
+    EXPECT_EQ(reply.status, 2) << words[0];
+    EXPECT_EQ(reply.out, "") << words[0];
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << words[0] << reply.err;
+    EXPECT_FALSE(nlohmann::json::accept(reply.err)) << words[0];
+  }
+}
+
+TEST_F(MannersTest, never_writes_an_escape_sequence_where_there_is_no_terminal) {
+  ::setenv("TERM", "xterm-256color", 1);
+  ::setenv("CLICOLOR_FORCE", "1", 1);
+  for (std::vector<std::string> words : {std::vector<std::string>{"--help"},
+                                         {"list"},
+                                         {"run", "--help"},
+                                         {"run", "none"},
+                                         {"run", scene, "--out", folder / "escape"},
+                                         {"plan", scene}}) {
+    words.insert(words.begin(), THINWALL_PROGRAM);
+    const ProcessResult result = run_process(words, folder.path());
+    EXPECT_NE(result.output, "");
+    EXPECT_EQ(result.output.find('\x1b'), std::string::npos) << words[1] << result.output;
+    EXPECT_EQ(result.output.find('\r'), std::string::npos) << words[1] << result.output;
+  }
+}
+
+TEST_F(MannersTest, every_command_has_a_help_that_begins_with_examples_of_itself) {
+  for (const Command& command : commands()) {
+    const Reply reply = call({command.name, "--help"});
+    EXPECT_EQ(reply.status, 0);
+    EXPECT_TRUE(reply.out.starts_with(std::string("Examples:\n  "))) << reply.out;
+    EXPECT_NE(reply.out.find(std::string("thinwall ") + command.name), std::string::npos) << reply.out;
+    EXPECT_LT(reply.out.find(std::string("thinwall ") + command.name), reply.out.find("Usage: thinwall ")) << reply.out;
+    EXPECT_EQ(reply.err, "");
+  }
+}
+
+TEST_F(MannersTest, lists_every_unit_and_writes_nothing) {
+  const Reply reply = run({"--list-cells"});
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_TRUE(reply.out.starts_with("          10  cell 0\n          10  cell 1\n")) << reply.out;
+  EXPECT_EQ(std::ranges::count(reply.out, '\n'), 20);
+  const auto json = nlohmann::json::parse(run({"--list-cells", "--json", "--trials", "7"}).out);
+  EXPECT_EQ(json.at("units"), 20);
+  EXPECT_EQ(json.at("trials"), 140);
+  EXPECT_EQ(json.at("cells").size(), 20u);
+  EXPECT_EQ(json.at("cells").at(19), nlohmann::json({{"key", "cell 19"}, {"trials", 7}}));
+  EXPECT_EQ(ToyControl::computed, 0);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(MannersTest, notices_that_its_output_is_lost) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const ProcessResult result = run_process({"sh", "-c", "'" THINWALL_PROGRAM "' list >/dev/full"}, folder.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.output, "failed: stdout cannot be written\n");
+}
+
+// ---- What the program says, as the user calls it, to what it cannot take: one line, exit code 2, and nothing written.
+
+struct BadInputTest : testing::Test {
+  TemporaryFolder folder;
+
+  /// `said`: every part that the one line must have.
+  void expect_refusal(std::vector<std::string> words, const std::vector<std::string>& said) const {
+    words.insert(words.begin(), THINWALL_PROGRAM);
+    const ProcessResult result = run_process(words, folder.path());
+    EXPECT_EQ(result.status, 2) << result.output;
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
+    for (const std::string& part : said) EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "results"));
+  }
+
+  void expect_refused_config(const std::string& text, const std::vector<std::string>& said) const {
+    write_text(folder / "my.toml", "experiment = \"thin_wall\"\n" + text + "\n");
+    expect_refusal({"run", "my.toml", "--out", "out"}, said);
+  }
+};
+
+TEST_F(BadInputTest, configurations) {
+  expect_refused_config("raduis = [0.1]", {"my.toml:2: key 'raduis': unknown key", "did you mean 'radius'?"});
+  expect_refused_config("radius = \"big\"", {"my.toml:2: key 'radius': 'big'", "[m]"});
+  expect_refused_config("radius = [-0.1]", {"my.toml:2: key 'radius': -0.1 is not allowed", "[m]"});
+  expect_refused_config("step = [0]", {"my.toml:2: key 'step': 0 is not allowed", "numbers > 0", "[s]"});
+  expect_refused_config("speed = [nan]", {"my.toml:2: key 'speed': nan is not allowed", "[m/s]"});
+  expect_refused_config("speed = []", {"my.toml:2: key 'speed': an empty list is not allowed"});
+  expect_refused_config(
+      "method = [\"end_of_stp\"]",
+      {"my.toml:2: key 'method': 'end_of_stp' is not allowed; did you mean 'end_of_step'? (allowed: "});
+  expect_refused_config("radius = [0.1", {"my.toml:2: not TOML, at column "});
+}
+
+TEST_F(BadInputTest, experiments) {
+  expect_refusal({"run", "thin_wal", "--out", "out"}, {"'thin_wal': unknown experiment; did you mean 'thin_wall'?"});
+  write_text(folder / "my.toml", "experiment = \"thinwall\"\n");
+  expect_refusal({"run", "my.toml", "--out", "out"},
+                 {"my.toml:1: key 'experiment': 'thinwall' is not allowed; did you mean 'thin_wall'?"});
+  write_text(folder / "my.toml", "radius = [0.1]\n");
+  expect_refusal({"run", "my.toml", "--out", "out"}, {"my.toml:1: key 'experiment': missing"});
+  expect_refusal({"run", "none.toml", "--out", "out"}, {"none.toml: there is no such file"});
+  expect_refusal({"run", ".", "--out", "out"}, {".: is not a file"});
+}
+
+TEST_F(BadInputTest, folders) {
+  write_text(folder / "file", "");
+  expect_refusal({"run", "thin_wall", "--out", "file/below"}, {"--out file/below: cannot be written: Not a directory"});
+  expect_refusal({"run", "thin_wall", "--out", "/proc/thinwall"}, {"--out /proc/thinwall: cannot be written: "});
+  expect_refusal({"run", "thin_wall", "--out", ""}, {"--out: '' is not allowed"});
+}
+
+TEST_F(BadInputTest, command_lines) {
+  expect_refusal({}, {"a command is missing"});
+  expect_refusal({"rnu"}, {"'rnu': unknown command; did you mean 'run'?"});
+  expect_refusal({"run"}, {"an experiment's name or a TOML file is missing"});
+  expect_refusal({"run", "thin_wall", "--sed", "1"}, {"'--sed': unknown option; did you mean '--seed'?"});
+  expect_refusal({"run", "thin_wall", "more"}, {"'more': one word too many"});
+  expect_refusal({"run", "thin_wall", "--seed", "-1"}, {"--seed: '-1' is not allowed; a whole number from 0 to "});
+  expect_refusal({"run", "thin_wall", "--trials", "0"}, {"--trials: '0' is not allowed; a whole number from 1 to "});
+  expect_refusal({"run", "thin_wall", "--threads", "0"}, {"--threads: '0' is not allowed; a whole number from 1 to "});
+  expect_refusal({"run", "thin_wall", "--trials"}, {"--trials: exactly one value is needed"});
+  expect_refusal({"run", "thin_wall", "--json=yes"}, {"--json: takes no value"});
+}
+
+TEST_F(BadInputTest, help_is_no_error_and_opens_with_examples) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"run", "--help"}, {"-h"}}) {
+    std::vector<std::string> call = {THINWALL_PROGRAM};
+    call.insert(call.end(), words.begin(), words.end());
+    const ProcessResult result = run_process(call, folder.path());
+    EXPECT_EQ(result.status, 0);
+    EXPECT_LT(result.output.find("Examples:"), result.output.find("Usage:")) << result.output;
+  }
+  const ProcessResult version = run_process({THINWALL_PROGRAM, "--version"}, folder.path());
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(version.output.starts_with("thinwall ")) << version.output;
+}
+
+Progress at(std::int64_t done, std::int64_t all, std::int64_t resumed = 0) {
+  return {.units_done = 1, .units = 2, .trials_done = done, .trials = all, .trials_resumed = resumed};
+}
+
+TEST(ProgressLine, shows_share_count_rate_and_time_left) {
+  EXPECT_EQ(progress_line(at(0, 100), 0), "[                        ]   0 %  0 trials");
+  EXPECT_EQ(progress_line(at(2500000, 10000000), 2),
+            "[======                  ]  25 %  2.5 M trials  1.2 M/s  6 s left");
+  EXPECT_EQ(progress_line(at(100, 100), 1), "[========================] 100 %  100 trials  100/s  0 s left");
+}
+
+TEST(ProgressLine, takes_the_rate_from_what_was_computed_now) {
+  EXPECT_EQ(progress_line(at(900, 1000, 800), 1), "[=====================   ]  90 %  900 trials  100/s  1 s left");
+  EXPECT_EQ(progress_line(at(800, 1000, 800), 1), "[===================     ]  80 %  800 trials");
+}
+
+TEST(ProgressLine, fits_a_terminal_and_survives_an_empty_run) {
+  EXPECT_LE(progress_line(at(123456789012, 1234567890123), 0.001).size(), 79u);
+  EXPECT_EQ(progress_line({}, 0), "[========================] 100 %  0 trials");
+}
+
+// ---- The programs that speed starts: those beside ours, or of a folder that the command line names; none that a file names, and
+// none on a dry run.
+
+struct BenchmarksTest : testing::Test {
+  TemporaryFolder folder;
+  std::string config = folder / "speed.toml", out = folder / "out";
+
+  BenchmarksTest() {
+    std::filesystem::create_directory(folder / "theirs");
+    write_script(folder / "theirs", "pairs",
+                 "touch " + folder / "started" + "\ncat >\"$out\" <<'END'\n" +
+                     bench_json(bench_row("raycast/aabb/front_door", 30, 0, 0, 1e-15)) + "\nEND");
+  }
+
+  static Reply call(std::vector<std::string> words) {
+    const std::vector<Experiment> experiments = {speed_experiment(), toy_experiment()};
+    words.insert(words.begin(), "thinwall");
+    std::ostringstream reply, notes;
+    const int status = run_program(words, experiments, reply, notes);
+    return {status, reply.str(), notes.str()};
+  }
+
+  bool started() const { return std::filesystem::remove(folder / "started"); }
+};
+
+TEST_F(BenchmarksTest, are_started_only_if_the_command_line_names_their_folder) {
+  const std::string rest = "experiment = \"speed\"\nprograms = [\"pairs\"]\nrounds = 1\n";
+  write_text(config, rest + "benchmarks = \"" + folder / "theirs" + "\"\n");
+  for (const char* more : {"--json", "--dry-run"}) {
+    const Reply reply = call({"run", config, "--out", out, more});
+    EXPECT_EQ(reply.status, 2);
+    EXPECT_EQ(reply.err,
+              config + ":4: key 'benchmarks': '" + folder / "theirs" +
+                  "' is not allowed; \"\"; to start the programs of that folder, say so: --benchmarks DIR\n");
+    EXPECT_FALSE(started());
+  }
+  const Reply dry = call({"run", config, "--benchmarks", folder / "theirs", "--dry-run"});
+  EXPECT_EQ(dry.status, 0) << dry.err;
+  EXPECT_FALSE(started()) << "on a dry run";
+  EXPECT_EQ(call({"run", config, "--benchmarks", folder / "theirs", "--out", out}).status, 0);
+  EXPECT_TRUE(started());
+  EXPECT_EQ(call({"reproduce", out}).status, 2);
+  EXPECT_FALSE(started());
+  EXPECT_EQ(call({"reproduce", out, "--benchmarks", folder / "theirs"}).status, 0);
+  EXPECT_TRUE(started());
+  EXPECT_EQ(call({"run", "toy", "--benchmarks", folder / "theirs"}).err,
+            "--benchmarks: only speed starts other programs\n");
+}
+
+}  // namespace
+
+}  // namespace thinwall

@@ -1,0 +1,501 @@
+/// The program as it is, with its headline experiment in small: the same bytes for any thread count, and after any end.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <thinwall/experiments/lab/draw.hpp>
+#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/journal.hpp>
+
+#include "support/program.hpp"
+#include "support/toy.hpp"
+
+namespace thinwall {
+
+namespace {
+
+constexpr const char* small_config = R"(experiment = "thin_wall"
+shots = 6000
+speed = [10, 200]
+step = [0.016666666666666666]
+radius = [0.001, 0.02]
+thickness = [0.01]
+angle_deg = [0, 60]
+)";
+
+struct RealRunTest : testing::Test {
+  TemporaryFolder folder;
+
+  RealRunTest() { write_text(folder / "my.toml", small_config); }
+
+  std::vector<std::string> words(const std::string& out, const std::string& threads) const {
+    return {THINWALL_PROGRAM, "run", folder / "my.toml", "--out", folder / out, "--threads", threads, "--seed", "11"};
+  }
+
+  ProcessResult run(const std::string& out, const std::string& threads) const {
+    return run_process(words(out, threads), folder.path());
+  }
+
+  /// Starts a run and ends it with `signal` once its journal has `rows` rows. Returns how it ended, as waitpid says it.
+  int run_until(const std::string& out, std::size_t rows, int signal) const {
+    std::vector<std::string> copies = words(out, "2");
+    std::vector<char*> pointers;
+    for (std::string& word : copies) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 2, (folder / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0666);
+    pid_t child = 0;
+    EXPECT_EQ(::posix_spawn(&child, THINWALL_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    bool sent = false;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+      if (!sent && finished_rows(out) >= rows) sent = ::kill(child, signal) == 0;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return status;
+  }
+
+  std::size_t finished_rows(const std::string& out) const {
+    std::ifstream in(folder / out + "/journal.tsv");
+    std::size_t rows = 0;
+    for (std::string line; std::getline(in, line);) ++rows;
+    return rows;
+  }
+
+  /// Everything that must not differ from run to run.
+  std::map<std::string, std::string> lasting_files(const std::string& out) const {
+    auto files = files_in(folder / out);
+    for (const char* name : {"data/timings.csv", "report.html", "manifest.json"})
+      EXPECT_EQ(files.erase(name), 1u) << name;
+    return files;
+  }
+};
+
+TEST_F(RealRunTest, gives_the_same_bytes_for_1_2_and_3_threads) {
+  for (const char* threads : {"1", "2", "3"}) {
+    const ProcessResult result = run(threads, threads);
+    ASSERT_EQ(result.status, 0) << result.output;
+  }
+  EXPECT_EQ(lasting_files("1"), lasting_files("2"));
+  EXPECT_EQ(lasting_files("1"), lasting_files("3"));
+  EXPECT_TRUE(
+      read_text(folder / "1/data/cells.csv").starts_with("method,scalar,speed,step,radius,thickness,angle_deg,"));
+}
+
+TEST_F(RealRunTest, keeps_what_was_finished_when_it_is_interrupted) {
+  const int status = run_until("cut", 10, SIGINT);
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
+  const std::string notes = read_text(folder / "stderr");
+  EXPECT_NE(notes.find(std::string("to continue:\n") + THINWALL_PROGRAM + " run "), std::string::npos) << notes;
+  EXPECT_EQ(files_in(folder / "cut").size(), 1u) << "the journal alone";
+  const ProcessResult rest = run("cut", "1");
+  ASSERT_EQ(rest.status, 0) << rest.output;
+  EXPECT_NE(rest.output.find("units were read from the journal"), std::string::npos) << rest.output;
+  ASSERT_EQ(run("whole", "2").status, 0);
+  EXPECT_EQ(lasting_files("cut"), lasting_files("whole"));
+}
+
+TEST_F(RealRunTest, loses_nothing_it_counted_when_it_is_killed) {
+  std::size_t rows = 0;
+  for (const std::size_t more : {2u, 9u, 20u}) {
+    const int status = run_until("killed", rows + more, SIGKILL);
+    ASSERT_TRUE(WIFSIGNALED(status)) << status;
+    EXPECT_GE(finished_rows("killed"), rows + more);
+    rows = finished_rows("killed");
+  }
+  const ProcessResult rest = run("killed", "2");
+  ASSERT_EQ(rest.status, 0) << rest.output;
+  ASSERT_EQ(run("whole", "2").status, 0);
+  EXPECT_EQ(lasting_files("killed"), lasting_files("whole"));
+}
+
+// ---- The whole way of a run, from the command line to the files, with an experiment made for it.
+
+using ToyRunTest = ToyProgram;
+
+TEST_F(ToyRunTest, leaves_a_whole_result_folder) {
+  const Reply reply = run({"--threads", "2", "--seed", "3"});
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(reply.out, "cells: 20\n\nThe squares & <their> sum.\n\nreport: " + out + "/report.html\n");
+  const auto files = files_in(out);
+  for (const char* name :
+       {"cite.bib", "data/cells.csv", "data/timings.csv", "datapackage.json", "manifest.json", "plots/squares.dat",
+        "plots/squares.gp", "report.html", "resolved.toml", "tables/cells.md", "tables/cells.tex"}) {
+    EXPECT_TRUE(files.contains(name)) << name;
+  }
+  for (const auto& [name, text] : files) EXPECT_TRUE(name.find("journal") == name.npos && name[0] != '.') << name;
+  EXPECT_TRUE(files.at("data/cells.csv").starts_with("cell,square,name,root,even\n0,3,\"a, \"\"b\"\"\",,true\n1,4,"));
+}
+
+TEST_F(ToyRunTest, hashes_every_file_but_timings_their_figures_report_and_manifest) {
+  ASSERT_EQ(run().status, 0);
+  auto files = files_in(out);
+  for (const char* name :
+       {"data/timings.csv", "plots/cost.gp", "plots/cost.dat", "plots/cost.json", "report.html", "manifest.json"}) {
+    EXPECT_EQ(files.erase(name), 1u);
+  }
+  files.erase("plots/cost.svg");  // there only if gnuplot is
+  std::map<std::string, std::string> hashes;
+  for (const auto& [name, text] : files) hashes[name] = sha256(text);
+  EXPECT_EQ(manifest().at("files").get<decltype(hashes)>(), hashes);
+}
+
+TEST_F(ToyRunTest, says_in_its_manifest_where_it_came_from) {
+  ASSERT_EQ(run({"--seed", "9007199254740993", "--trials", "7", "--threads", "1"}).status, 0);
+  const auto json = manifest();
+  EXPECT_EQ(json.at("experiment"), "toy");
+  EXPECT_EQ(json.at("config").at("speed"), nlohmann::json::parse("[1,10]"));
+  EXPECT_EQ(json.at("seed"), 9007199254740993u);
+  EXPECT_EQ(json.at("trials"), 7);
+  EXPECT_EQ(json.at("total_trials"), 140);
+  EXPECT_EQ(json.at("threads"), 1);
+  EXPECT_EQ(json.at("argv").at(0), "thinwall");
+  EXPECT_EQ(json.at("reproduce"), "thinwall run toy --seed 9007199254740993 --trials 7 --out again");
+  for (const char* key : {"version", "commit", "dirty", "compiler", "flags", "build_type", "sha256", "libraries"}) {
+    EXPECT_TRUE(json.at("program").contains(key)) << key;
+  }
+  EXPECT_FALSE(json.at("machine").at("cpu").get<std::string>().empty());
+  EXPECT_LE(json.at("started").get<std::string>(), json.at("finished").get<std::string>());
+  EXPECT_EQ(json.at("started").get<std::string>().size(), std::string("2026-11-21T12:34:56Z").size());
+}
+
+TEST_F(ToyRunTest, writes_a_report_that_stands_alone) {
+  ASSERT_EQ(run().status, 0);
+  const std::string page = read_text(out + "/report.html");
+  EXPECT_NE(page.find("The squares &amp; &lt;their&gt; sum."), std::string::npos);
+  EXPECT_NE(page.find("<p>First.</p>\n<p>Second.</p>"), std::string::npos);
+  for (const char* never : {"<script", "<img", "@import", "url(", "src="}) {
+    EXPECT_EQ(page.find(never), std::string::npos) << never;
+  }
+  for (auto at = page.find("href=\""); at != std::string::npos; at = page.find("href=\"", at + 1)) {
+    const std::string target = page.substr(at + 6, page.find('"', at + 6) - at - 6);
+    EXPECT_TRUE(target == "data:," || std::filesystem::exists(out + "/" + target)) << target;
+  }
+}
+
+TEST_F(ToyRunTest, gives_the_same_bytes_for_any_thread_count) {
+  std::map<std::string, std::string> first;
+  for (const char* threads : {"1", "2", "3"}) {
+    out = folder / threads;
+    ASSERT_EQ(run({"--threads", threads}).status, 0);
+    auto files = files_in(out);
+    for (const char* name : {"data/timings.csv", "report.html", "manifest.json"}) files.erase(name);
+    if (first.empty()) first = files;
+    EXPECT_EQ(files, first);
+  }
+}
+
+TEST_F(ToyRunTest, reports_a_failed_self_test) {
+  ToyControl::pass = false;
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_NE(reply.err.find("the self-test failed"), std::string::npos);
+  EXPECT_NE(read_text(out + "/report.html").find("The self-test failed"), std::string::npos);
+  EXPECT_EQ(run().status, 1) << "and still does when asked again";
+}
+
+TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  const Reply reply = run();
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_NE(reply.err.find("figures were not drawn: gnuplot is not installed\n"), std::string::npos) << reply.err;
+  EXPECT_NE(read_text(out + "/report.html").find("gnuplot is not installed"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(out + "/plots/squares.gp"));
+}
+
+TEST_F(ToyRunTest, writes_nothing_on_a_dry_run) {
+  const Reply reply = run({"--dry-run", "--threads", "1"});
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_TRUE(reply.out.starts_with("toy: 20 units, 200 trials on 1 thread\nabout ")) << reply.out;
+  EXPECT_NE(reply.out.find(" s (16 units tried with "), std::string::npos) << reply.out;
+  EXPECT_EQ(ToyControl::computed, 0);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const auto json = nlohmann::json::parse(run({"--dry-run", "--json"}).out);
+  EXPECT_EQ(json.at("trials"), 200);
+  EXPECT_GE(json.at("estimated_seconds"), 0);
+  EXPECT_EQ(json.at("units_left_out_of_estimate"), 0);
+}
+
+TEST_F(ToyRunTest, replies_in_json) {
+  const auto json = nlohmann::json::parse(run({"--json"}).out);
+  EXPECT_EQ(json.at("experiment"), "toy");
+  EXPECT_EQ(json.at("out"), out);
+  EXPECT_EQ(json.at("units"), 20);
+  EXPECT_EQ(json.at("trials"), 200);
+  EXPECT_EQ(json.at("answer"), "The squares & <their> sum.");
+  EXPECT_EQ(json.at("self_test_passed"), true);
+  EXPECT_EQ(json.at("report"), out + "/report.html");
+  EXPECT_EQ(nlohmann::json::parse(call({"list", "--json"}).out).at(0).at("name"), "toy");
+}
+
+TEST_F(ToyRunTest, runs_its_own_resolved_configuration) {
+  write_text(folder / "my.toml", "experiment = \"toy\"\ncells = 5\n");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
+  EXPECT_EQ(manifest().at("reproduce"), "thinwall run resolved.toml --seed 0 --out ../again");
+  const std::string again = folder / "again";
+  ASSERT_EQ(call({"run", out + "/resolved.toml", "--out", again}).status, 0);
+  EXPECT_EQ(read_text(again + "/data/cells.csv"), read_text(out + "/data/cells.csv"));
+}
+
+// ---- Killed at any moment, from before its first unit until the last file has its place, a run goes on by the same command
+// and ends with the same bytes.
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct KilledRunTest : testing::Test {
+  TemporaryFolder folder;
+
+  KilledRunTest() { write_text(folder / "my.toml", small_wall); }
+
+  std::vector<std::string> words(const std::string& out) const {
+    return {THINWALL_PROGRAM, "run", folder / "my.toml", "--out", folder / out, "--threads", "2", "--seed", "11"};
+  }
+
+  std::string notes() const { return read_text(folder / "notes"); }
+
+  std::uintmax_t journal_size(const std::string& out) const {
+    std::error_code none;
+    const auto size = fs::file_size(folder / out + "/journal.tsv", none);
+    return none ? 0 : size;
+  }
+
+  /// True while a file of the result waits for its place.
+  bool is_staged(const std::string& out, const std::string& name) const {
+    std::error_code none;
+    for (fs::directory_iterator entry(folder / out, none), end; !none && entry != end; entry.increment(none)) {
+      if (is_temporary_name(entry->path().filename().string()) && fs::exists(entry->path() / name, none)) return true;
+    }
+    return false;
+  }
+
+  void run_to_the_end(const std::string& out) const {
+    const int status = ProgramProcess(words(out), folder / "notes").wait();
+    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << notes();
+  }
+};
+
+TEST_F(KilledRunTest, ends_with_the_same_bytes_after_fifty_kills) {
+  constexpr int kills = sanitized ? 10 : 50;
+  constexpr int moments = 4;
+  std::uintmax_t largest_journal = 0;
+  const auto start = Clock::now();
+  {
+    ProgramProcess whole(words("whole"), folder / "notes");
+    while (whole.running()) {
+      largest_journal = std::max(largest_journal, journal_size("whole"));
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    ASSERT_EQ(whole.wait(), 0) << notes();
+  }
+  const auto whole_time = Clock::now() - start;
+  const auto expected = lasting_files(folder / "whole");
+  ASSERT_GT(largest_journal, 0u);
+  std::vector<std::string> names;
+  for (const auto& [name, text] : files_in(folder / "whole")) names.push_back(name);
+
+  std::mt19937_64 random(20261122);
+  const auto below = [&](auto count) {
+    return static_cast<decltype(count)>(random() % static_cast<std::uint64_t>(count));
+  };
+  std::array<int, moments> killed{};
+  int done = 0, folders = 0;
+  std::string out = "0";
+  for (int attempt = 0; done < kills; ++attempt) {
+    ASSERT_LT(attempt, 20 * kills) << "too few runs live long enough to be killed";
+    const int kind = below(moments);
+    const auto when = Clock::now() + below(whole_time.count()) * Clock::duration(1);
+    const auto size = below(largest_journal);
+    const std::string name = names[below(names.size())];
+    const auto moment = [&] {
+      switch (kind) {
+        case 0: return Clock::now() >= when;
+        case 1: return journal_size(out) > size;
+        case 2: return is_staged(out, name);
+        default: return fs::exists(folder / out + "/" + name);
+      }
+    };
+    ProgramProcess run(words(out), folder / "notes");
+    const bool reached = run.wait_until(moment, std::chrono::microseconds(kind < 2 ? 100 : 0));
+    const int status = reached ? run.end_with(SIGKILL) : run.wait();
+    if (WIFSIGNALED(status)) {
+      ++done;
+      ++killed[static_cast<std::size_t>(kind)];
+      const bool complete = fs::exists(folder / out + "/manifest.json");
+      for (const auto& [file, text] : expected) {  // whatever has its own name is whole; with a manifest, all is there
+        const fs::path there = folder / out + "/" + file;
+        ASSERT_TRUE(!complete || fs::exists(there)) << file;
+        if (file == "cite.bib" || !fs::exists(there)) continue;
+        ASSERT_EQ(read_text(there), text) << file;
+      }
+      if (kind < 2) continue;
+      run_to_the_end(out);
+    } else {
+      ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << notes();
+    }
+    ASSERT_EQ(lasting_files(folder / out), expected);
+    out = std::to_string(++folders);
+  }
+  run_to_the_end(out);
+  EXPECT_EQ(lasting_files(folder / out), expected);
+  std::printf(
+      "killed %d times by the clock, %d in the units, %d before and %d after files had their place; %d folders\n",
+      killed[0], killed[1], killed[2], killed[3], folders + 1);
+  EXPECT_GT(*std::ranges::min_element(killed), 0);
+}
+
+TEST_F(KilledRunTest, clears_up_after_a_kill_between_the_manifest_and_the_end) {
+  run_to_the_end("out");
+  const auto expected = lasting_files(folder / "out");
+  Journal(folder / "out/journal.tsv", "left");
+  fs::create_directories(folder / "out/" + temporary_name() + "/data");
+  run_to_the_end("out");
+  EXPECT_NE(notes().find("complete already"), std::string::npos) << notes();
+  EXPECT_EQ(lasting_files(folder / "out"), expected);
+}
+
+TEST_F(KilledRunTest, forgets_no_file_of_a_result_that_it_was_replacing) {
+  run_to_the_end("out");
+  const auto expected = lasting_files(folder / "out");
+  std::string manifest = read_text(folder / "out/manifest.json");
+  manifest.insert(manifest.find("\"files\": {") + 10, "\"data/gone.csv\": \"" + sha256("old\n") + "\", ");
+  fs::remove(folder / "out/manifest.json");  // killed after its first moves, replacing a result with one file more
+  write_text(folder / "out/manifest.old.json", manifest);
+  write_text(folder / "out/data/gone.csv", "old\n");
+  run_to_the_end("out");
+  EXPECT_NE(notes().find("an earlier result was being replaced here"), std::string::npos) << notes();
+  EXPECT_EQ(lasting_files(folder / "out"), expected);
+}
+
+TEST_F(KilledRunTest, heeds_an_interrupt_at_once_in_the_midst_of_a_long_unit) {
+  write_text(
+      folder / "my.toml",
+      "experiment = \"thin_wall\"\nshots = 4194304\nspeed = [10]\nstep = [0.016666666666666666]\nradius = [0.02]\n"
+      "thickness = [0.01]\nangle_deg = [0]\nwall = [\"infinite\"]\nmethod = [\"inclusion\"]\nscalar = [\"double\"]\n");
+  ProgramProcess run(words("long"), folder / "notes");
+  ASSERT_TRUE(
+      run.wait_until([&] { return notes().find("units, ") != std::string::npos; }, std::chrono::milliseconds(5)))
+      << notes();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the units are under way
+  const int status = run.end_with(SIGINT);
+  const std::string journal = read_text(folder / "long/journal.tsv");
+  EXPECT_LE(std::ranges::count(journal, '\n'), 2) << "the long unit was waited for";  // the other has 1009 shots
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
+  EXPECT_NE(notes().find("to continue:\n"), std::string::npos) << notes();
+}
+
+// ---- A disk that is full, and a folder that cannot be written: named, nothing lost, and the same command goes on.
+// The disk is a small tmpfs in a mount namespace of its own, which ends with the shell that made it.
+
+namespace fs = std::filesystem;
+
+struct FullDiskTest : testing::Test {
+  TemporaryFolder folder;
+
+  FullDiskTest() {
+    write_text(folder / "my.toml", small_wall);
+    fs::create_directory(folder / "disk");
+  }
+
+  ProcessResult in_namespace(const std::string& script) const {
+    const char* const how = ::geteuid() == 0 ? "-m" : "-rm";
+    return run_process({"unshare", how, "sh", "-c", script}, folder.path());
+  }
+
+  /// Why there can be no disk; empty if there can.
+  std::string trouble() const {
+    const ProcessResult probe = in_namespace("mount -t tmpfs -o size=64k none disk");
+    return probe.status == 0 ? "" : "a tmpfs cannot be mounted here: " + probe.output;
+  }
+
+  /// Runs into a disk with those `limits` until it ends, twice; then writes nothing to it, then makes room and runs again.
+  /// Leaves what each said in 1, 2, read_only and 3, and the result in `result`.
+  std::string fill(const std::string& limits) const {
+    const std::string run =
+        std::string("'") + THINWALL_PROGRAM + "' run my.toml --out disk/out --threads 2 --seed 11 >/dev/null 2>";
+    const ProcessResult end = in_namespace("mount -t tmpfs -o " + limits + " none disk\n" +         //
+                                           run + "1; echo $? >status\n" +                           //
+                                           "cp disk/out/journal.tsv kept\n" +                       //
+                                           run + "2; echo $? >>status\n" +                          //
+                                           "mount -o remount,ro disk\n" +                           //
+                                           run + "read_only; echo $? >>status\n" +                  //
+                                           "mount -o remount,rw,size=64m,nr_inodes=10000 disk\n" +  //
+                                           run + "3; echo $? >>status\n" +                          //
+                                           "cp -r disk/out result\n");
+    EXPECT_EQ(end.status, 0) << end.output;
+    return read_text(folder / "status");
+  }
+
+  std::string last_line(const std::string& file) const {
+    std::istringstream lines(read_text(folder / file));
+    std::string last;
+    for (std::string line; std::getline(lines, line);) last = line;
+    return last;
+  }
+
+  void expect_survival(const std::string& limits, const std::string& where) {
+    SCOPED_TRACE(limits);
+    EXPECT_EQ(fill(limits), "1\n1\n2\n0\n") << read_text(folder / "1") << read_text(folder / "2");
+    EXPECT_TRUE(last_line("1").starts_with("failed: disk/out/" + where)) << last_line("1");
+    EXPECT_NE(last_line("1").find(": No space left on device; what was finished is kept"), std::string::npos);
+    EXPECT_NE(last_line("2").find(": No space left on device"), std::string::npos) << last_line("2");
+    EXPECT_EQ(read_text(folder / "read_only"), "--out disk/out: cannot be written: Read-only file system\n");
+    const std::string journal = read_text(folder / "kept");
+    const bool publishing = journal.find("\n\t") != journal.npos;          // a row without a key
+    const auto rows = std::ranges::count(journal, '\n') - 1 - publishing;  // a torn one has no end
+    EXPECT_GT(rows, 0);
+    std::istringstream continued(read_text(folder / "3"));
+    long read = 0;
+    for (std::string line; std::getline(continued, line);) {
+      if (line.ends_with("units were read from the journal")) read = std::stol(line);
+    }
+    EXPECT_GE(read, rows);
+    EXPECT_EQ(lasting_files(folder / "result"), expected_);
+    fs::remove_all(folder / "result");
+  }
+
+  std::map<std::string, std::string> expected_;
+};
+
+TEST_F(FullDiskTest, is_named_and_loses_nothing_wherever_it_fills) {
+  if (const std::string why = trouble(); !why.empty()) GTEST_SKIP() << why;
+  const ProcessResult whole = run_process(
+      {THINWALL_PROGRAM, "run", "my.toml", "--out", "whole", "--threads", "2", "--seed", "11"}, folder.path());
+  ASSERT_EQ(whole.status, 0) << whole.output;
+  expected_ = lasting_files(folder / "whole");
+  expect_survival("size=16k", "journal.tsv");
+  expect_survival("size=300k", ".thinwall-");
+  const auto entries =
+      std::distance(fs::recursive_directory_iterator(folder / "whole"), fs::recursive_directory_iterator());
+  // Room for the root, the result folder, the journal, the folder for staging and all it holds; none for a folder beside it.
+  expect_survival("nr_inodes=" + std::to_string(4 + entries), "data");
+}
+
+TEST_F(FullDiskTest, is_no_bad_input_when_there_is_no_room_for_the_first_row) {
+  if (const std::string why = trouble(); !why.empty()) GTEST_SKIP() << why;
+  const ProcessResult end = in_namespace(
+      "mount -t tmpfs -o nr_inodes=2 none disk\n"
+      "'" THINWALL_PROGRAM "' run my.toml --out disk/out; echo $?; ls -A disk/out");
+  EXPECT_EQ(end.output, "failed: --out disk/out: cannot be written: No space left on device\n1\n");
+}
+
+}  // namespace
+
+}  // namespace thinwall

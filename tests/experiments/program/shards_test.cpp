@@ -1,0 +1,434 @@
+/// Shards of a run and their merging, from the command line to the files.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/lab/draw.hpp>
+#include <thinwall/experiments/lab/shards.hpp>
+
+#include "support/program.hpp"
+#include "support/toy.hpp"
+
+namespace thinwall {
+
+namespace {
+
+struct ShardProgram : ToyProgram {
+  std::string shard(int index, int count) const {
+    return folder / ("part" + std::to_string(index) + "of" + std::to_string(count));
+  }
+
+  Reply run_shard(int index, int count, std::vector<std::string> more = {}) const {
+    std::vector<std::string> words = {
+        "run", "toy", "--out", shard(index, count), "--shard", std::to_string(index) + "/" + std::to_string(count)};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words);
+  }
+
+  Reply merge(std::vector<std::string> folders, std::vector<std::string> more = {}) const {
+    folders.insert(folders.begin(), "merge");
+    folders.insert(folders.end(), {"--out", out});
+    folders.insert(folders.end(), more.begin(), more.end());
+    return call(folders);
+  }
+
+  std::vector<std::string> run_shards(int count) const {
+    std::vector<std::string> folders;
+    for (int index = count; index >= 1; --index) {
+      EXPECT_EQ(run_shard(index, count).status, 0);
+      folders.push_back(shard(index, count));
+    }
+    return folders;
+  }
+
+  /// One line that has all of `said`, and no result.
+  void expect_refusal(const std::vector<std::string>& folders, const std::vector<std::string>& said) const {
+    const Reply reply = merge(folders);
+    EXPECT_EQ(reply.status, 2) << reply.err;
+    EXPECT_EQ(reply.out, "");
+    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+    for (const std::string& part : said) EXPECT_NE(reply.err.find(part), std::string::npos) << reply.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+
+  /// Every file of a result that must be the same in every run.
+  std::map<std::string, std::string> hashed_files(const std::string& result) const {
+    std::map<std::string, std::string> files;
+    const auto manifest = nlohmann::json::parse(read_text(result + "/manifest.json"));
+    for (const auto& [name, hash] : manifest.at("files").items()) files[name] = read_text(result + "/" + name);
+    files.erase("cite.bib");  // holds a date
+    return files;
+  }
+};
+
+TEST_F(ShardProgram, merged_are_the_bytes_of_one_run) {
+  ASSERT_EQ(run({"--seed", "3", "--trials", "7"}).status, 0);
+  const auto whole = hashed_files(out);
+  EXPECT_TRUE(whole.contains("data/cells.csv"));
+  for (const int count : {1, 2, 3, 7, 25}) {  // more shards than units: some are empty
+    std::vector<std::string> folders;
+    for (int index = 1; index <= count; ++index) {
+      const Reply reply = run_shard(index, count, {"--seed", "3", "--trials", "7"});
+      ASSERT_EQ(reply.status, 0) << reply.err;
+      folders.push_back(shard(index, count));
+    }
+    out = folder / ("merged" + std::to_string(count));
+    ToyControl::computed = 0;
+    const Reply reply = merge(folders, {"--json"});
+    ASSERT_EQ(reply.status, 0) << reply.err;
+    EXPECT_EQ(ToyControl::computed, 0);
+    EXPECT_EQ(hashed_files(out), whole) << count;
+    EXPECT_EQ(nlohmann::json::parse(reply.out).at("units"), 20);
+    EXPECT_EQ(manifest().at("shards").size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(manifest().at("seed"), 3);
+    EXPECT_EQ(manifest().at("trials"), 7);
+    EXPECT_EQ(files_in(out).count("journal.tsv"), 0u);
+  }
+}
+
+TEST_F(ShardProgram, of_a_configuration_of_its_own_are_merged_too) {
+  write_text(folder / "my.toml", "experiment = \"toy\"\nspeed = [0.0001, 1e300, 3]\ncells = 3\n");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
+  const auto whole = hashed_files(out);
+  const std::string id = manifest().at("run_id");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--shard", "1/1", "--out", shard(1, 1)}).status, 0);
+  out = folder / "merged";
+  const Reply reply = merge({shard(1, 1)});
+  ASSERT_EQ(reply.status, 0) << reply.err;
+  EXPECT_EQ(hashed_files(out), whole);
+  EXPECT_EQ(manifest().at("run_id"), id);
+}
+
+TEST_F(ShardProgram, merged_again_is_complete_already) {
+  const auto folders = run_shards(2);
+  ASSERT_EQ(merge(folders).status, 0);
+  const Reply again = merge(folders);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.err.find("complete already"), std::string::npos) << again.err;
+}
+
+TEST_F(ShardProgram, says_what_it_did) {
+  const Reply text = run_shard(2, 4, {"--threads", "2"});
+  EXPECT_EQ(text.out, "shard 2/4 of toy is finished, in " + shard(2, 4) +
+                          "\nwith all 4 of them: thinwall merge SHARD... --out DIR\n");
+  EXPECT_EQ(text.err, "toy: 5 units, 50 trials on 2 threads\n");
+  EXPECT_EQ(files_in(shard(2, 4)).size(), 2u) << "journal.tsv and shard.json";
+  const auto json = nlohmann::json::parse(run_shard(3, 4, {"--json"}).out);
+  EXPECT_EQ(json.at("shard"), "3/4");
+  EXPECT_EQ(json.at("units"), 5);
+}
+
+TEST_F(ShardProgram, goes_on_where_it_was_and_is_finished_once) {
+  ToyControl::interrupt_after = 4;
+  EXPECT_EQ(run_shard(1, 2, {"--threads", "1"}).status, 130);
+  expect_refusal({shard(1, 2)}, {shard(1, 2) + ": shard 1/2 is unfinished; run the shard again"});
+  ToyControl::computed = 0;
+  EXPECT_EQ(run_shard(1, 2).status, 0);
+  EXPECT_EQ(ToyControl::computed, 6);
+  const Reply again = run_shard(1, 2);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.err.find("finished already; nothing was computed"), std::string::npos) << again.err;
+  EXPECT_EQ(ToyControl::computed, 6);
+}
+
+TEST_F(ShardProgram, refuses_what_is_no_shard) {
+  const auto folders = run_shards(2);
+  expect_refusal({}, {"the folders of the shards are missing"});
+  expect_refusal({folders[0], folder / "none"}, {folder / "none: there is no such folder"});
+  write_text(folder / "file", "");
+  expect_refusal({folders[0], folder / "file"}, {folder / "file: is not a folder"});
+  std::filesystem::create_directory(folder / "empty");
+  expect_refusal({folders[0], folder / "empty"}, {folder / "empty: is not a shard of a run: it has no shard.json"});
+  const std::string whole = folder / "whole";
+  ASSERT_EQ(call({"run", "toy", "--out", whole}).status, 0);
+  expect_refusal({folders[0], whole}, {whole + ": holds a whole result, not a shard"});
+}
+
+TEST_F(ShardProgram, refuses_shards_that_do_not_go_together) {
+  run_shards(2);
+  run_shards(3);
+  expect_refusal({shard(1, 2), shard(2, 3)},
+                 {shard(2, 3) + ": is shard 2/3, but " + shard(1, 2) + " is shard 1/2: one run is cut one way"});
+  expect_refusal({shard(1, 3), shard(3, 3), shard(1, 3)}, {shard(1, 3) + ": is shard 1/3, and so is " + shard(1, 3)});
+  expect_refusal({shard(1, 3), shard(3, 3)}, {"missing: shard 2/3; 2 of 3 were given"});
+  expect_refusal({shard(1, 3)}, {"missing: shards 2/3, 3/3; 1 of 3 were given"});
+  std::filesystem::remove_all(shard(2, 2));
+  ASSERT_EQ(run_shard(2, 2, {"--seed", "9"}).status, 0);
+  expect_refusal({shard(1, 2), shard(2, 2)},
+                 {shard(2, 2) + ": is a shard of another run than " + shard(1, 2) + " (seed = 9, not 0)"});
+  std::filesystem::remove_all(shard(2, 2));
+  ASSERT_EQ(run_shard(2, 2, {"--trials", "9"}).status, 0);
+  expect_refusal({shard(1, 2), shard(2, 2)}, {"is a shard of another run", "(trials = 9, not none)"});
+  write_text(folder / "my.toml", "experiment = \"toy\"\nspeed = [1, 11]\n");
+  const std::string other = folder / "other";
+  ASSERT_EQ(call({"run", folder / "my.toml", "--shard", "2/2", "--out", other}).status, 0);
+  expect_refusal({shard(1, 2), other}, {other + ": is a shard of another run", "(speed = [1,11], not [1,10])"});
+}
+
+TEST_F(ShardProgram, refuses_shards_of_another_build) {
+  run_shards(2);
+  const auto rebuild = [&](const std::string& path) {  // as another build of the program would have left it
+    RunIdentity identity = parse_seal(read_text(path + "/shard.json"))->identity;
+    const Journal::Rows rows = read_journal(path + "/journal.tsv").rows;
+    std::filesystem::remove_all(path);
+    identity.program = "another";
+    ResultFolder other(path, identity);
+    other.journal().add(rows);
+    seal_shard(other, identity, {});
+  };
+  rebuild(shard(2, 2));
+  expect_refusal({shard(1, 2), shard(2, 2)},
+                 {shard(2, 2) + ": was computed by another build of the program than " + shard(1, 2)});
+  rebuild(shard(1, 2));
+  expect_refusal({shard(1, 2), shard(2, 2)},
+                 {shard(1, 2) + ": was computed by another build of the program than this one"});
+  ASSERT_EQ(run_shard(1, 2).status, 0) << "starts over";
+  ASSERT_EQ(run_shard(2, 2).status, 0);
+  EXPECT_EQ(merge({shard(1, 2), shard(2, 2)}).status, 0);
+}
+
+TEST_F(ShardProgram, refuses_damage_which_running_the_shard_again_mends) {
+  const auto folders = run_shards(2);
+  const std::string part = shard(2, 2), journal = part + "/journal.tsv", seal = part + "/shard.json";
+  const std::string rows = read_text(journal), sealed = read_text(seal);
+  const auto expect_damage = [&](const std::string& what) {
+    expect_refusal(folders, {part + ": " + what, "; run the shard again"});
+    ToyControl::computed = 0;
+    ASSERT_EQ(run_shard(2, 2).status, 0);
+    EXPECT_LE(ToyControl::computed, 10);
+    ASSERT_EQ(merge(folders).status, 0);
+    std::filesystem::remove_all(out);
+    write_text(journal, rows);
+    write_text(seal, sealed);
+  };
+  std::string torn = rows;
+  torn[torn.rfind('\t') - 1] ^= 1;
+  write_text(journal, torn);
+  expect_damage(journal + ":11: the row of 'cell ");
+  write_text(journal, rows.substr(0, rows.rfind('\n', rows.size() - 2) + 1));
+  expect_damage("its journal.tsv was changed since the shard was finished");
+  std::string headless = rows;
+  headless[headless.find('\n') - 1] ^= 1;
+  write_text(journal, headless);
+  expect_damage("the first row of its journal.tsv is damaged");
+  std::filesystem::remove(seal);
+  expect_damage("shard 2/2 is unfinished");
+  write_text(seal, sealed.substr(0, sealed.size() / 2));
+  expect_damage("its shard.json is damaged, or not ours");
+}
+
+TEST_F(ShardProgram, refuses_a_shard_with_the_wrong_units) {
+  run_shards(2);
+  const auto reseal = [&](const Journal::Rows& rows) {  // whole to look at, but for what it holds
+    const RunIdentity identity = parse_seal(read_text(shard(1, 2) + "/shard.json"))->identity;
+    std::filesystem::remove_all(shard(1, 2));
+    ResultFolder other(shard(1, 2), identity);
+    other.journal().add(rows);
+    seal_shard(other, identity, {});
+  };
+  Journal::Rows rows = read_journal(shard(1, 2) + "/journal.tsv").rows;
+  const auto lost = rows.extract(rows.begin());
+  reseal(rows);
+  expect_refusal({shard(1, 2), shard(2, 2)}, {shard(1, 2) + ": lacks the unit '" + lost.key() + "'"});
+  rows[lost.key()] = lost.mapped();
+  rows["cell 1000"] = lost.mapped();
+  reseal(rows);
+  expect_refusal({shard(1, 2), shard(2, 2)}, {shard(1, 2) + ": has units that are not its own"});
+}
+
+TEST_F(ShardProgram, keeps_folders_apart) {
+  const auto folders = run_shards(2);
+  EXPECT_NE(call({"run", "toy", "--out", folders[0]}).err.find("holds another run (shard = \"2/2\", not none)"),
+            std::string::npos);
+  EXPECT_NE(call({"run", "toy", "--shard", "1/2", "--out", folders[0]}).err.find("(shard = \"2/2\", not \"1/2\")"),
+            std::string::npos);
+  out = folders[0];
+  EXPECT_EQ(merge(folders).status, 2);
+  out = folder / "used";
+  write_text(folder / "my.toml", "experiment = \"toy\"\ncells = 5\n");
+  ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
+  const auto before = files_in(out);
+  const Reply reply = merge(folders);
+  EXPECT_EQ(reply.status, 2);
+  EXPECT_NE(reply.err.find("--out " + out + ": holds another run (cells = 5, not 20)"), std::string::npos) << reply.err;
+  EXPECT_EQ(files_in(out), before);
+  EXPECT_EQ(call({"run", "toy", "--shard", "1/2", "--out", out}).status, 2);
+  EXPECT_EQ(files_in(out), before);
+}
+
+TEST_F(ShardProgram, dry_run_counts_the_shard_alone) {
+  const Reply reply = run_shard(7, 7, {"--dry-run", "--threads", "1"});
+  EXPECT_TRUE(reply.out.starts_with("toy: 2 units, 20 trials on 1 thread\n")) << reply.out;
+  EXPECT_FALSE(std::filesystem::exists(shard(7, 7)));
+}
+
+// ---- The program as it is, cut into shards and shared among the ranks of mpirun: the bytes of one run.
+
+constexpr const char* small_bouncing = R"(experiment = "bouncing"
+step = [0.03333333333333333, 0.016666666666666666, 0.06666666666666667]
+restitution = [0.5, 1]
+bounces = 200
+runs = 4
+run_bounces = 8
+rounds = 1
+mass_ratio = [1]
+scenario = ["zeno", "walls", "masses"]
+digits = 2
+)";
+
+struct LeavingOneMachine : testing::Test {
+  TemporaryFolder folder;
+
+  LeavingOneMachine() {
+    write_text(folder / "wall.toml", small_wall);
+    write_text(folder / "bouncing.toml", small_bouncing);
+  }
+
+  ProcessResult call(std::vector<std::string> words) const {
+    words.insert(words.begin(), THINWALL_PROGRAM);
+    return run_process(words, folder.path());
+  }
+
+  /// Every file that the manifest hashes, but for the date in one.
+  std::map<std::string, std::string> hashed_files(const std::string& result) const {
+    std::map<std::string, std::string> files;
+    const auto manifest = nlohmann::json::parse(read_text(folder / result + "/manifest.json"));
+    for (const auto& [name, hash] : manifest.at("files").items()) files[name] = read_text(folder / result + "/" + name);
+    files.erase("cite.bib");
+    EXPECT_GT(files.size(), 5u);
+    return files;
+  }
+};
+
+TEST_F(LeavingOneMachine, merged_shards_are_the_bytes_of_one_run) {
+  for (const char* config : {"wall.toml", "bouncing.toml"}) {
+    const std::string name = config;
+    ASSERT_EQ(call({"run", config, "--seed", "5", "--out", name + ".whole"}).status, 0);
+    std::vector<std::string> merge = {"merge", "--out", name + ".merged"};
+    for (const char* index : {"2", "1", "3"}) {
+      const std::string part = name + "." + index;
+      const ProcessResult shard =
+          call({"run", config, "--seed", "5", "--shard", std::string(index) + "/3", "--out", part, "--threads", index});
+      ASSERT_EQ(shard.status, 0) << shard.output;
+      merge.push_back(part);
+    }
+    const ProcessResult merged = call(merge);
+    ASSERT_EQ(merged.status, 0) << merged.output;
+    EXPECT_EQ(hashed_files(name + ".merged"), hashed_files(name + ".whole"));
+  }
+}
+
+struct Mpi : LeavingOneMachine {
+  void SetUp() override {
+    if (!run_process({"mpirun", "--version"}, folder.path()).found) GTEST_SKIP() << "mpirun is not installed";
+#ifndef THINWALL_HAS_MPI
+    GTEST_SKIP() << "the program was built without MPI";
+#endif
+  }
+
+  /// Open MPI itself leaks; and in a container it may not read the memory of its neighbors.
+  static std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& words) {
+    std::vector<std::string> line = {"/usr/bin/env",
+                                     "mpirun",
+                                     "--allow-run-as-root",
+                                     "--oversubscribe",
+                                     "--mca",
+                                     "btl_vader_single_copy_mechanism",
+                                     "none",
+                                     "-x",
+                                     "ASAN_OPTIONS=detect_leaks=0",
+                                     "-n",
+                                     std::to_string(ranks),
+                                     THINWALL_PROGRAM};
+    line.insert(line.end(), words.begin(), words.end());
+    return line;
+  }
+
+  ProcessResult on_ranks(int ranks, const std::vector<std::string>& words) const {
+    return run_process(mpirun(ranks, words), folder.path());
+  }
+};
+
+TEST_F(Mpi, ranks_1_2_and_4_give_the_bytes_of_one_process_and_one_of_them_speaks) {
+  ASSERT_EQ(call({"run", "wall.toml", "--out", "whole"}).status, 0);
+  for (const int ranks : {1, 2, 4}) {
+    const std::string out = "ranks" + std::to_string(ranks);
+    const ProcessResult result = on_ranks(ranks, {"run", "wall.toml", "--out", out, "--threads", "1"});
+    ASSERT_EQ(result.status, 0) << result.output;
+    const std::string size = ranks == 1 ? " on 1 thread\n" : " on " + std::to_string(ranks) + " ranks of 1 thread\n";
+    EXPECT_NE(result.output.find(size), std::string::npos) << result.output;
+    EXPECT_EQ(result.output.find("report: "), result.output.rfind("report: ")) << result.output;
+    EXPECT_EQ(hashed_files(out), hashed_files("whole"));
+    EXPECT_EQ(files_in(folder / out).count("journal.tsv"), 0u);
+    EXPECT_EQ(files_in(folder / out).count("journal.rank-1.tsv"), 0u);
+  }
+}
+
+TEST_F(Mpi, a_run_whose_ranks_were_killed_goes_on_with_any_number_of_them_or_with_none) {
+  const std::string trials = sanitized ? "1500" : "30000";
+  ASSERT_EQ(call({"run", "wall.toml", "--trials", trials, "--out", "whole"}).status, 0);
+  const auto rows = [&](const std::string& file) {
+    std::ifstream in(folder / ("killed/" + file));
+    std::ptrdiff_t count = 0;
+    for (std::string line; std::getline(in, line);) ++count;
+    return std::max<std::ptrdiff_t>(count - 1, 0);
+  };
+  for (const int ranks : {3, 2}) {
+    ProgramProcess process(mpirun(ranks, {"run", (folder / "wall.toml"), "--trials", trials, "--threads", "1", "--out",
+                                          (folder / "killed")}),
+                           folder / "notes");
+    const auto before = rows("journal.tsv");
+    ASSERT_TRUE(process.wait_until([&] { return rows("journal.tsv") > before && rows("journal.rank-1.tsv") > 0; },
+                                   std::chrono::microseconds(500)));
+    process.end_with(SIGTERM);
+    EXPECT_FALSE(std::filesystem::exists(folder / "killed/manifest.json"));
+  }
+  const auto kept = rows("journal.tsv") + rows("journal.rank-1.tsv");
+  const ProcessResult rest = call({"run", "wall.toml", "--trials", trials, "--out", "killed"});
+  ASSERT_EQ(rest.status, 0) << rest.output;
+  const auto note = rest.output.find(" units were read from the journal");
+  ASSERT_NE(note, std::string::npos) << rest.output;
+  EXPECT_GE(std::stol(rest.output.substr(rest.output.rfind('\n', note) + 1)), kept);
+  EXPECT_EQ(hashed_files("killed"), hashed_files("whole"));
+}
+
+TEST_F(Mpi, a_folder_of_another_run_is_refused_once_and_no_rank_is_left_waiting) {
+  ASSERT_EQ(call({"run", "wall.toml", "--out", "used"}).status, 0);
+  const auto before = files_in(folder / "used");
+  const ProcessResult refused = on_ranks(2, {"run", "wall.toml", "--seed", "7", "--out", "used"});
+  EXPECT_EQ(refused.status, 2);
+  const std::string line = "--out used: holds another run (seed = 0, not 7)";
+  EXPECT_NE(refused.output.find(line), std::string::npos) << refused.output;
+  EXPECT_EQ(refused.output.find(line), refused.output.rfind(line)) << refused.output;
+  EXPECT_EQ(files_in(folder / "used"), before);
+  EXPECT_EQ(on_ranks(2, {"run", "wall.toml", "--out", "used"}).status, 0) << "complete already";
+}
+
+TEST_F(Mpi, other_commands_run_once) {
+  const ProcessResult list = on_ranks(3, {"list"});
+  EXPECT_EQ(list.status, 0);
+  EXPECT_EQ(list.output.find("\nbouncing "), list.output.rfind("\nbouncing ")) << list.output;
+  const ProcessResult shard = on_ranks(2, {"run", "wall.toml", "--shard", "1/2", "--out", "shard"});
+  EXPECT_EQ(shard.status, 2);
+  EXPECT_NE(shard.output.find("--shard: mpirun shares a run out"), std::string::npos) << shard.output;
+  ASSERT_EQ(call({"run", "wall.toml", "--out", "whole"}).status, 0);
+  const ProcessResult again = on_ranks(2, {"reproduce", "whole"});
+  EXPECT_EQ(again.status, 0) << again.output;
+}
+
+#ifndef THINWALL_HAS_MPI
+TEST_F(LeavingOneMachine, a_program_without_mpi_says_so_when_mpirun_starts_it) {
+  const ProcessResult result = run_process({"/usr/bin/env", "OMPI_COMM_WORLD_SIZE=4", "OMPI_COMM_WORLD_RANK=0",
+                                            THINWALL_PROGRAM, "run", "wall.toml", "--out", "out"},
+                                           folder.path());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.output.find("started as one of 4 processes by mpirun"), std::string::npos) << result.output;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+#endif
+
+}  // namespace
+
+}  // namespace thinwall

@@ -1,0 +1,585 @@
+/// What a scene file may say, and what it is told when it says something else.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/scenes/comparison.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
+
+#include "experiments/scenes/scene_text.hpp"
+#include "support/experiment_run.hpp"
+#include "support/program.hpp"
+
+namespace thinwall {
+
+namespace {
+
+std::string complaint(const std::string& text) {
+  try {
+    scene_from(text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+void expect_complaint(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string said = complaint(text);
+  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said << "\nwants: " << part;
+}
+
+const std::string ball = "scene = 'a'\n[[body]]\nshape = 'sphere'\nradius = 1\n";
+
+TEST(SceneFile, reads_every_shape) {
+  const Scene scene = scene_from(R"(
+scene = "shapes"
+dt = 0.5
+steps = 3
+gravity = [0, -9.5, 0]
+policy = "clamp"
+[[body]]
+shape = "sphere"
+radius = 2
+at = [1, 2, 3]
+[[body]]
+name = "crate"
+shape = "box"
+size = [2, 4, 6]
+mass = 7
+[[body]]
+shape = "turned_box"
+size = [2, 4, 6]
+turn_deg = [0, 0, 90]
+motion = "static"
+[[body]]
+shape = "capsule"
+height = 6
+radius = 1
+axis = [0, 0, 5]
+motion = "driven"
+velocity = [1, 0, 0]
+[[body]]
+shape = "none"
+)");
+  ASSERT_EQ(scene.bodies.size(), 5U);
+  EXPECT_EQ(std::get<Sphere<double>>(scene.bodies[0].shape).center, Vec3<double>(1, 2, 3));
+  EXPECT_EQ(std::get<Aabb<double>>(scene.bodies[1].shape).half_extents, Vec3<double>(1, 2, 3));
+  EXPECT_EQ(scene.bodies[1].mass, 7);
+  EXPECT_EQ(scene.bodies[1].name, "crate");
+  EXPECT_LT((size_of(scene.bodies[2]) - Vec3<double>(4, 2, 6)).norm(), 1e-12);  // turned by a right angle
+  EXPECT_TRUE(scene.bodies[2].is_static);
+  EXPECT_EQ(std::get<Capsule<double>>(scene.bodies[3].shape).b, Vec3<double>(0, 0, 2));
+  EXPECT_EQ(scene.bodies[3].mass, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(scene.bodies[4].shape));
+  EXPECT_EQ(scene.options.policy, TimePolicy::clamp);
+  EXPECT_EQ(scene.options.gravity[1], -9.5);
+  EXPECT_EQ(scene.duration(), 1.5);
+}
+
+TEST(SceneFile, copies_make_a_grid_with_ids_and_names_of_their_own) {
+  const Scene scene = scene_from(
+      ball + "name = 'ball'\nat = [1, 0, 0]\ncopies = [3, 2, 1]\nevery = [10, 20, 0]\n[[body]]\nshape = 'none'\n");
+  ASSERT_EQ(scene.bodies.size(), 7U);
+  EXPECT_EQ(box_of(scene.bodies[5]).center, Vec3<double>(21, 20, 0));
+  EXPECT_EQ(scene.bodies[5].name, "ball 6");
+  for (std::uint32_t i = 0; i < 7; ++i) EXPECT_EQ(scene.bodies[i].id, i + 1);
+}
+
+TEST(SceneFile, jitter_stays_within_its_widths_and_follows_the_seed) {
+  const std::string text =
+      ball + "copies = [20, 1, 1]\nevery = [10, 0, 0]\njitter = [1, 2, 0]\nvelocity_jitter = [0, 0, 6]\n";
+  const Scene one = scene_from(text, {.seed = 1, .trials = {}}), two = scene_from(text, {.seed = 2, .trials = {}});
+  const Scene again = scene_from(text, {.seed = 1, .trials = {}});
+  double spread = 0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Vec3<double> at = box_of(one.bodies[i]).center - Vec3<double>(10 * static_cast<double>(i), 0, 0);
+    EXPECT_LE(std::abs(at[0]), 0.5);
+    EXPECT_LE(std::abs(at[1]), 1);
+    EXPECT_EQ(at[2], 0);
+    EXPECT_LE(std::abs(one.bodies[i].velocity[2]), 3);
+    EXPECT_EQ(box_of(again.bodies[i]).center, box_of(one.bodies[i]).center);
+    EXPECT_NE(box_of(two.bodies[i]).center, box_of(one.bodies[i]).center);
+    spread = std::max(spread, std::abs(at[1]));
+  }
+  EXPECT_GT(spread, 0.5);
+}
+
+TEST(SceneFile, names_the_file_the_line_and_the_key) {
+  expect_complaint(ball + "raduis = 2\n", {"my.toml:5: key 'body.raduis': unknown key; did you mean 'radius'?"});
+  expect_complaint(ball + "mass = 0\n", {"my.toml:5: key 'body.mass': 0 is not allowed", "[kg]"});
+  expect_complaint(ball + "velocity = [inf, 0, 0]\n",
+                   {"my.toml:5: key 'body.velocity'", "a list of 3 numbers", "[m/s]"});
+  expect_complaint(ball + "velocity = [1, 2]\n", {"key 'body.velocity'", "a list of 3 numbers"});
+  expect_complaint(ball + "at = [nan, 0, 0]\n", {"key 'body.at'"});
+  expect_complaint(ball + "restitution = 1.5\n", {"key 'body.restitution': 1.5 is not allowed"});
+  expect_complaint(ball + "size = [1, 1, 1]\n", {"key 'body.size'", "it is not of shape 'sphere'"});
+  expect_complaint(ball + "motion = 'static'\nvelocity = [1, 0, 0]\n", {"key 'body.velocity'", "the body is static"});
+  expect_complaint(ball + "motion = 'driven'\nmass = 2\n", {"key 'body.mass'", "the body is driven"});
+  expect_complaint(ball + "copies = [1.5, 1, 1]\n", {"key 'body.copies'", "three whole numbers"});
+  expect_complaint(ball + "copies = [1000, 1000, 10]\n", {"key 'body.copies'", "at most 2000000 bodies"});
+  expect_complaint("scene = 'a'\n[[body]]\nradius = 1\n", {"my.toml:2: key 'body.shape': missing"});
+  expect_complaint("scene = 'a'\n[[body]]\nshape = 'sphere'\n", {"my.toml:2: key 'body.radius': missing"});
+  expect_complaint("scene = 'a'\n[[body]]\nshape = 'shpere'\n", {"key 'body.shape'", "did you mean 'sphere'?"});
+  expect_complaint("scene = 'a'\n[[body]]\nshape = 'capsule'\nradius = 1\nheight = 1\n",
+                   {"key 'body.height': 1 is not allowed", "at least twice the radius"});
+  expect_complaint("scene = 'a'\n[body]\nshape = 'none'\n", {"key 'body'", "[[body]]"});
+  expect_complaint("scene = 'a b'\n", {"key 'scene'", "letters, digits"});
+  expect_complaint("scene = 'a'\npolicy = 'sweep'\n", {"key 'policy'", "event_driven"});
+  expect_complaint("scene = 'a'\ndt = 0\n", {"key 'dt': 0 is not allowed", "[s]"});
+  expect_complaint("scene = 'a'\nsteps = 0\n", {"key 'steps'"});
+  expect_complaint("scene = 'a'\nplan = 'fat'\n", {"key 'plan'", "lean, full"});
+}
+
+TEST(SceneFile, bounds_every_number_by_its_key) {
+  const std::string scene = "scene = 'a'\n[[body]]\nshape = 'capsule'\nname = 'x'\n";
+  const std::string sizes = "radius = 1\nheight = 2\n", push = sizes + "[[push]]\nbody = 'x'\n";
+  for (const char* bad : {"nan", "inf", "-inf", "1e300", "-1e300", "4294967296", "-1"}) {
+    const bool whole = bad == std::string("4294967296");
+    const auto refuses = [&](const std::string& text, const std::string& key) {
+      expect_complaint(text, {"my.toml:", "key '" + key + "': "});
+    };
+    const auto three = [&](const std::string& key) { return fmt::format("{} = [0, {}, 0]\n", key, bad); };
+    const auto one = [&](const std::string& key) { return fmt::format("{} = {}\n", key, bad); };
+    const auto list = [&](const std::string& key) { return fmt::format("[compare]\n{} = [{}]\n", key, bad); };
+    if (!whole) {
+      refuses(scene + one("radius") + "height = 2\n", "body.radius");
+      refuses(scene + one("height") + "radius = 1\n", "body.height");
+      refuses(scene + one("mass") + sizes, "body.mass");
+      refuses(scene + one("restitution") + sizes, "body.restitution");
+      refuses(scene + three("jitter") + sizes, "body.jitter");
+      refuses(scene + three("velocity_jitter") + sizes, "body.velocity_jitter");
+      refuses(one("correction") + scene + sizes, "correction");
+      refuses(one("dt") + scene + sizes, "dt");
+      refuses(scene + sizes + list("dt"), "compare.dt");
+    }
+    refuses(scene + one("id") + sizes, "body.id");
+    refuses(scene + one("group") + sizes, "body.group");
+    refuses(scene + one("mask") + sizes, "body.mask");
+    refuses(scene + three("copies") + sizes, "body.copies");
+    for (const char* count : {"steps", "substeps", "max_events", "contact_rounds", "end_after", "trace_every"})
+      refuses(one(count) + scene + sizes, count);
+    refuses(scene + sizes + "[compare]\n" + one("finer"), "compare.finer");
+    refuses(scene + sizes + "[compare]\n" + one("repeats"), "compare.repeats");
+    if (whole || bad == std::string("-1")) continue;  // a length, a speed and the like
+    for (const char* key : {"at", "axis", "velocity", "every"}) {
+      refuses(scene + three(key) + sizes, std::string("body.") + key);
+    }
+    refuses(scene + one("gravity_scale") + sizes, "body.gravity_scale");
+    refuses(three("gravity") + scene + sizes, "gravity");
+    refuses(scene + push + three("velocity"), "push.velocity");
+  }
+  expect_complaint(scene + sizes + "velocity = [1e300, 0, 0]\n", {">= -1e+30 and <= 1e+30 [m/s]"});
+  expect_complaint(scene + sizes + "mass = 1e308\n", {">= 1e-30 and <= 1e+30 [kg]"});
+}
+
+/// At the ends of those ranges the longest step leaves numbers that a result can hold.
+TEST(SceneFile, what_it_lets_in_can_be_stepped_and_kept) {
+  const Scene scene = scene_from(R"(
+scene = "ends"
+dt = 1e6
+steps = 3
+gravity = [1e30, -1e30, 1e30]
+[[body]]
+shape = "sphere"
+radius = 1e30
+mass = 1e30
+gravity_scale = 1e30
+velocity = [1e30, 1e30, -1e30]
+[[body]]
+shape = "sphere"
+radius = 1e-30
+at = [1e30, 1e30, 1e30]
+mass = 1e-30
+gravity_scale = -1e30
+restitution = 1
+velocity = [-1e30, 1e30, -1e30]
+)");
+  const Playback playback = play(scene);
+  EXPECT_TRUE(std::isfinite(playback.energy) && std::isfinite(playback.rows.back().energy));
+  EXPECT_EQ(from_text<Playback>(to_text(playback)).rows.back().energy, playback.rows.back().energy);
+}
+
+TEST(SceneFile, an_axis_may_be_of_any_length) {
+  const Scene scene =
+      scene_from("scene = 'a'\n[[body]]\nshape = 'capsule'\nradius = 1\nheight = 6\naxis = [0, 3e-200, 4e-200]\n");
+  EXPECT_LT((std::get<Capsule<double>>(scene.bodies[0].shape).b - Vec3<double>(0, 1.2, 1.6)).norm(), 1e-15);
+}
+
+TEST(SceneFile, ids_are_free_and_end_somewhere) {
+  const std::string none = "[[body]]\nshape = 'none'\n";
+  expect_complaint(ball + "id = 4\nname = 'one'\n" + none + "id = 4\n",
+                   {"my.toml:9: key 'body.id': 4 is not allowed; a body before it has id 4"});
+  expect_complaint(ball + "id = 4\n" + none + "id = 2\ncopies = [5, 1, 1]\n", {"a body before it has id 4"});
+  expect_complaint(ball + "id = 4294967295\n", {"no complaint"});
+  expect_complaint(ball + "id = 4294967295\n" + none,
+                   {"my.toml:6: key 'body.id', left at its default: 0 is not allowed"});
+  expect_complaint(ball + "id = 4294967295\ncopies = [2, 1, 1]\n", {"my.toml:5: key 'body.id': 4294967295", "takes 2"});
+  const Scene scene = scene_from(ball + "id = 5\n" + none + "id = 4\n" + none + "copies = [2, 1, 1]\n" + none);
+  std::vector<std::uint32_t> ids;
+  for (const Body& body : scene.bodies) ids.push_back(body.id);
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{5, 4, 6, 7, 8})) << "the next that are free";
+}
+
+/// Two keys that do not go together: the one to blame may be the one that was not written.
+TEST(SceneFile, names_the_users_file_where_a_default_does_not_fit) {
+  expect_complaint("trace = true\nsteps = 100000\n" + ball + "copies = [100, 1, 1]\n",
+                   {"my.toml:1: key 'trace_every', left at its default: 1 is not allowed"});
+  expect_complaint(ball + "mask = -1\n", {"my.toml:5: key 'body.mask': -1 is not allowed"});
+}
+
+TEST(SceneFile, refuses_a_name_that_cannot_be_shown) {
+  for (const char* bad : {R"(\n)", R"(\u001B[2J)", R"(\u007F)", R"(\u009B2J)", R"(\uFFFE)", R"(\uFFFF)"}) {
+    expect_complaint(ball + "name = \"" + bad + "\"\n", {"my.toml:5: key 'body.name'", "a text of one line"});
+  }
+  for (const char* good : {"'", "\\\"", "]]>", "`", "\u00b5", "\U0001f3b1"}) {
+    expect_complaint(ball + "name = \"" + good + "\"\n", {"no complaint"});
+  }
+}
+
+TEST(SceneFile, names_what_is_not_there) {
+  expect_complaint(ball + "[[body]]\nshape = 'none'\n\n", {"no complaint"});
+  expect_complaint("broad_phase = 'octree'\n" + ball,
+                   {"my.toml:1: key 'broad_phase': 'octree' is not allowed", "r_tree"});
+}
+
+TEST(SceneFile, pushes_name_a_body_that_moves) {
+  const std::string named = ball + "name = 'left'\n";
+  const Scene scene = scene_from(named + "[[push]]\nbody = 'left'\ntime = 2\nvelocity = [1, 0, 0]\n");
+  ASSERT_EQ(scene.pushes.size(), 1U);
+  EXPECT_EQ(scene.pushes[0].id, 1U);
+  expect_complaint(named + "[[push]]\nbody = 'lfet'\n", {"key 'push.body'", "did you mean 'left'?"});
+  expect_complaint(named + "[[push]]\ntime = 1\n", {"key 'push.body': missing"});
+  expect_complaint(named + "[[push]]\nbody = 'left'\ntime = -1\n", {"key 'push.time'"});
+  const std::string twin = "[[body]]\nshape = 'none'\nname = 'left'\n", left = "[[push]]\nbody = 'left'\n";
+  expect_complaint(named + twin + left, {"key 'push.body': 'left' is not allowed", "one moving body alone"});
+  expect_complaint(named + twin + "motion = 'static'\n" + left, {"no complaint"});  // what is static is never pushed
+}
+
+TEST(SceneFile, bounds_a_trace) {
+  expect_complaint("trace = true\nsteps = 100000\n" + ball + "copies = [100, 1, 1]\n",
+                   {"key 'trace_every'", "positions"});
+}
+
+TEST(SceneFile, steps_are_the_trials_of_the_command_line) {
+  EXPECT_EQ(scene_from(ball, {.seed = 0, .trials = 7}).steps, 7);
+}
+
+// ---- A scene, played: who goes through, who is told, and what is kept of it.
+
+/// The failure is specified too: a step of 2/3 m, a wall of 1 cm.
+TEST(Playback, a_discrete_step_goes_through_the_wall_and_the_referee_sees_it) {
+  const Playback playback = play(scene_from(bullet_text("policy = 'discrete'\n")));
+  EXPECT_EQ(playback.all_missed, 1);
+  ASSERT_EQ(playback.missed.size(), 1U);
+  EXPECT_NEAR(playback.missed[0].time, (1 - 0.025) / 40, 1e-12);
+  EXPECT_EQ(playback.missed[0].first, 1U);
+  EXPECT_EQ(playback.missed[0].second, 2U);
+  EXPECT_EQ(playback.all_events, 0);
+  EXPECT_EQ(playback.rows[1].tunneled, 1);
+  EXPECT_GT(playback.places[0].x, 1);
+}
+
+TEST(Playback, what_looks_at_all_of_the_motion_stops_at_it) {
+  for (const char* policy : {"clamp", "event_driven"}) {
+    const Playback playback = play(scene_from(bullet_text(std::string("policy = '") + policy + "'\n")));
+    EXPECT_EQ(playback.all_missed, 0) << policy;
+    ASSERT_FALSE(playback.events.empty()) << policy;
+    EXPECT_NEAR(playback.events[0].time, (1 - 0.025) / 40, 1e-12) << policy;
+    EXPECT_LT(playback.places[0].x, 0) << policy;
+    EXPECT_NEAR(playback.rows.back().energy, playback.energy, 1e-9) << policy;
+  }
+}
+
+TEST(Playback, the_referee_leaves_alone_what_passes_beside) {
+  const std::string text =
+      "scene = 'beside'\nsteps = 3\npolicy = 'discrete'\n[[body]]\nshape = 'sphere'\nradius = 0.5\n"
+      "at = [-1, 1.51, 0]\nvelocity = [90, 0, 0]\n[[body]]\nshape = 'sphere'\nradius = 1\n";
+  EXPECT_EQ(play(scene_from(text)).all_missed, 0);
+  EXPECT_EQ(play(scene_from(text + "at = [0, 0.02, 0]\n")).all_missed, 1);
+  EXPECT_EQ(play(scene_from(text + "at = [0, 0.02, 0]\nmask = 2\n")).all_missed, 0);  // they may not meet
+}
+
+TEST(Playback, a_hand_pushes_at_its_time) {
+  const Playback playback =
+      play(scene_from("scene = 'hand'\ndt = 0.5\nsteps = 4\n[[body]]\nname = 'ball'\nshape = 'sphere'\n"
+                      "radius = 1\n[[push]]\nbody = 'ball'\ntime = 0.6\nvelocity = [2, 0, 0]\n"));
+  EXPECT_EQ(playback.tracks[0].x, (std::vector<double>{0, 0, 0, 1, 2}));
+}
+
+TEST(Playback, survives_its_line) {
+  const Playback playback = play(scene_from(bullet_text()));
+  const auto again = from_text<Playback>(to_text(playback));
+  EXPECT_EQ(to_text(again), to_text(playback));
+  EXPECT_EQ(again.hash, playback.hash);
+  EXPECT_EQ(again.events, playback.events);
+  EXPECT_EQ(again.rows.back().energy, playback.rows.back().energy);
+  EXPECT_EQ(again.places.front().x, playback.places.front().x);
+}
+
+TEST(Playback, a_scene_with_none_is_stepped_through) {
+  const Playback playback = play(scene_from("scene = 'none'\nsteps = 2\n"));
+  EXPECT_EQ(playback.rows.size(), 2U);
+  EXPECT_EQ(playback.all_events + playback.all_missed, 0);
+}
+
+TEST(SceneRun, hands_over_described_tables_and_a_verdict) {
+  const Outcome outcome = outcome_of(*run_of(scene_experiment(), bullet_text()));
+  EXPECT_TRUE(outcome.self_test_passed);
+  EXPECT_EQ(table_of(outcome, "steps").rows.size(), 6U);
+  EXPECT_EQ(value_of(table_of(outcome, "events"), 0, "first"), Value(std::string("bullet")));
+  EXPECT_FALSE(table_of(outcome, "plan").rows.empty());
+  EXPECT_TRUE(table_of(outcome, "timings").is_timing);
+  for (const Table& table : outcome.tables) {
+    for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.columns.size()) << table.name;
+  }
+  std::istringstream summary(outcome.summary);
+  for (std::string line; std::getline(summary, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+/// A policy that claims to miss nothing, and did.
+TEST(SceneRun, a_broken_claim_fails_the_self_test) {
+  const Scene scene = scene_from(bullet_text());
+  Playback playback = play(scene);
+  EXPECT_TRUE(claims_held(scene, playback));
+  playback.all_missed = 1;
+  EXPECT_FALSE(claims_held(scene, playback));
+  playback.all_missed = 0;
+  ++playback.live;  // a contact that never began
+  EXPECT_FALSE(claims_held(scene, playback));
+  const Scene discrete = scene_from(bullet_text("policy = 'discrete'\n"));
+  EXPECT_TRUE(claims_held(discrete, play(discrete)));  // it claims nothing
+}
+
+TEST(SceneRun, traces_what_a_viewer_needs) {
+  Scene scene = scene_from(bullet_text("trace_every = 4\n"));
+  std::istringstream trace(trace_of(scene));
+  std::vector<nlohmann::json> lines;
+  for (std::string line; std::getline(trace, line);) lines.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(lines.size(), 4U);  // the bodies; steps 0, 4 and 6
+  EXPECT_EQ(lines[0]["bodies"][0]["name"], "bullet");
+  EXPECT_EQ(lines[0]["bodies"][0]["shape"]["type"], "sphere");
+  EXPECT_EQ(lines[0]["bodies"][1]["static"], true);
+  EXPECT_EQ(lines[1]["at"].size(), 1U);  // of what moves
+  EXPECT_EQ(lines[3]["at"][0][0], play(scene).places[0].x);
+  const Outcome outcome = outcome_of(*run_of(scene_experiment(), bullet_text("trace = true\n")));
+  ASSERT_EQ(outcome.files.size(), 1U);
+  EXPECT_EQ(outcome.files[0].name, "trace.jsonl");
+}
+
+/// Bits do not depend on threads, nor on what the plan leaves out.
+TEST(SceneRun, threads_and_plan_change_no_bit) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 3}) {
+    for (const char* plan : {"lean", "full"}) {
+      Settings settings = scene_settings(
+          "scene = 'many'\nsteps = 20\ngravity = [0, -9, 0]\n[[body]]\nshape = 'sphere'\n"
+          "radius = 0.2\nrestitution = 0.5\ncopies = [4, 4, 2]\nevery = [1, 1, 1]\n"
+          "velocity_jitter = [30, 30, 30]\n[[body]]\nshape = 'box'\nmotion = 'static'\n"
+          "size = [20, 0.1, 20]\nat = [0, -1, 0]\n");
+      settings.assign("plan", plan);
+      const std::uint64_t hash = play(read_scene(settings, {.seed = 3, .trials = {}, .threads = threads})).hash;
+      if (first == 0) first = hash;
+      EXPECT_EQ(hash, first) << threads << " " << plan;
+    }
+  }
+}
+
+// ---- Time policies on one scene, held against the exact run.
+
+const std::string compared = "\n[compare]\ndt = [0.02, 0.001]\nrepeats = 2\nfiner = 2\n";
+
+Comparison comparison_from(const std::string& text) { return read_comparison(scene_settings(text), {}); }
+
+TEST(Comparison, names_every_policy_and_step_and_an_exact_run_finer_than_any) {
+  const Comparison comparison = comparison_from(bullet_text() + compared);
+  ASSERT_EQ(comparison.contenders.size(), 8U);
+  EXPECT_EQ(comparison.contenders[0].dt, 0.001);
+  EXPECT_EQ(comparison.contenders[3].label(), "substeps_4");
+  EXPECT_EQ(comparison.exact.dt, 0.0005);
+  EXPECT_EQ(scene_for(comparison, comparison.contenders[1]).steps, 5);
+  EXPECT_EQ(scene_for(comparison, comparison.contenders[1]).options.policy, TimePolicy::discrete);
+}
+
+TEST(Comparison, refuses_steps_that_do_not_fit) {
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [1]\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [0]\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [1e-9]\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\npolicy = ['sweep']\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeats = 0\n"), UsageError);
+  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeat = 1\n"), UsageError);
+  try {
+    comparison_from("scene = 'short'\nsteps = 1\n");
+    ADD_FAILURE() << "the default steps are longer than the scene";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("my.toml:1: key 'compare.dt', left at its default: [0.0041"))
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("is not allowed; at most the scene's"), std::string::npos);
+  }
+}
+
+/// Made-up meetings: one in both, one missed, one missed in the last step, one here alone.
+TEST(Comparison, counts_pairs_that_met_in_one_run_alone) {
+  const Contender contender{TimePolicy::discrete, 1, 0.5};
+  Trial exact, run;
+  exact.meetings = {{1, 2, 1.0}, {1, 3, 2.0}, {1, 4, 9.75}};
+  run.meetings = {{1, 2, 1.25}, {2, 3, 3.0}};
+  run.seconds = 2;
+  Trial other = run;
+  other.seconds = 4;
+  const Contest c = contest(contender, {run, other}, exact, 10);
+  EXPECT_EQ(c.met, 1);
+  EXPECT_EQ(c.unmet, 1);
+  EXPECT_EQ(c.extra, 1);
+  EXPECT_EQ(c.errors, std::vector<double>{0.25});
+  EXPECT_EQ(c.seconds, (std::vector<double>{2, 4}));
+  EXPECT_TRUE(c.repeated_alike);
+  other.hash = 7;
+  EXPECT_FALSE(contest(contender, {run, other}, exact, 10).repeated_alike);
+}
+
+TEST(Comparison, a_trial_survives_its_line) {
+  const Trial trial = run_trial(scene_from(bullet_text()));
+  EXPECT_EQ(trial.meetings.size(), 1U);
+  const auto again = from_text<Trial>(to_text(trial));
+  EXPECT_TRUE(again.same_outcome(trial));
+  EXPECT_EQ(again.seconds, trial.seconds);
+  EXPECT_EQ(again.energy_end, trial.energy_end);
+}
+
+/// The question itself: with steps of 20 ms the discrete one is through; the swept ones are on time at any step.
+TEST(Comparison, tells_discrete_from_swept) {
+  const Outcome outcome = outcome_of(*run_of(compare_experiment(), bullet_text() + compared));
+  EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
+  expect_described_tables(outcome);
+  const Table& table = table_of(outcome, "compare");
+  ASSERT_EQ(table.rows.size(), 8U);
+  EXPECT_EQ(value_of(table, 1, "policy"), Value(std::string("discrete")));
+  EXPECT_EQ(value_of(table, 1, "tunneled"), Value(std::int64_t(1)));
+  EXPECT_EQ(value_of(table, 1, "unmet"), Value(std::int64_t(1)));
+  EXPECT_EQ(value_of(table, 0, "tunneled"), Value(std::int64_t(0)));  // 4 cm a step: it is seen
+  EXPECT_GT(std::get<double>(value_of(table, 0, "error_median")), 1e-6);
+  for (const std::size_t row : {4U, 5U, 6U, 7U}) {
+    EXPECT_EQ(value_of(table, row, "met"), Value(std::int64_t(1))) << row;
+    EXPECT_EQ(value_of(table, row, "tunneled"), Value(std::int64_t(0))) << row;
+    EXPECT_LT(std::get<double>(value_of(table, row, "error_largest")), 1e-12) << row;
+  }
+  std::istringstream summary(outcome.summary);
+  for (std::string line; std::getline(summary, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+/// Balls of 0.125 m in pairs, each on a line of its own: the exact run is held against a sheet of paper, not against a run.
+TEST(Comparison, holds_every_kind_of_pair_against_the_time_it_meets) {
+  struct Pair {
+    std::string first, second;       // motion
+    double gap, speed, other_speed;  // [m], [m/s] toward each other
+  };
+  const std::vector<Pair> pairs = {{"driven", "static", 0.9375, 11, 0},   {"driven", "static", 9.75, 1000, 0},
+                                   {"driven", "driven", 0.875, 7, 3},     {"driven", "driven", 19.75, 1000, 500},
+                                   {"free", "static", 9.75, 1000, 0},     {"free", "free", 19.75, 500, 1000},
+                                   {"driven", "free", 19.75, 1000, 1000}, {"driven", "free", 0.875, 12, 0}};
+  std::string bodies;
+  std::vector<FirstMeeting> expected;
+  const auto add = [&](const std::string& motion, double x, double speed) {
+    bodies += "[[body]]\nshape = 'sphere'\nradius = 0.125\nmotion = '" + motion + "'\n";
+    bodies += fmt::format("at = [{}, {}, 0]\nvelocity = [{}, 0, 0]\n", x, expected.size(), speed);
+  };
+  for (const Pair& pair : pairs) {
+    add(pair.first, 0, pair.speed);
+    add(pair.second, pair.gap, -pair.other_speed);
+    const auto id = static_cast<std::uint32_t>(2 * expected.size() + 1);
+    expected.push_back({id, id + 1, (pair.gap - 0.25) / (pair.speed + pair.other_speed)});
+  }
+  for (const char* way : {"response = true\n", "response = false\n", "plan = 'full'\n"}) {
+    const Comparison comparison = comparison_from("scene = 'pairs'\ndt = 0.02\nsteps = 5\n" + std::string(way) +
+                                                  bodies + "[compare]\ndt = [0.001, 0.02]\nfiner = 2\n");
+    std::vector<Contender> all = comparison.contenders;
+    all.push_back(comparison.exact);
+    for (const Contender& contender : all) {
+      if (contender.policy == TimePolicy::discrete || contender.policy == TimePolicy::substeps) continue;
+      const Trial trial = run_trial(scene_for(comparison, contender));
+      const std::string where = fmt::format("{} {} {}", contender.label(), contender.dt, way);
+      EXPECT_EQ(trial.tunneled, 0) << where;
+      ASSERT_EQ(trial.meetings.size(), expected.size()) << where;
+      for (const auto& [first, second, time] : expected)
+        EXPECT_NEAR(trial.met(first, second).value_or(-1), time, 1e-14) << where << first;
+    }
+  }
+}
+
+// ---- The scenes that come with the program: each is read, and gives the same bits whatever its plan leaves out.
+
+std::vector<std::filesystem::path> shipped() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(THINWALL_SCENES)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The scene, short, and of the many alike only some: a test is not a benchmark.
+Scene shortened(const std::filesystem::path& file, const std::string& plan) {
+  Settings settings = scene_settings(read_text(file));
+  settings.assign("plan", plan);
+  Scene scene = read_scene(settings, {.seed = 1, .trials = 40});
+  std::vector<Body> few;
+  for (const Body& body : scene.bodies) {
+    if (body.is_static || few.size() < 120) few.push_back(body);
+  }
+  scene.bodies = few;
+  return scene;
+}
+
+TEST(ShippedScenes, are_nine_with_names_of_their_files) {
+  std::set<std::string> names;
+  for (const auto& file : shipped()) {
+    const Scene scene = read_scene(scene_settings(read_text(file)), {});
+    EXPECT_EQ(scene.name, file.stem()) << file;
+    names.insert(scene.name);
+    EXPECT_NO_THROW(read_comparison(scene_settings(read_text(file)), {})) << file;
+  }
+  EXPECT_EQ(names.size(), 9U);
+}
+
+TEST(ShippedScenes, rain_is_of_a_hundred_thousand) {
+  const Scene scene = read_scene(scene_settings(read_text(std::string(THINWALL_SCENES) + "/rain.toml")), {});
+  EXPECT_EQ(scene.bodies.size(), 100'001U);
+}
+
+TEST(ShippedScenes, give_the_same_bits_lean_or_full) {
+  for (const auto& file : shipped()) {
+    const Playback lean = play(shortened(file, "lean")), full = play(shortened(file, "full"));
+    EXPECT_EQ(lean.hash, full.hash) << file;
+    EXPECT_EQ(lean.events, full.events) << file;
+    EXPECT_EQ(lean.all_missed, full.all_missed) << file;
+  }
+}
+
+TEST(ShippedScenes, let_nothing_through_as_they_are) {
+  for (const auto& file : shipped()) {
+    const Scene scene = shortened(file, "lean");
+    EXPECT_EQ(play(scene).all_missed, 0) << file;
+  }
+}
+
+/// Twenty discrete steps of a room of thin walls, or of bullets: something gets through.
+TEST(ShippedScenes, let_things_through_when_discrete) {
+  for (const char* name : {"thin_wall_gallery", "bullet_against_bullet"}) {
+    Scene scene = shortened(std::string(THINWALL_SCENES) + "/" + name + ".toml", "lean");
+    scene.options.policy = TimePolicy::discrete;
+    EXPECT_GT(play(scene).all_missed, 0) << name;
+  }
+}
+
+}  // namespace
+
+}  // namespace thinwall

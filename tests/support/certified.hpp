@@ -1,0 +1,175 @@
+#pragma once
+/// The queries of certified answers, and their judge.
+
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/swept/certified.hpp>
+
+#include "support/shaker.hpp"
+
+// ---- Motions to be certified, and the pairs that can be: plain ones, as a scene has them, and the worst.
+
+namespace thinwall::testing {
+
+template <class A, class B> struct PairOf {
+  using First = A;
+  using Second = B;
+};
+
+/// Every pair that can be certified, in one order.
+template <class Visit> void for_each_certified_pair(const Visit& visit) {
+  using Ball = Sphere<double>;
+  using Box = Aabb<double>;
+  using Turned = Obb<double>;
+  using Rod = Capsule<double>;
+  visit("sphere sphere", PairOf<Ball, Ball>{});
+  visit("sphere aabb", PairOf<Ball, Box>{});
+  visit("sphere obb", PairOf<Ball, Turned>{});
+  visit("sphere capsule", PairOf<Ball, Rod>{});
+  visit("sphere triangle", PairOf<Ball, Triangle<double>>{});
+  visit("aabb aabb", PairOf<Box, Box>{});
+  visit("aabb obb", PairOf<Box, Turned>{});
+  visit("aabb capsule", PairOf<Box, Rod>{});
+  visit("obb obb", PairOf<Turned, Turned>{});
+  visit("obb capsule", PairOf<Turned, Rod>{});
+  visit("capsule capsule", PairOf<Rod, Rod>{});
+}
+
+/// A vector of any direction, coordinates in (-1, 1).
+inline Vec3<double> any_vector(Shaker<double>& draw) {
+  const double x = draw.plain(), y = draw.plain();
+  return {x, y, draw.plain()};
+}
+inline Mat3<double> any_axes(Shaker<double>& draw) {
+  Mat3<double> axes;
+  axes.col(0) = safe_unit(any_vector(draw));
+  axes.col(1) = safe_unit(cross<double>(axes.col(0), any_vector(draw)));
+  axes.col(2) = cross<double>(axes.col(0), axes.col(1));
+  return axes;
+}
+
+// Shapes of about half a unit, no two numbers related.
+inline Sphere<double> plain_shape(Shaker<double>& draw, TypeTag<Sphere<double>>) {
+  const Vec3<double> center = any_vector(draw);
+  return {center, 0.5 + 0.4 * draw.plain()};
+}
+inline Aabb<double> plain_shape(Shaker<double>& draw, TypeTag<Aabb<double>>) {
+  const Vec3<double> center = any_vector(draw);
+  return {center, any_vector(draw).cwiseAbs()};
+}
+inline Obb<double> plain_shape(Shaker<double>& draw, TypeTag<Obb<double>>) {
+  const Aabb<double> box = plain_shape(draw, TypeTag<Aabb<double>>{});
+  return {box.center, box.half_extents, any_axes(draw)};
+}
+inline Capsule<double> plain_shape(Shaker<double>& draw, TypeTag<Capsule<double>>) {
+  const Vec3<double> a = any_vector(draw), b = any_vector(draw);
+  return {a, b, 0.3 + 0.2 * draw.plain()};
+}
+inline Triangle<double> plain_shape(Shaker<double>& draw, TypeTag<Triangle<double>>) {
+  const Vec3<double> a = any_vector(draw), b = any_vector(draw);
+  return {a, b, any_vector(draw)};
+}
+
+/// As a scene has them: both move, some hit, some miss, some overlap.
+template <class A, class B> Motion<A, B> plain_motion(Shaker<double>& draw) {
+  Motion<A, B> motion{at_rest(plain_shape(draw, TypeTag<A>{})), at_rest(plain_shape(draw, TypeTag<B>{}))};
+  const Vec3<double> from = 3 * any_vector(draw);
+  motion.a.shape = moved<double>(motion.a.shape, from);
+  motion.b.displacement = any_vector(draw);
+  motion.a.displacement = motion.b.displacement - from * (1 + draw.plain()) + any_vector(draw);
+  return motion;
+}
+
+/// Axes that are neither unit nor at right angles, by up to all that a box may have.
+inline void skew(Obb<double>& box, Shaker<double>& draw) {
+  for (int i = 0; i < 3; ++i) box.axes.col(i) += any_vector(draw) * power<double>(-draw.pick(35, 60));
+}
+template <class Shape> void skew(Shape&, Shaker<double>&) {}
+
+/// The worst: all but touching, grazing, on a lattice (moving_shaker.hpp); as large and as small as doubles go, mixed;
+/// without motion, radius or extent.
+template <class A, class B> Motion<A, B> worst_motion(Shaker<double>& draw) {
+  Motion<A, B> motion = drawn_motion<A, B>(draw);
+  switch (draw.pick(0, 11)) {
+    case 0: {
+      const int e = draw.pick(0, 1) == 0 ? draw.pick(-1070, -900) : draw.pick(900, 990);
+      motion = {scaled(motion.a, e), scaled(motion.b, e)};
+      break;
+    }
+    case 1: {
+      const int e = draw.pick(-1070, 990);
+      motion = {scaled(motion.a, e), scaled(motion.b, e)};
+      break;
+    }
+    case 2: motion.a.displacement = motion.b.displacement; break;
+    case 3: motion.a.displacement = times_power_of_two(motion.a.displacement, draw.pick(-1000, 900)); break;
+    case 4: motion.a.shape = scaled(motion.a.shape, -draw.pick(20, 1070)); break;
+    case 5:
+      skew(motion.a.shape, draw);
+      skew(motion.b.shape, draw);
+      break;
+    default: break;
+  }
+  return motion;
+}
+
+}  // namespace thinwall::testing
+
+// ---- Judges a certified answer by the exact integers of the last stage, themselves judged in certified_oracle.hpp.
+
+namespace thinwall::testing {
+
+/// How often each stage decided.
+struct Tally {
+  std::array<int, 4> by{};
+
+  void count(const CertifiedToi& toi) { ++by[static_cast<std::size_t>(toi.decided_by)]; }
+  int decided(DecidedBy stage) const { return by[static_cast<std::size_t>(stage)]; }
+};
+
+template <Shape A, Shape B> ExactCore exact_core_of(const Moving<A>& a, const Moving<B>& b) {
+  if constexpr (A::rank < B::rank) {
+    return exact_core(b, a);
+  } else {
+    return exact_core(a, b);
+  }
+}
+
+/// The form every answer has, whatever the truth.
+inline ::testing::AssertionResult has_form(const CertifiedToi& toi) {
+  switch (toi.verdict) {
+    case ToiStatus::apart:
+      if (toi.lower == 1 && toi.upper == 1) return ::testing::AssertionSuccess();
+      break;
+    case ToiStatus::overlapping:
+      if (toi.lower == 0 && toi.upper == 0) return ::testing::AssertionSuccess();
+      break;
+    case ToiStatus::hit:
+      if (toi.lower >= 0 && toi.lower <= toi.upper && toi.upper <= 1) return ::testing::AssertionSuccess();
+      break;
+    default: break;
+  }
+  return ::testing::AssertionFailure() << "verdict " << static_cast<int>(toi.verdict) << " with [" << toi.lower << ", "
+                                       << toi.upper << "]";
+}
+
+/// Against the integers: one predicate at the start, the end, and either side of the bracket.
+template <Shape A, Shape B>
+::testing::AssertionResult judge_exactly(const Moving<A>& a, const Moving<B>& b, const CertifiedToi& toi) {
+  const ExactCore core = exact_core_of(a, b);
+  const ToiStatus truth = touched_by(core, 0)   ? ToiStatus::overlapping
+                          : touched_by(core, 1) ? ToiStatus::hit
+                                                : ToiStatus::apart;
+  if (truth != toi.verdict)
+    return ::testing::AssertionFailure() << static_cast<int>(toi.verdict) << " but is " << static_cast<int>(truth);
+  if (truth != ToiStatus::hit) return has_form(toi);
+  if (!touched_by(core, toi.upper)) return ::testing::AssertionFailure() << "no contact by upper " << toi.upper;
+  if (toi.lower > 0 && touched_by(core, std::nextafter(toi.lower, 0.0)))
+    return ::testing::AssertionFailure() << "contact before lower " << toi.lower;
+  return has_form(toi);
+}
+
+}  // namespace thinwall::testing

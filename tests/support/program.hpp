@@ -1,0 +1,227 @@
+#pragma once
+/// The program as its users start it: in a process, in a folder of its own.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace thinwall {
+
+// ---- A folder that lasts as long as a test, and what lies in it.
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "thinwall-test-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code none;
+    std::filesystem::remove_all(path_, none);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  ASSERT_TRUE(out.flush()) << file;
+}
+
+/// Every file below `folder` and its content, by relative path.
+inline std::map<std::string, std::string> files_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  if (!std::filesystem::exists(folder)) return files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    files[entry.path().lexically_relative(folder).generic_string()] = read_text(entry.path());
+  }
+  return files;
+}
+
+// ---- The commands of a document and what they print, as a reader would type and see them.
+//
+//     ```console
+//     $ build/release/thinwall list
+//     thin_wall  How often ...
+//     ```
+//
+// A line of output that is `...` stands for any lines, and `...` within a line for any text. A fenced TOML block whose first line
+// is `# NAME.toml` is a file that the commands find.
+
+struct ConsoleCommand {
+  std::string line;                 ///< without the prompt
+  std::vector<std::string> output;  ///< what the document shows of it
+};
+
+struct Document {
+  std::vector<ConsoleCommand> commands;
+  std::map<std::string, std::string> files;  ///< text by name
+};
+
+inline Document read_document(const std::string& markdown) {
+  Document out;
+  std::string fence, file;
+  std::istringstream in(markdown);
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      fence = fence.empty() ? line.substr(3) : "";
+      file.clear();
+    } else if (fence == "console") {
+      if (line.starts_with("$ ")) {
+        out.commands.push_back({line.substr(2), {}});
+      } else if (!out.commands.empty()) {
+        out.commands.back().output.push_back(line);
+      }
+    } else if (fence == "toml") {
+      if (file.empty() && line.starts_with("# ") && line.ends_with(".toml")) file = line.substr(2);
+      if (!file.empty()) out.files[file] += line + "\n";
+    }
+  }
+  return out;
+}
+
+/// True if `line` is `pattern`, in which `...` stands for any text.
+inline bool line_matches(std::string_view pattern, std::string_view line) {
+  const auto gap = pattern.find("...");
+  if (gap == std::string_view::npos) return pattern == line;
+  if (!line.starts_with(pattern.substr(0, gap))) return false;
+  const std::string_view rest = pattern.substr(gap + 3);
+  for (std::size_t at = gap; at <= line.size(); ++at) {
+    if (line_matches(rest, line.substr(at))) return true;
+  }
+  return false;
+}
+
+/// True if `lines` from the `i`-th are `pattern` from its `j`-th.
+inline bool lines_match(const std::vector<std::string>& pattern, const std::vector<std::string>& lines,
+                        std::size_t j = 0, std::size_t i = 0) {
+  if (j == pattern.size()) return i == lines.size();
+  if (pattern[j] == "...") {
+    for (std::size_t k = i; k <= lines.size(); ++k) {
+      if (lines_match(pattern, lines, j + 1, k)) return true;
+    }
+    return false;
+  }
+  return i < lines.size() && line_matches(pattern[j], lines[i]) && lines_match(pattern, lines, j + 1, i + 1);
+}
+
+// ---- The program as a process that a test can watch and kill.
+
+class ProgramProcess {
+ public:
+  /// Its stdout goes nowhere, its stderr to the file `notes`.
+  ProgramProcess(std::vector<std::string> words, const std::string& notes) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0666);
+    posix_spawn_file_actions_addopen(&actions, 2, notes.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    EXPECT_EQ(::posix_spawn(&child_, pointers[0], &actions, nullptr, pointers.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  ~ProgramProcess() {
+    if (running()) end_with(SIGKILL);
+  }
+  ProgramProcess(const ProgramProcess&) = delete;
+  ProgramProcess& operator=(const ProgramProcess&) = delete;
+
+  bool running() { return !ended_ && !(ended_ = ::waitpid(child_, &status_, WNOHANG) == child_); }
+
+  void signal(int number) const { ::kill(child_, number); }
+
+  /// Its status as waitpid says it.
+  int wait() {
+    if (!ended_) ended_ = ::waitpid(child_, &status_, 0) == child_;
+    return status_;
+  }
+
+  int end_with(int number) {
+    signal(number);
+    return wait();
+  }
+
+  /// Waits until `moment` or the end of the process; false if the end came first.
+  template <class Moment> bool wait_until(const Moment& moment, std::chrono::microseconds pause) {
+    while (!moment()) {
+      if (!running()) return false;
+      std::this_thread::sleep_for(pause);
+    }
+    return running();
+  }
+
+ private:
+  pid_t child_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+/// Under a sanitizer everything takes ten times as long.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+// ---- The headline experiment in small, for tests of the program as it is: many units, every kind of file, in half a second.
+
+inline constexpr const char* small_wall = R"(experiment = "thin_wall"
+shots = 600
+speed = [10, 200]
+step = [0.016666666666666666]
+radius = [0.001, 0.02]
+thickness = [0.01]
+angle_deg = [0, 60]
+)";
+
+/// Everything in a result folder that must not differ from run to run: the date in cite.bib may.
+inline std::map<std::string, std::string> lasting_files(const std::filesystem::path& folder) {
+  auto files = files_in(folder);
+  for (const char* name : {"data/timings.csv", "report.html", "manifest.json"})
+    EXPECT_EQ(files.erase(name), 1u) << name;
+  const std::string& cite = files["cite.bib"];
+  EXPECT_NE(cite.find("@misc{"), std::string::npos) << cite;
+  files["cite.bib"] = cite.substr(0, cite.find("  date   = ", cite.find("@misc{")));
+  return files;
+}
+
+}  // namespace thinwall

@@ -1,0 +1,301 @@
+// Bisection by cases: late by at most the tolerance, bounded, what it may miss, and its options.
+
+#include <gtest/gtest.h>
+
+#include <thinwall/swept/methods/bisection.hpp>
+#include <thinwall/swept/methods/conservative_advancement.hpp>
+#include <thinwall/swept/methods/inclusion.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+#include "support/judge.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class BisectionMethod : public ::testing::Test {
+ protected:
+  static constexpr int digits = std::numeric_limits<S>::digits;
+  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
+  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
+  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
+  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};  // of that post
+};
+TYPED_TEST_SUITE(BisectionMethod, Scalars, ScalarNames);
+
+TYPED_TEST(BisectionMethod, is_late_by_at_most_the_tolerance) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  for (const S& tolerance : {S(0.125), power<S>(-8), half_digits<S>(), S(4 * std::numeric_limits<S>::epsilon())}) {
+    const Bisection<S> method{.tolerance = tolerance};
+    const Toi<S> straight = time_of_impact(method, this->shot, this->wall);
+    EXPECT_EQ(straight.status, ToiStatus::hit);
+    EXPECT_TRUE(straight.time >= S(0.3125) && straight.time <= S(0.3125) + tolerance);
+    EXPECT_EQ(straight.normal, Vec3<S>(1, 0, 0));
+    const Toi<S> slanted = time_of_impact(method, this->graze, this->post);
+    EXPECT_EQ(slanted.status, ToiStatus::hit);
+    EXPECT_TRUE(slanted.time >= exact * (1 - 16 * unit<S>()) && slanted.time <= exact + tolerance + 16 * unit<S>());
+  }
+}
+
+TYPED_TEST(BisectionMethod, finds_a_contact_however_short) {  // no pose of a search by halves falls into this wall
+  using S = TypeParam;
+  const S third = S(1) / S(3);
+  const Moving<Sphere<S>> fast{{{-1, 0, 0}, 0}, {3, 0, 0}};
+  const S thin = power<S>(3 - this->digits);
+  const auto plate = at_rest(Aabb<S>{{0, 0, 0}, {thin, 8, 8}});
+  const Toi<S> toi = time_of_impact(Bisection<S>{}, fast, plate);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(toi.time > third - thin && toi.time < third + thin);
+}
+
+TYPED_TEST(BisectionMethod, a_miss_is_proven_by_two_tangents) {
+  using S = TypeParam;
+  const Moving<Sphere<S>> passing{{{-4, 2.0625, 0}, 1}, {8, 0, 0}};
+  const Toi<S> toi = time_of_impact(Bisection<S>{}, passing, this->post);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_LE(toi.evaluations, 12);
+  const Moving<Sphere<S>> leaving{{{-4, 0, 0}, 1}, {-8, 0, 0}}, stopping{{{-4, 0, 0}, 1}, {1, 0, 0}};
+  EXPECT_EQ(time_of_impact(Bisection<S>{}, leaving, this->post).evaluations, 2);
+  EXPECT_EQ(time_of_impact(Bisection<S>{}, stopping, this->post).evaluations, 3);
+}
+
+TYPED_TEST(BisectionMethod, both_searches_are_bounded) {  // a touch that no pose shows and no tangent excludes
+  using S = TypeParam;
+  const int most = 3 + 2 * this->digits + this->digits;
+  int longest = 0;
+  for (int i = 0; i < 64; ++i) {
+    const S height = S(2) * (1 + S(i - 32) * 4 * unit<S>());
+    const Moving<Sphere<S>> touching{{{-4, height, 0}, 1}, {S(8) + S(i) / S(64), 0, 0}};
+    const Bisection<S> finest{.tolerance = std::numeric_limits<S>::epsilon()};
+    longest = std::max(longest, time_of_impact(finest, touching, this->post).evaluations);
+  }
+  EXPECT_LE(longest, most);
+  EXPECT_GE(longest, this->digits / 3);
+}
+
+TYPED_TEST(BisectionMethod, options_out_of_range_are_invalid) {
+  using S = TypeParam;
+  const S finest = std::numeric_limits<S>::epsilon();
+  for (const S& bad : {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}) {
+    const Toi<S> toi = time_of_impact(Bisection<S>{.tolerance = bad}, this->shot, this->wall);
+    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
+    EXPECT_NE(toi.time, toi.time);
+  }
+  for (const S& good : {finest, S(1)}) {
+    EXPECT_EQ(time_of_impact(Bisection<S>{.tolerance = good}, this->shot, this->wall).status, ToiStatus::hit);
+  }
+}
+
+TYPED_TEST(BisectionMethod, keeps_the_minimal_separation) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(Bisection<S>{.min_separation = 0.125}, this->shot, this->wall);
+  EXPECT_TRUE(toi.time >= S(0.25) && toi.time <= S(0.25) + half_digits<S>());
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- Conservative advancement by cases: never late, bounded, and its options.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class Advancement : public ::testing::Test {
+ protected:
+  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
+  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
+  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
+  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};    // of that post
+  const Moving<Sphere<S>> passing{{{-4, 2.0625, 0}, 1}, {8, 0, 0}};  // beside it, by 1/16
+};
+TYPED_TEST_SUITE(Advancement, Scalars, ScalarNames);
+
+TYPED_TEST(Advancement, one_step_takes_it_before_a_face) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{}, this->shot, this->wall);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(toi.time < S(0.3125));
+  EXPECT_TRUE(toi.time >= S(0.3125) * (1 - 1024 * unit<S>()));  // sizes of 18 over a closing speed of 2, times 16 u
+  EXPECT_EQ(toi.evaluations, 3);                                // the overlap at the start, there, and the proof
+  EXPECT_EQ(toi.normal, Vec3<S>(1, 0, 0));
+  EXPECT_TRUE(toi.point.isApprox(Vec3<S>(-0.125, 0, 0), 4096 * unit<S>()));
+}
+
+TYPED_TEST(Advancement, a_graze_takes_more_and_is_early_by_the_tolerance_over_the_cosine) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  const S cosine = S(31) / S(125);  // sqrt(4 - 1.9375^2) / 2 = 0.248...
+  for (const S& tolerance : {S(0.125), S(0.0625), power<S>(-8), half_digits<S>()}) {
+    const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{.tolerance = tolerance}, this->graze, this->post);
+    EXPECT_EQ(toi.status, ToiStatus::hit);
+    EXPECT_TRUE(toi.time < exact);
+    EXPECT_TRUE(toi.time > exact - tolerance / cosine - 64 * unit<S>());
+  }
+}
+
+TYPED_TEST(Advancement, a_miss_is_proven_in_a_few_steps) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{}, this->passing, this->post);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_LE(toi.evaluations, 8);
+}
+
+TYPED_TEST(Advancement, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
+  using S = TypeParam;
+  const ConservativeAdvancement<S> coarse{.tolerance = power<S>(-6)};  // 1/8 of a length over this path
+  EXPECT_EQ(time_of_impact(coarse, this->passing, this->post).status, ToiStatus::hit);
+}
+
+TYPED_TEST(Advancement, out_of_evaluations_gives_up_with_what_is_proven) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  const Toi<S> enough = time_of_impact(ConservativeAdvancement<S>{}, this->graze, this->post);
+  ASSERT_EQ(enough.status, ToiStatus::hit);
+  S before = 0;
+  for (int n = 1; n < enough.evaluations - 1; ++n) {
+    const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{.max_evaluations = n}, this->graze, this->post);
+    EXPECT_EQ(text(toi.status), text(ToiStatus::gave_up));
+    EXPECT_EQ(toi.evaluations, n + 1);
+    EXPECT_TRUE(toi.time > before && toi.time < exact) << n;
+    EXPECT_EQ(toi.normal, Vec3<S>(0, 0, 0));
+    before = toi.time;
+  }
+  EXPECT_TRUE(before > exact / 2);
+}
+
+TYPED_TEST(Advancement, options_out_of_range_are_invalid) {
+  using S = TypeParam;
+  using Method = ConservativeAdvancement<S>;
+  const S finest = std::numeric_limits<S>::epsilon();
+  for (const S& bad : {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}) {
+    const Toi<S> toi = time_of_impact(Method{.tolerance = bad}, this->shot, this->wall);
+    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
+    EXPECT_NE(toi.time, toi.time);
+  }
+  for (const int bad : {0, -1}) {
+    EXPECT_EQ(time_of_impact(Method{.max_evaluations = bad}, this->shot, this->wall).status, ToiStatus::invalid);
+  }
+  for (const S& good : {finest, S(1)}) {
+    EXPECT_EQ(time_of_impact(Method{.tolerance = good}, this->shot, this->wall).status, ToiStatus::hit);
+  }
+}
+
+TYPED_TEST(Advancement, keeps_the_minimal_separation) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{.min_separation = 0.125}, this->shot, this->wall);
+  EXPECT_TRUE(toi.time < S(0.25) && toi.time >= S(0.25) * (1 - 1024 * unit<S>()));
+}
+
+TYPED_TEST(Advancement, leaving_is_apart_however_near) {
+  using S = TypeParam;
+  const Moving<Sphere<S>> leaving{Sphere<S>{{-next_up(S(0.375)), 0, 0}, 0.25}, {-1, 0, 0}};
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{}, leaving, this->wall);
+  EXPECT_TRUE(toi.status == ToiStatus::apart || (toi.status == ToiStatus::hit && toi.time == S(0)));
+  const Moving<Sphere<S>> clear{Sphere<S>{{-S(0.375) * (1 + 1024 * unit<S>()), 0, 0}, 0.25}, {-1, 0, 0}};
+  EXPECT_EQ(time_of_impact(ConservativeAdvancement<S>{}, clear, this->wall).status, ToiStatus::apart);
+}
+
+TEST(AdvancementInFloat,
+     rounds_its_time_down) {  // computed in double; to the nearest float would be late half the time
+  int below = 0;
+  for (int i = 0; i < 200; ++i) {
+    const float x = -1 - static_cast<float>(i) / 256;
+    const Moving<Sphere<float>> shot{{{x, 0, 0}, 0.25F}, {3, 0, 0}};
+    const auto wall = at_rest(Aabb<float>{{0, 0, 0}, {0.125F, 8, 8}});
+    const Toi<float> toi = time_of_impact(ConservativeAdvancement<float>{}, shot, wall);
+    EXPECT_LE(3 * static_cast<double>(toi.time), -0.375 - static_cast<double>(x));
+    below += static_cast<double>(toi.time) * 3 > (-0.375 - static_cast<double>(x)) * (1 - 2e-7) ? 1 : 0;
+  }
+  EXPECT_EQ(below, 200);
+}
+
+}  // namespace
+}  // namespace thinwall::testing
+
+// ---- The inclusion method by cases: never late, early by at most the tolerance, bounded, and its options.
+
+namespace thinwall::testing {
+namespace {
+
+template <class S> class InclusionMethod : public ::testing::Test {
+ protected:
+  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
+  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
+  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
+  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};               // of that post
+  const Moving<Sphere<S>> passing{{{-4, 2 + power<S>(-10), 0}, 1}, {8, 0, 0}};  // beside it
+};
+TYPED_TEST_SUITE(InclusionMethod, Scalars, ScalarNames);
+
+TYPED_TEST(InclusionMethod, is_early_by_at_most_the_tolerance) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  for (const S& tolerance : {S(0.125), power<S>(-8), half_digits<S>(), S(4 * std::numeric_limits<S>::epsilon())}) {
+    const Inclusion<S> method{.tolerance = tolerance};
+    const Toi<S> straight = time_of_impact(method, this->shot, this->wall);
+    EXPECT_EQ(straight.status, ToiStatus::hit);
+    EXPECT_TRUE(straight.time < S(0.3125));
+    EXPECT_TRUE(straight.time >= S(0.3125) - tolerance - 512 * unit<S>());
+    EXPECT_EQ(straight.normal, Vec3<S>(1, 0, 0));
+    const Toi<S> slanted = time_of_impact(method, this->graze, this->post);
+    EXPECT_EQ(slanted.status, ToiStatus::hit);
+    EXPECT_TRUE(slanted.time < exact);
+    EXPECT_TRUE(slanted.time >= exact - tolerance - 512 * unit<S>());
+  }
+}
+
+TYPED_TEST(InclusionMethod, a_miss_is_proven_in_a_few_looks_each_time_the_interval_halves) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(Inclusion<S>{}, this->passing, this->post);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_LE(toi.evaluations, 64);
+}
+
+TYPED_TEST(InclusionMethod, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
+  using S = TypeParam;
+  auto later = this->passing;  // nearest at no middle of an interval
+  later.shape.center[0] -= S(1) / S(3);
+  EXPECT_EQ(time_of_impact(Inclusion<S>{}, later, this->post).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(Inclusion<S>{.tolerance = power<S>(-4)}, later, this->post).status, ToiStatus::hit);
+}
+
+TYPED_TEST(InclusionMethod, out_of_evaluations_gives_up_with_what_is_proven) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  const Toi<S> enough = time_of_impact(Inclusion<S>{}, this->graze, this->post);
+  ASSERT_EQ(enough.status, ToiStatus::hit);
+  S before = 0;
+  for (int n = 1; n < enough.evaluations - 1; ++n) {
+    const Toi<S> toi = time_of_impact(Inclusion<S>{.max_evaluations = n}, this->graze, this->post);
+    EXPECT_EQ(text(toi.status), text(ToiStatus::gave_up));
+    EXPECT_EQ(toi.evaluations, n + 1);
+    EXPECT_TRUE(toi.time >= before && toi.time < exact) << n;
+    before = toi.time;
+  }
+  EXPECT_TRUE(before > exact / 2);
+}
+
+TYPED_TEST(InclusionMethod, options_out_of_range_are_invalid) {
+  using S = TypeParam;
+  const S finest = std::numeric_limits<S>::epsilon();
+  for (const S& bad : {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}) {
+    const Toi<S> toi = time_of_impact(Inclusion<S>{.tolerance = bad}, this->shot, this->wall);
+    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
+    EXPECT_NE(toi.time, toi.time);
+  }
+  for (const int bad : {0, -1}) {
+    EXPECT_EQ(time_of_impact(Inclusion<S>{.max_evaluations = bad}, this->shot, this->wall).status, ToiStatus::invalid);
+  }
+  for (const S& good : {finest, S(1)}) {
+    EXPECT_EQ(time_of_impact(Inclusion<S>{.tolerance = good}, this->shot, this->wall).status, ToiStatus::hit);
+  }
+}
+
+TYPED_TEST(InclusionMethod, keeps_the_minimal_separation) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(Inclusion<S>{.min_separation = 0.125}, this->shot, this->wall);
+  EXPECT_TRUE(toi.time < S(0.25) && toi.time >= S(0.25) - half_digits<S>() - 512 * unit<S>());
+}
+
+}  // namespace
+}  // namespace thinwall::testing
