@@ -1,5 +1,5 @@
 # One run on many machines, by `mpirun -n K thinwall run`; MPI_CXX_FOUND says whether. Optional: --shard and merge do without.
-# Only the C interface is used, and only in experiments/run/ranks.cpp.
+# Only the C interface is used, and only in experiments/lab/ranks.cpp.
 set(THINWALL_MPI AUTO CACHE STRING "Let mpirun spread a run: AUTO (if MPI is found), ON or OFF")
 set_property(CACHE THINWALL_MPI PROPERTY STRINGS AUTO ON OFF)
 if(NOT THINWALL_MPI MATCHES "^(AUTO|ON|OFF)$")

@@ -15,7 +15,7 @@
 
 namespace thinwall {
 
-class Settings;  // experiments/settings.hpp: typed, checked access to one TOML file
+class Settings;  // experiments/lab/settings.hpp: typed, checked access to one TOML file
 
 /// A named piece of work small enough to be lost: a cell of a factorial design, usually.
 /// Its result is a line of text that the run's journal keeps, so that an interrupted run can resume.

@@ -1,4 +1,4 @@
-// Sphere and sphere, lane by lane and proven: swept/certified/ball_filter.hpp, with its bounds (docs/certified.md derives them; a
+// Sphere and sphere, lane by lane and proven: swept/certified/filters.hpp, with its bounds (docs/certified.md derives them; a
 // fused multiply-add rounds less often than they allow for). Columns: 0-2 center, 3 radius, 4-6 displacement, of either.
 
 #if defined(THINWALL_BATCH_CERTIFIED_BALL_LANES) == defined(HWY_TARGET_TOGGLE)

@@ -89,7 +89,7 @@ inline void skew(Obb<double>& box, Shaker<double>& draw) {
 }
 template <class Shape> void skew(Shape&, Shaker<double>&) {}
 
-/// The worst: all but touching, grazing, on a lattice (moving_shaker.hpp); as large and as small as doubles go, mixed;
+/// The worst: all but touching, grazing, on a lattice (shaker.hpp); as large and as small as doubles go, mixed;
 /// without motion, radius or extent.
 template <class A, class B> Motion<A, B> worst_motion(Shaker<double>& draw) {
   Motion<A, B> motion = drawn_motion<A, B>(draw);
