@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <thinwall/experiments/accuracy/oracle.hpp>
-#include "fuzz/finding.hpp"
+#include "fuzz/judge.hpp"
 
 namespace thinwall::fuzz {
 
