@@ -8,7 +8,7 @@ namespace thinwall {
 
 namespace {
 
-constexpr double coverage_level = 0.95, central = 0.999;
+constexpr double coverage_level = 0.95, false_alarms = 0.001, central = 1 - false_alarms;
 
 void add(SelfTest& test, const CellCount& cell) {
   if (cell.theory == 0 || cell.theory == 1) {
@@ -62,10 +62,13 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
     }
     add(*found, cell);
   }
+  const auto judged =
+      std::count_if(tests.begin(), tests.end(), [](const SelfTest& test) { return test.judged_cells > 0; });
+  const double allowed = 1 - false_alarms / static_cast<double>(2 * judged);
   for (SelfTest& test : tests) {
     if (test.judged_cells == 0) continue;
-    test.covered_allowed = binomial_range(test.judged_cells, coverage_level, central);
-    test.chi_square_allowed = chi_square_range(test.judged_cells, central);
+    test.covered_allowed = binomial_range(test.judged_cells, coverage_level, allowed);
+    test.chi_square_allowed = chi_square_range(test.judged_cells, allowed);
   }
   return tests;
 }
@@ -101,10 +104,11 @@ Table self_test_table(const std::vector<SelfTest>& tests) {
       {"certain_wrong", ColumnType::integer, "1", "Of those, cells whose count is not exactly that; must be 0."},
       {"judged_cells", ColumnType::integer, "1", "Cells with at least 5 expected to tunnel and 5 not to."},
       {"covered", ColumnType::integer, "1", "Of those, cells whose 95 % Wilson interval holds the theory."},
-      {"covered_lower", ColumnType::integer, "1", "Least allowed: central 99.9 % of Binomial(judged_cells, 0.95)."},
+      {"covered_lower", ColumnType::integer, "1",
+       "Least allowed by Binomial(judged_cells, 0.95): all of this table fail a right run once in 1000."},
       {"covered_upper", ColumnType::integer, "1", "Most allowed."},
       {"chi_square", ColumnType::number, "1", "Sum of squared standard residuals over the judged cells."},
-      {"chi_square_lower", ColumnType::number, "1", "Least allowed: central 99.9 % of the chi-square distribution."},
+      {"chi_square_lower", ColumnType::number, "1", "Least allowed by the chi-square distribution, likewise."},
       {"chi_square_upper", ColumnType::number, "1", "Most allowed."},
       {"other_cells", ColumnType::integer, "1", "Cells with a theory but too few expected events to judge alone."},
       {"passed", ColumnType::boolean, "", "All of the above hold."},

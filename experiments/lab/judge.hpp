@@ -1,6 +1,6 @@
 #pragma once
 /// Do measured counts agree with theory, over many cells at once? A theory that is wrong, or a measurement that is,
-/// fails here; chance alone fails a right one about once in 500 times for each method and scalar.
+/// fails here; chance alone fails a right one once in a thousand times, however many methods and scalars it has.
 
 #include <cstdint>
 #include <optional>
@@ -27,14 +27,15 @@ struct SelfTest {
   std::int64_t certain_wrong = 0;        ///< ... and is not
   std::int64_t judged_cells = 0;         ///< at least 5 expected to tunnel, and 5 not to
   std::int64_t covered = 0;              ///< ... whose 95 % Wilson interval holds the theory
-  Interval covered_allowed = {0, 0};     ///< central 99.9 % of Binomial(judged_cells, 0.95)
+  Interval covered_allowed = {0, 0};     ///< the middle of Binomial(judged_cells, 0.95)
   double chi_square = 0;                 ///< sum of squared standard residuals over the judged cells
-  Interval chi_square_allowed = {0, 0};  ///< central 99.9 % of its distribution
+  Interval chi_square_allowed = {0, 0};  ///< the middle of its distribution
   std::int64_t other_cells = 0;          ///< too few expected to judge alone
   bool passed() const;
 };
 
-/// By method and scalar, in the order of their first cell.
+/// By method and scalar, in the order of their first cell. With n of them judged each of the two ranges leaves out 1 in 2000 n,
+/// so that all together fail a right run no more than once in 1000 (Bonferroni; methods may share their shots).
 std::vector<SelfTest> self_test(const std::vector<CellCount>& cells);
 
 /// A paragraph for each: "closed_form, double: 864 cells certain, 0 wrong."

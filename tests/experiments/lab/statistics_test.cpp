@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,6 +13,8 @@
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
+
+#include "support/thorough.hpp"
 
 namespace thinwall {
 
@@ -141,6 +145,25 @@ TEST(SelfTest, passes_what_is_true) {
     EXPECT_TRUE(tests[0].passed()) << "seed " << seed << ": covered " << tests[0].covered << ", chi-square "
                                    << tests[0].chi_square;
   }
+}
+
+/// 30 methods each of 40 cells: judged one by one, 2 in 1000 each, a right run would fail every 17 times.
+TEST(SelfTest, passes_a_right_run_of_many_methods_999_times_in_1000) {
+  constexpr int runs = testing::slow_build ? 50 : 1000;
+  std::mt19937_64 random(20261123);
+  int failed = 0;
+  for (int run = 0; run < runs; ++run) {
+    std::vector<CellCount> cells;
+    for (int method = 0; method < 30; ++method) {
+      for (int cell = 0; cell < 40; ++cell) {
+        const double theory = 0.02 + 0.96 * cell / 40;
+        cells.push_back(
+            {std::to_string(method), "double", 500, std::binomial_distribution(500, theory)(random), theory});
+      }
+    }
+    failed += all_passed(self_test(cells)) ? 0 : 1;
+  }
+  EXPECT_LE(failed, 5);  // more than 5 of 1000 at 1 in 1000: 6 in 10 000
 }
 
 TEST(SelfTest, fails_a_theory_that_is_five_percent_off) {
