@@ -24,7 +24,7 @@ template <Scalar S> Capsule(Vec3<S>, Vec3<S>, S) -> Capsule<S>;
 
 /// The middle of the core segment.
 template <Scalar S> Vec3<S> center(const Capsule<S>& c) { return c.a + (c.b - c.a) / S(2); }
-template <Scalar S> S rounding(const Capsule<S>& c) { return c.radius; }
+template <Scalar S> S skin_radius(const Capsule<S>& c) { return c.radius; }
 template <Scalar S> S magnitude(const Capsule<S>& c) {
   return c.a.cwiseAbs().sum() + c.b.cwiseAbs().sum() + largest(c.radius);
 }

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include <thinwall/discrete/entry/core_entry.hpp>
+#include <thinwall/discrete/entry/core_part.hpp>
+#include <thinwall/discrete/numbers/double_word.hpp>
 #include <thinwall/discrete/numbers/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
 

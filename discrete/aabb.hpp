@@ -20,7 +20,7 @@ template <thinwall::Scalar S> struct Aabb {
 template <Scalar S> Aabb(Vec3<S>, Vec3<S>) -> Aabb<S>;
 
 template <Scalar S> Vec3<S> center(const Aabb<S>& box) { return box.center; }
-template <Scalar S> S rounding(const Aabb<S>&) { return S(0); }
+template <Scalar S> S skin_radius(const Aabb<S>&) { return S(0); }
 template <Scalar S> S magnitude(const Aabb<S>& box) {
   return box.center.cwiseAbs().sum() + box.half_extents.cwiseAbs().sum();
 }

@@ -43,8 +43,8 @@ Manifold<typename A::Scalar> single_point(const A& a, const B& b, const CoreGap<
   using S = typename A::Scalar;
   const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
   Manifold<S> manifold;
-  manifold.contacts[0] = {gap.local_a + normal * rounding(a), gap.local_b - normal * rounding(b), normal,
-                          std::max(S(0), S(rounding(a) + rounding(b) - gap.distance))};
+  manifold.contacts[0] = {gap.local_a + normal * skin_radius(a), gap.local_b - normal * skin_radius(b), normal,
+                          std::max(S(0), S(skin_radius(a) + skin_radius(b) - gap.distance))};
   manifold.count = 1;
   return manifold;
 }

@@ -25,7 +25,7 @@ template <Scalar S> Obb(Vec3<S>, Vec3<S>, Mat3<S>) -> Obb<S>;
 template <Scalar S> Obb<S> to_obb(const Aabb<S>& box) { return {box.center, box.half_extents, Mat3<S>::Identity()}; }
 
 template <Scalar S> Vec3<S> center(const Obb<S>& box) { return box.center; }
-template <Scalar S> S rounding(const Obb<S>&) { return S(0); }
+template <Scalar S> S skin_radius(const Obb<S>&) { return S(0); }
 template <Scalar S> S magnitude(const Obb<S>& box) {
   return box.center.cwiseAbs().sum() + box.half_extents.cwiseAbs().sum() + box.axes.cwiseAbs().sum();
 }

@@ -32,7 +32,7 @@ template <Shape A, Shape B> bool overlaps_unchecked(const A& a, const B& b, cons
   if constexpr (A::rank < B::rank) {
     return overlaps_unchecked(b, a, margin);
   } else {
-    return cores_within(a, b, S(rounding(a) + rounding(b) + margin));
+    return cores_within(a, b, S(skin_radius(a) + skin_radius(b) + margin));
   }
 }
 
@@ -73,8 +73,8 @@ template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(
   using S = typename A::Scalar;
   const CoreGap<S> gap = core_gap_either_way(a, b);
   const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
-  return {gap.distance - (rounding(a) + rounding(b)), normal, center(a) + (gap.local_a + normal * rounding(a)),
-          center(b) + (gap.local_b - normal * rounding(b))};
+  return {gap.distance - (skin_radius(a) + skin_radius(b)), normal, center(a) + (gap.local_a + normal * skin_radius(a)),
+          center(b) + (gap.local_b - normal * skin_radius(b))};
 }
 
 /// Signed distance, normal, and a closest point on each. NaN throughout if a shape is not valid.
@@ -102,7 +102,7 @@ template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact_u
   if (!overlaps_unchecked(a, b, S(0))) return std::nullopt;
   const CoreGap<S> gap = core_gap_either_way(a, b);
   const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
-  const S penetration = std::max(S(0), S(rounding(a) + rounding(b) - gap.distance));
+  const S penetration = std::max(S(0), S(skin_radius(a) + skin_radius(b) - gap.distance));
   return Contact<S>{contact_point(a, gap.local_a, normal), contact_point(b, gap.local_b, Vec3<S>(-normal)), normal,
                     penetration};
 }

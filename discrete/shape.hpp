@@ -4,7 +4,7 @@
 ///
 /// A shape declares `Scalar` and `rank`, and in its header these free functions:
 ///   center(shape)      the point its contact data is relative to
-///   rounding(shape)    the radius around its core; 0 for a box
+///   skin_radius(shape)    the radius around its core; 0 for a box
 ///   magnitude(shape)   the sum of the absolute values of its fields, not finite if one is not
 ///   scaled(shape, e)   the shape with every length multiplied by 2^e
 ///   cast<T>(shape)     the same shape in scalar T

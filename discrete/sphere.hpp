@@ -19,7 +19,7 @@ template <thinwall::Scalar S> struct Sphere {
 template <Scalar S> Sphere(Vec3<S>, S) -> Sphere<S>;
 
 template <Scalar S> Vec3<S> center(const Sphere<S>& s) { return s.center; }
-template <Scalar S> S rounding(const Sphere<S>& s) { return s.radius; }
+template <Scalar S> S skin_radius(const Sphere<S>& s) { return s.radius; }
 template <Scalar S> S magnitude(const Sphere<S>& s) { return s.center.cwiseAbs().sum() + largest(s.radius); }
 template <Scalar S> bool has_valid_sizes(const Sphere<S>& s) { return s.radius >= S(0); }
 template <Scalar S> bool valid(const Sphere<S>& s) {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include <thinwall/discrete/entry/core_entry.hpp>
+#include <thinwall/discrete/entry/core_part.hpp>
 #include <thinwall/discrete/entry/flat_entry.hpp>
 #include <thinwall/discrete/sphere.hpp>
 
@@ -22,7 +22,7 @@ template <Scalar S> Triangle(Vec3<S>, Vec3<S>, Vec3<S>) -> Triangle<S>;
 
 /// The centroid.
 template <Scalar S> Vec3<S> center(const Triangle<S>& t) { return t.a + ((t.b - t.a) + (t.c - t.a)) / S(3); }
-template <Scalar S> S rounding(const Triangle<S>&) { return S(0); }
+template <Scalar S> S skin_radius(const Triangle<S>&) { return S(0); }
 template <Scalar S> S magnitude(const Triangle<S>& t) {
   return t.a.cwiseAbs().sum() + t.b.cwiseAbs().sum() + t.c.cwiseAbs().sum();
 }

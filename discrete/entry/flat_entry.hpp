@@ -1,5 +1,5 @@
 #pragma once
-/// When a moving point first meets a flat set, decided without rounding. The slow path of flat_entry.hpp.
+/// When a moving point first meets a flat set, decided without rounding: the slow path of flat_entry below.
 ///
 /// Each case comes down to conditions that are linear in the time t alone:
 ///   across the plane:    the height is zero at one t, and there alpha, beta and their limits hold;
@@ -139,7 +139,7 @@ Entry<S> exact_flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, c
 //
 //   t = -p.(e1 x e2) / D,    alpha = (v x p).e2 / D,    beta = -(v x p).e1 / D.
 //
-// Plain arithmetic decides almost all; where a sign is within its rounding noise, exact_flat_entry.hpp decides.
+// Plain arithmetic decides almost all; where a sign is within its rounding noise, exact_flat_entry decides.
 // Source: the determinants are those of Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of
 // Graphics Tools 2, 1997; the noise bound is derived in docs/closed_forms.md.
 

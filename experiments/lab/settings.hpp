@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,20 +12,13 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/lab/text.hpp>
+
 namespace thinwall {
 
 /// The user asked for something that cannot be done. The program prints the one line and exits with 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// The allowed values of a number; NaN and infinity never are.
-struct Range {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  bool lower_open = false;  ///< `lower` itself is not allowed
-  bool upper_open = false;  ///< `upper` itself is not allowed
-  std::string_view unit = "1";
 };
 
 /// The most cells of a design, in the widest sense: every one is kept in memory, and most are a unit.

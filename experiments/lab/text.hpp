@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-
-#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 
@@ -45,6 +44,15 @@ struct IntervalText {
 IntervalText interval_text(double value, double lower, double upper);
 
 // ---- The allowed values of a number, checked and in words.
+
+/// The allowed values of a number; NaN and infinity never are.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;  ///< `lower` itself is not allowed
+  bool upper_open = false;  ///< `upper` itself is not allowed
+  std::string_view unit = "1";
+};
 
 /// False for NaN and infinity, whatever the range.
 bool contains(const Range& range, double value);

@@ -82,7 +82,7 @@ template <class A, class B> struct RoundedCore {
         part_b(b.shape),
         p(((part_a.base - part_b.base) + part_a.offset()) - part_b.offset()),
         v(relative_displacement(a, b)),
-        R(rounding(a.shape) + rounding(b.shape)),
+        R(skin_radius(a.shape) + skin_radius(b.shape)),
         size(p.cwiseAbs() + (part_a.reach() + part_b.reach())) {}
 
   /// The least n . x of the core at time 0.

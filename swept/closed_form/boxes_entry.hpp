@@ -9,8 +9,8 @@
 /// Error: backward a few u of the coordinates and sizes involved.
 /// Source: Ericson, Real-Time Collision Detection, 2005, section 5.5.8, for moving boxes; derived here.
 
-#include <thinwall/discrete/entry/core_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
+#include <thinwall/swept/closed_form/core_entry.hpp>
 #include <thinwall/swept/closed_form/shared_time.hpp>
 
 namespace thinwall {

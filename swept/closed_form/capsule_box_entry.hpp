@@ -3,6 +3,7 @@
 /// where the shadows on six axes first overlap. Most misses have no such time, and most hits need one part.
 
 #include <thinwall/capsule/segment_box.hpp>
+#include <thinwall/swept/closed_form/core_entry.hpp>
 #include <thinwall/swept/closed_form/shared_time.hpp>
 
 namespace thinwall {

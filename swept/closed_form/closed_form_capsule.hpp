@@ -4,6 +4,7 @@
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/swept/closed_form/capsule_box_entry.hpp>
 #include <thinwall/swept/closed_form/closed_form_parts.hpp>
+#include <thinwall/swept/closed_form/core_entry.hpp>
 
 namespace thinwall {
 

@@ -43,7 +43,7 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const Vec3<W> rounded = entry.normal.template cast<W>();
   const Vec3<W> n = rounded * ((W(3) - rounded.squaredNorm()) / W(2));  // unit to second order
   const Vec3<W> motion = relative_displacement(a, b);
-  const W round = rounding(a.shape) + rounding(b.shape) + W(gap), closing = n.dot(motion);
+  const W round = skin_radius(a.shape) + skin_radius(b.shape) + W(gap), closing = n.dot(motion);
   const W apart = n.dot(Vec3<W>(center(b.shape) - center(a.shape))) -
                   (reach_along(a.shape, n) + reach_along<W>(b.shape, -n) + W(gap));
   const W time = apart / closing, shift = largest(W(time - W(entry.time)));
@@ -73,8 +73,9 @@ template <Scalar S> struct ClosedForm {
 /// not depend on where a step ends.
 template <class A, class B, Scalar T>
 THINWALL_COLD T settled_near_end(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
-  if (rounding(a.shape) + rounding(b.shape) + gap == T(0)) return entry.time;  // found without roundings, or settled
-  const Entry<T> last_word = settled(a, b, gap, entry, 16);                    // round-off has moved it by less
+  if (skin_radius(a.shape) + skin_radius(b.shape) + gap == T(0))
+    return entry.time;                                       // found without roundings, or settled
+  const Entry<T> last_word = settled(a, b, gap, entry, 16);  // round-off has moved it by less
   if (last_word.graze) return entry.time;
   return last_word.time <= T(1) ? std::min(T(1), entry.time) : last_word.time;
 }

@@ -3,6 +3,7 @@
 /// triangle's parts, begun where the shadows on the plane's normal and the coordinate axes first overlap.
 
 #include <thinwall/discrete/triangle.hpp>
+#include <thinwall/swept/closed_form/core_entry.hpp>
 #include <thinwall/swept/closed_form/shared_time.hpp>
 
 namespace thinwall {
