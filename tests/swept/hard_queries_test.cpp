@@ -184,8 +184,12 @@ TEST(TouchToRounding, center_ray_that_starts_in_what_its_body_does_not_overlap_h
                                          V(-0x1.4dc398c4afa1dp-336, 0x1.825410b836332p-827, 0x1.1a3ba5e0403d9p+118),
                                          V(-0x1.ecdc9ffbd5043p+815, -0x1.9c802c9249b13p+910, -0x1.ba8a47251275dp-680)},
                         V(-0x1.0de9883421985p-472, -0x1.fe9de77ec61e5p+817, 0x1.b9568f3df17bdp+863)};
+  EXPECT_EQ(time_of_impact(capsule, triangle).status, ToiStatus::apart);
   const auto toi = time_of_impact(CentreRay<double>{}, capsule, triangle);
-  EXPECT_TRUE(toi.status != ToiStatus::hit || safe_norm(toi.normal) > 0.5);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_EQ(toi.time, 0);
+  EXPECT_NEAR(toi.normal[1], -1, 1e-15);
+  EXPECT_NEAR(toi.normal.norm(), 1, 1e-15);
 }
 
 /// How far apart the plane across the separation's normal shows two sets of corners, rounded by R, to be.
@@ -293,8 +297,8 @@ TEST(TouchToRounding, center_in_a_triangle_that_its_body_misses_does_not_hit_it_
   const auto segment = at_rest(Capsule<double>{V(-1, 6, 2), V(-6, -2.5, -2.5), 0});
   const double huge = std::numeric_limits<double>::max();
   const auto triangle = at_rest(Triangle<double>{V(-2.5, huge, -6.25), V(-0.5, -0x1p+52, 0x1p-4), V(-7.984375, 0, -8)});
-  const auto toi = time_of_impact(CentreRay<double>{}, segment, triangle);
-  EXPECT_TRUE(toi.status != ToiStatus::hit || safe_norm(toi.normal) > 0.5);
+  EXPECT_EQ(time_of_impact(segment, triangle).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(CentreRay<double>{}, segment, triangle).status, ToiStatus::apart);
 }
 
 }  // namespace
