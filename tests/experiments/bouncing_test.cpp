@@ -16,6 +16,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
+#include "support/thorough.hpp"
 
 namespace thinwall {
 
@@ -406,11 +407,7 @@ TEST(BounceScenarios, a_closing_wall_gives_speed) {
 }
 
 TEST(BounceScenarios, case_58_blocks_count_the_digits_of_pi) {
-#if defined(__OPTIMIZE__) && !defined(THINWALL_SLOW_BUILD)  // all 31 million impacts: not where nothing is inlined
-  constexpr int most = 7;
-#else
-  constexpr int most = 4;
-#endif
+  constexpr int most = testing::slow_build ? 4 : 7;  // all 31 million impacts: not where nothing is inlined
   constexpr std::size_t in_double = most + 1, in_float = std::min(most, 5) + 1;
   expect_all_passed(digit_scenarios(most), in_double + in_float);
   EXPECT_EQ(count_block_impacts<double>(3).impacts, 3141);

@@ -1,5 +1,5 @@
 # Compiles SOURCE, a scene whose list has a pair that is not served, and expects an error that says so and names both
-# shapes; then compiles the same scene with a list that is served. COMPILER, INCLUDES: how.
+# shapes. COMPILER, INCLUDES: how.
 cmake_minimum_required(VERSION 3.25)
 
 list(TRANSFORM INCLUDES PREPEND "-I")
@@ -20,8 +20,3 @@ foreach(way IN ITEMS ONE_BY_ONE GROUPED)
     message(SEND_ERROR "${way}: the error does not name the pair:\n${said}")
   endif()
 endforeach()
-
-compile(status said -DONE_BY_ONE -DGROUPED -DSERVED)
-if(NOT status EQUAL 0)
-  message(SEND_ERROR "does not compile, though its pairs are served:\n${said}")
-endif()

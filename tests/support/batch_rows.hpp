@@ -15,12 +15,7 @@
 namespace thinwall::testing {
 
 /// As many rows as asked for; a fiftieth where sanitized or not optimized.
-inline std::size_t batch_rows_to_judge(std::size_t rows) {
-#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(THINWALL_SLOW_BUILD)
-  rows = rows / 50 + 1;
-#endif
-  return thorough(rows);
-}
+inline std::size_t batch_rows_to_judge(std::size_t rows) { return thorough(slow_build ? rows / 50 + 1 : rows); }
 
 template <class S> Vec3<S> spoiled(Vec3<S> v, Shaker<S>& draw) {
   const std::array bad = {std::numeric_limits<S>::quiet_NaN(), std::numeric_limits<S>::infinity(),

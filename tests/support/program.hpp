@@ -189,19 +189,6 @@ class ProgramProcess {
   bool ended_ = false;
 };
 
-/// Under a sanitizer everything takes ten times as long.
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool sanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-inline constexpr bool sanitized = true;
-#else
-inline constexpr bool sanitized = false;
-#endif
-#else
-inline constexpr bool sanitized = false;
-#endif
-
 // ---- The headline experiment in small, for tests of the program as it is: many units, every kind of file, in half a second.
 
 inline constexpr const char* small_wall = R"(experiment = "thin_wall"

@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "support/thorough.hpp"
+
 namespace thinwall::testing {
 
 /// Checks a property on about `runs` random cases; fewer where the oracle is slow, without optimization or sanitized.
 template <class Testable> void check_property(int runs, const Testable& testable) {
-#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__)
-  runs = runs / 20 + 1;
-#endif
+  if constexpr (slow_build) runs = runs / 20 + 1;
   rc::detail::TestParams params;
   params.seed = 20261121;
   if (std::getenv("RC_PARAMS") != nullptr) params = rc::detail::configuration().testParams;

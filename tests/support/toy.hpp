@@ -103,7 +103,7 @@ struct Reply {
   std::string out, err;
 };
 
-struct ToyProgram : testing::Test {
+struct ToyProgram : ::testing::Test {
   TemporaryFolder folder;
   std::string out = folder / "out";
 

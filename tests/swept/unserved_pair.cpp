@@ -1,16 +1,11 @@
 // Compiled by tests/house/unserved_pair.cmake: a scene's list with a box and a triangle, a pair that is not served. Asked
-// one by one (ONE_BY_ONE) or in groups (GROUPED) it must not compile, and the error must name the pair. With SERVED the
-// list is served.
+// one by one (ONE_BY_ONE) or in groups (GROUPED) it must not compile, and the error must name the pair.
 
 #include <thinwall/swept/dispatch.hpp>
 
 using namespace thinwall;
 
-#ifdef SERVED
-using Wall = std::variant<Aabb<double>, Capsule<double>>;
-#else
 using Wall = std::variant<Aabb<double>, Triangle<double>>;
-#endif
 using Body = std::variant<std::monostate, Sphere<double>, Obb<double>>;
 
 #ifdef ONE_BY_ONE

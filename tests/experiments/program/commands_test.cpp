@@ -24,7 +24,7 @@ namespace thinwall {
 
 namespace {
 
-struct AdviseProgram : testing::Test {
+struct AdviseProgram : ::testing::Test {
   TemporaryFolder folder;
 
   static Reply advise(std::vector<std::string> more, const std::string& thickness = "0.01") {
@@ -183,7 +183,7 @@ TEST_F(CiteTest, refuses_what_holds_no_result) {
 
 namespace fs = std::filesystem;
 
-struct CompletionTest : testing::Test {
+struct CompletionTest : ::testing::Test {
   TemporaryFolder folder;
 
   ProcessResult in_folder(const std::vector<std::string>& words) const { return run_process(words, folder.path()); }
@@ -365,7 +365,7 @@ TEST_F(MannersTest, notices_that_its_output_is_lost) {
 
 // ---- What the program says, as the user calls it, to what it cannot take: one line, exit code 2, and nothing written.
 
-struct BadInputTest : testing::Test {
+struct BadInputTest : ::testing::Test {
   TemporaryFolder folder;
 
   /// `said`: every part that the one line must have.
@@ -466,7 +466,7 @@ TEST(ProgressLine, fits_a_terminal_and_survives_an_empty_run) {
 // ---- The programs that speed starts: those beside ours, or of a folder that the command line names; none that a file names, and
 // none on a dry run.
 
-struct BenchmarksTest : testing::Test {
+struct BenchmarksTest : ::testing::Test {
   TemporaryFolder folder;
   std::string config = folder / "speed.toml", out = folder / "out";
 

@@ -8,17 +8,10 @@
 #include <thinwall/experiments/lab/draw.hpp>
 
 #include "support/program.hpp"
+#include "support/thorough.hpp"
 
 namespace thinwall {
 namespace {
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool is_slow = true;
-#elif defined(__has_feature)
-constexpr bool is_slow = __has_feature(address_sanitizer);
-#else
-constexpr bool is_slow = false;
-#endif
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -55,7 +48,8 @@ TEST(Console, three_points_stand_for_any_text) {
 }
 
 TEST(Readme, every_command_prints_what_is_shown) {
-  if (is_slow) GTEST_SKIP() << "the commands take minutes under the sanitizers; the release build runs them";
+  if (testing::slow_build)
+    GTEST_SKIP() << "the commands take minutes under the sanitizers; the release build runs them";
   const std::filesystem::path root = THINWALL_SOURCE;
   const Document readme = read_document(read_text(root / "README.md"));
   ASSERT_GE(readme.commands.size(), 10u);

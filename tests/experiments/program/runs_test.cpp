@@ -20,6 +20,7 @@
 #include <thinwall/experiments/lab/journal.hpp>
 
 #include "support/program.hpp"
+#include "support/thorough.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
@@ -27,7 +28,6 @@ namespace thinwall {
 namespace {
 
 constexpr const char* small_config = R"(experiment = "thin_wall"
-shots = 6000
 speed = [10, 200]
 step = [0.016666666666666666]
 radius = [0.001, 0.02]
@@ -35,10 +35,13 @@ thickness = [0.01]
 angle_deg = [0, 60]
 )";
 
-struct RealRunTest : testing::Test {
+struct RealRunTest : ::testing::Test {
   TemporaryFolder folder;
 
-  RealRunTest() { write_text(folder / "my.toml", small_config); }
+  RealRunTest() {
+    write_text(folder / "my.toml",
+               small_config + std::string(testing::slow_build ? "shots = 600\n" : "shots = 6000\n"));
+  }
 
   std::vector<std::string> words(const std::string& out, const std::string& threads) const {
     return {THINWALL_PROGRAM, "run", folder / "my.toml", "--out", folder / out, "--threads", threads, "--seed", "11"};
@@ -260,7 +263,7 @@ TEST_F(ToyRunTest, runs_its_own_resolved_configuration) {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-struct KilledRunTest : testing::Test {
+struct KilledRunTest : ::testing::Test {
   TemporaryFolder folder;
 
   KilledRunTest() { write_text(folder / "my.toml", small_wall); }
@@ -292,8 +295,8 @@ struct KilledRunTest : testing::Test {
   }
 };
 
-TEST_F(KilledRunTest, ends_with_the_same_bytes_after_fifty_kills) {
-  constexpr int kills = sanitized ? 10 : 50;
+TEST_F(KilledRunTest, ends_with_the_same_bytes_after_twenty_kills) {
+  const int kills = static_cast<int>(testing::thorough(testing::slow_build ? 5 : 20));
   constexpr int moments = 4;
   std::uintmax_t largest_journal = 0;
   const auto start = Clock::now();
@@ -406,7 +409,7 @@ TEST_F(KilledRunTest, heeds_an_interrupt_at_once_in_the_midst_of_a_long_unit) {
 
 namespace fs = std::filesystem;
 
-struct FullDiskTest : testing::Test {
+struct FullDiskTest : ::testing::Test {
   TemporaryFolder folder;
 
   FullDiskTest() {
