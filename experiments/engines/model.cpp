@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
@@ -56,13 +56,6 @@ RandomStream random_stream(const EngineCell& cell, std::uint64_t seed) {
 }
 
 namespace {
-
-/// [s] of the processor that this thread has had: what others do meanwhile does not count.
-double own_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The lines of flight before and after the bounce meet at some time: of a ball that turns in an instant, when it turned. Its
 /// distance from first contact, in steps; < 0 where the ball turns before it touches.
@@ -256,12 +249,12 @@ EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t fi
   for (std::int64_t i = first; i < first + shots; ++i) {
     const EngineShot shot = engine_shot(cell, stream, static_cast<std::uint64_t>(i));
     const auto world = mode.make(shot.scene, shot.start);
-    const double start = own_seconds();
+    const double start = thread_seconds();
     for (BallState& at : flight) {
       world->step();
       at = world->ball();
     }
-    tally.seconds += own_seconds() - start;
+    tally.seconds += thread_seconds() - start;
     judge(shot, flight, tally);
   }
   return tally;

@@ -176,12 +176,12 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
       "\nset style line 100 linecolor rgb '#e4e4e4' linewidth 0.7\nset style line 101 linecolor rgb '#404040' linewidth 1\n"
       "set grid back linestyle 100\nset border 3 back linestyle 101\nset xzeroaxis linecolor rgb '#909090' linewidth 0.8\n"
       "set errorbars 0\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
-      "set key at screen {0:.5f}, screen {1:.5f} left top vertical maxrows {2} Left reverse noenhanced samplen 2 "
+      "set key at screen {6:.5f}, screen {1:.5f} left top vertical maxrows {2} Left reverse noenhanced samplen 2 "
       "spacing 1 width 1 textcolor rgb '#202020'\n"
       "set label 1 {3} at screen {0:.5f}, screen {4:.5f} left noenhanced font sized(18)\n"
       "set lmargin at screen {0:.5f}; set rmargin at screen {5:.5f}\nset multiplot\n",
       left, 1 - layout.legend_y / layout.height, layout.legend_rows, spelled(figure.title),
-      1 - layout.title_y / layout.height, layout.right / layout.width);
+      1 - layout.title_y / layout.height, layout.right / layout.width, layout.legend_x / layout.width);
   return out;
 }
 

@@ -51,8 +51,9 @@ struct PanelBox {
 
 struct PlotLayout {
   double width = 760, height = 0;
-  double left = 104, right = 736;      ///< of every panel: stacked panels are aligned
-  double title_y = 24, legend_y = 44;  ///< middle of the title, top of the legend
+  double left = 104, right = 736;        ///< of every panel: stacked panels are aligned
+  double title_y = 24;                   ///< middle of the title
+  double legend_x = 104, legend_y = 44;  ///< left and top of the legend: above the panels, or beside them if it is long
   std::size_t legend_rows = 1;
   double below = 50;     ///< from the panel's lower edge to the middle of its x label
   bool shared_x = true;  ///< one x axis for all panels, labeled once

@@ -70,7 +70,9 @@ std::string tics(const DrawnAxis& axis, double pixels, double spacing) {
 namespace {
 
 // [pixel], for text of 15 pixels
-constexpr double letter_width = 7.6, legend_sample = 60, legend_row = 23;
+constexpr double letter_width = 7.6, widest_letter = 9.4;  // of Arial; of what stands in for it
+constexpr double legend_sample = 60, legend_row = 23;
+constexpr std::size_t most_above = 6;            // entries of a legend above the panels; more stand beside them
 constexpr double reserved_letter = 10.5;         // what gnuplot sets apart for a letter of the legend
 constexpr double panel_height = 360;             // of a panel of height 1
 constexpr double shared_gap = 16, own_gap = 74;  // between panels that share their x axis, and others
@@ -87,11 +89,15 @@ double room_for_names(const std::vector<Panel>& panels) {
   return longest == 0 ? 0 : 56 + letter_width * static_cast<double>(longest);
 }
 
-/// The last column needs room for its text alone; those before it are as wide as gnuplot makes them.
-std::size_t columns_that_fit(const std::vector<SeriesStyle>& styles, double width) {
+double letters_of_longest(const std::vector<SeriesStyle>& styles) {
   std::size_t longest = 0;
   for (const SeriesStyle& style : styles) longest = std::max(longest, style.label.size());
-  const double letters = static_cast<double>(longest);
+  return static_cast<double>(longest);
+}
+
+/// The last column needs room for its text alone; those before it are as wide as gnuplot makes them.
+std::size_t columns_that_fit(const std::vector<SeriesStyle>& styles, double width) {
+  const double letters = letters_of_longest(styles);
   const double last = legend_sample + letter_width * letters, column = legend_sample + reserved_letter * letters;
   const auto fit = width < last ? std::size_t{1} : static_cast<std::size_t>(1 + (width - last) / column);
   return std::clamp<std::size_t>(fit, 1, std::max<std::size_t>(styles.size(), 1));
@@ -111,9 +117,19 @@ PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& sty
   }
   const bool named = std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.x_tics.empty(); });
   if (named) out.below += named_x;
-  const std::size_t legend_columns = columns_that_fit(styles, out.right - out.left);
-  out.legend_rows = (styles.size() + legend_columns - 1) / legend_columns;
-  double top = out.legend_y + legend_row * static_cast<double>(out.legend_rows) + 16;
+  out.legend_x = out.left;
+  double top = out.legend_y;
+  const bool beside = styles.size() > most_above;
+  if (beside) {
+    out.legend_x = out.right + 20;
+    out.legend_rows = styles.size();
+    out.width = out.legend_x + legend_sample + widest_letter * letters_of_longest(styles);
+    top += 10;
+  } else {
+    const std::size_t columns = columns_that_fit(styles, out.right - out.left);
+    out.legend_rows = (styles.size() + columns - 1) / columns;
+    top += legend_row * static_cast<double>(out.legend_rows) + 16;
+  }
   for (const Panel& panel : figure.panels) {
     if (!panel.x_groups.empty()) top += group_row;
     const double bottom = top + panel_height * panel.height;
@@ -121,6 +137,7 @@ PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& sty
     top = bottom + (out.shared_x ? shared_gap : own_gap + (named ? named_x : 0));
   }
   out.height = out.panels.back().bottom + bottom_margin + (named ? named_x : 0);
+  if (beside) out.height = std::max(out.height, out.legend_y + legend_row * static_cast<double>(out.legend_rows) + 16);
   return out;
 }
 

@@ -131,22 +131,6 @@ Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const 
   out.summary += fmt::format("\nSelf-test: {}.\n", held && exact.tunneled == 0 ? "passed" : "FAILED");
   out.tables = {compare_table(contests), compare_timings_table(comparison, contests)};
   out.figures = {compare_figure(comparison, contests), error_against_time_figure(comparison, contests)};
-  out.sections = {
-      {"What is compared",
-       "Every contender steps the same scene for the same time. The exact run is stepped by events, with steps shorter "
-       "than any contender's; under gravity its path is that of the integrator still, which errs by g t dt / 2. Of each "
-       "pair of bodies the first meeting is compared and no later one: after a bounce at another time two runs part. A pair "
-       "that met first in the exact run and never here counts as unmet, unless that was within the last step.\n\n"
-       "Tunneled is counted step by step, without the exact run: two bodies that nothing else touched in the step, apart "
-       "before and after it, which the closed form finds to have touched on the way."},
-      {"Self-test",
-       "Policies that look at all of the motion let nothing through, and each repeat gives the same bits. "
-       "A scene of many bodies that bounce is chaotic: there unmet and extra pairs say that two runs parted, not that one "
-       "is wrong."},
-      {"Limits",
-       "Only first meetings are compared. Bodies do not turn, and there is no friction. Times are of this machine, the scene's "
-       "threads at work."},
-  };
   out.self_test_passed = held && exact.tunneled == 0;
   return out;
 }
