@@ -1,6 +1,7 @@
 /// Queries that once got a wrong answer, found by feeding raw numbers to every pair.
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -15,56 +16,172 @@ namespace thinwall {
 namespace {
 
 using V = Vec3<double>;
+using F = Vec3<float>;
 
-TEST(HardQueries, nothing_overlaps_from_far_away_however_coarse_the_times) {
-  const Moving capsule{Capsule<double>{V(-0.8, -0.8, -0.8), V(-0.6, -0.8, -0.8), 0.8}, V(4, 2, 3)};
-  const Moving sphere{Sphere<double>{V(10.2, -0x1p+57, 2.1), 1.2}, V(-7, 0x1p+57, 0.09)};
-  const auto toi = time_of_impact(capsule, sphere);
-  EXPECT_NE(toi.status, ToiStatus::overlapping);
-  EXPECT_GT(toi.time, 0.999);
+// ---- Two shapes in motion: what is known of the answer, to whichever is asked first and at any power of two of their size.
+
+struct Finding {
+  const char* about;
+  std::function<Toi<double>(bool turned, int scale)> ask;  ///< scale: [tenths of the scalar's range of exponents]
+  std::vector<ToiStatus> may_be;                           ///< more than one where the truth is nearer than rounding
+  double time, within;                                     ///< of the time that 50 digits give; 0 wants its very bits
+};
+
+template <class A, class B> auto asking(const Moving<A>& a, const Moving<B>& b) {
+  return [=](bool turned, int scale) {
+    const int exponent = scale * std::numeric_limits<typename A::Scalar>::max_exponent / 10;
+    const auto first = scaled(a, exponent);
+    const auto second = scaled(b, exponent);
+    const auto toi = turned ? time_of_impact(second, first) : time_of_impact(first, second);
+    return Toi<double>{toi.status, 0, toi.time, (turned ? -1 : 1) * toi.normal.template cast<double>(), V::Zero()};
+  };
 }
 
-TEST(HardQueries, points_that_meet_at_the_end_do_not_overlap_at_the_start) {
-  const Moving point{Capsule<double>{V(0, 0, 0), V(0, 0, 0), 0}, V(0, 0.8, 0)};
-  const auto at_end = time_of_impact(point, at_rest(Aabb<double>{V(0, 0.8, 0), V(0, 0, 0)}));
-  EXPECT_EQ(at_end.status, ToiStatus::hit);
-  EXPECT_EQ(at_end.time, 1);
-  const auto capsule = at_rest(Capsule<double>{V(0x1p-50, 0, 0), V(0, 0, 0), 0});
-  const auto met = time_of_impact(capsule, Moving{Sphere<double>{V(0x1p-50, 8, 256), 0}, V(-0x1p-50, -8, -256)});
-  EXPECT_EQ(met.status, ToiStatus::hit);
-  EXPECT_NEAR(met.time, 1, 0x1p-52);
+using enum ToiStatus;
+
+const Moving long_capsule{Capsule<double>{V(1, -0x1p+31, 0x1.fffffep-1), V(0, 2, 3), 0x1.000002p+0},
+                          V(0x1.602p+2, 0x1p+30, -0x1.6cccccp+3)};
+const Aabb<double> low_box{V(0x1.802p+2, -2, -0x1.2cccccp+3), V(1, 3, 2)};
+
+const std::vector<Finding> findings = {
+    {"nothing overlaps from far away, however coarse the times",
+     asking(Moving{Capsule<double>{V(-0.8, -0.8, -0.8), V(-0.6, -0.8, -0.8), 0.8}, V(4, 2, 3)},
+            Moving{Sphere<double>{V(10.2, -0x1p+57, 2.1), 1.2}, V(-7, 0x1p+57, 0.09)}),
+     {apart, hit},
+     1,
+     1e-3},
+    {"points that meet at the end do not overlap at the start",
+     asking(Moving{Capsule<double>{V(0, 0, 0), V(0, 0, 0), 0}, V(0, 0.8, 0)},
+            at_rest(Aabb<double>{V(0, 0.8, 0), V(0, 0, 0)})),
+     {hit},
+     1,
+     0},
+    {"nor do they if one is a segment as short",
+     asking(at_rest(Capsule<double>{V(0x1p-50, 0, 0), V(0, 0, 0), 0}),
+            Moving{Sphere<double>{V(0x1p-50, 8, 256), 0}, V(-0x1p-50, -8, -256)}),
+     {hit},
+     1,
+     0x1p-52},
+    {"a plane of no contact settles nothing: a plate and a tile would meet at 1 + 2^-52",
+     asking(
+         Moving{Aabb<double>{V(0x1.c808a8p-2, 2, 1), V(0.8, 0, 0)}, V(5, -0x1.fffffffffffffp-2, -0x1.8262126666666p-1)},
+         Moving{Aabb<double>{V(0x1.3ecef6ccccccdp+0, 1.5, 0x1.1f677b6666668p+1), V(7, 0, 5)}, V(5, 0, -7)}),
+     {apart},
+     1,
+     0},
+    {"a corner without a radius meets a slab as the step ends",
+     asking(Moving{Aabb<double>{V(-8, 0, -3), V(8, 3, 0)}, V(-256, -1, 11)},
+            at_rest(Aabb<double>{V(-256, -4, 0x1.f99999999999ap+2), V(0, 0, 0.1)})),
+     {hit},
+     1,
+     0},
+    {"a segment in touch to rounding has come in",
+     asking(Moving{Capsule<float>{F(0.5F, -0.5F, 0x1.7e77fcp-1F), F(1, 8.5F, -0x1.ef4dap-1F), 0},
+                   F(0x1.3f3cp+0F, 0x1p-4F, 256)},
+            Moving{Triangle<float>{F(0x1.7fd4fp-2F, 0x1.88fcc8p+1F, 0x1.f2121p-1F),
+                                   F(0x1.97fd5p+2F, 0x1.50f58ep+0F, -0x1.c37b7cp+1F),
+                                   F(0x1.ae729ap+1F, 0x1.846e66p+2F, 0x1.4f2122p+3F)},
+                   F(0x1.f2ecp-8F, 0.5F, 0x1.800002p+1F)}),
+     {hit},
+     0x1.4f367063fc983p-9,
+     0x1p-31},
+    {"a large triangle is seen from its nearest corner",
+     asking(Moving{Triangle<double>{V(-0x1p+57, 0.7, 896), V(896, -0x1p-5, 0.7), V(0, -896, 896)}, V(-0.8, -0.8, -0.8)},
+            Moving{Sphere<double>{V(0x1.34f71d957adbep+8, -0x1.33ea38d044248p+9, -0x1.2d23585adad07p+10), 0.8},
+                   V(-0.8, 28, 1792)}),
+     {hit},
+     0x1.ff6795830afebp-1,
+     1e-14},
+    {"a far path",
+     asking(Moving{Triangle<double>{V(2, -5, 4), V(-4, -0x1p-24, 1.456), V(-7, -3.818, -32)}, V(-0.818, 510, 9.25)},
+            Moving{Sphere<double>{V(-3.818, 512, 0), 2.5}, V(0x1p-24, -4.9, 0x1p-24)}),
+     {hit},
+     0.5,
+     0.5},
+    {"a long segment almost along an edge", asking(long_capsule, at_rest(low_box)), {hit}, 0x1.87c07d7f53c46p-1, 1e-15},
+    {"the same of an oriented box", asking(long_capsule, at_rest(to_obb(low_box))), {hit}, 0x1.87c07d7f53c46p-1, 1e-15},
+    {"a segment that starts on a triangle and goes in hits it",  // truly at 3.6e-18
+     asking(Moving{Capsule<double>{V(2, -8, -9), V(-8, 0, -0x1p-5), 0}, V(2, 0, 0x1.8000000008p+1)},
+            Moving{Triangle<double>{V(-0x1.7d9601fda252ap+2, -0x1.38c4a93b8ae3ap+1, -0x1.30365c4f767ddp+0),
+                                    V(-0x1.bb2c03fb44a54p+1, 0x1.d161537bd427dp+2, -0x1.a2d39856bb9c8p+3),
+                                    V(0x1.84d3fc04bb5acp+1, 0x1.5f1ee788ea38cp+0, 0x1.67e4d1d844c12p+1)},
+                   V(-6, -0x1.14e50cp-1, 0.3)}),
+     {hit},
+     0,
+     1e-16},
+    {"a segment that seems to recede once it is there hits the triangle",
+     asking(Moving{Capsule<double>{V(-9.2, 0x1.80000000002p+1, 0), V(0, -0x1.838d78p-2, 0), 0},
+                   V(0x1.4888888888888p+3, -0x1.c1a84c5aaaacbp+4, -0x1.4409794p+3)},
+            Moving{Triangle<double>{V(1, -0x1.838d78p-2, -9.2), V(16, -64, -5.6), V(0, -16, -0x1.3282d22666666p+3)},
+                   V(0, 0, -2)}),
+     {hit},
+     0x1.e7bf7f7befa87p-1,
+     0x1p-50},
+    {"a segment that starts on a plate touches it",
+     asking(Moving{Capsule<float>{F(2, -5, -2), F(-0.2F, 2, 0.2F), 0}, F(-7, -2, 3)},
+            at_rest(Aabb<float>{F(0x1.1d14ap-3F, 0.75F, -0.5F), F(0, 0.75F, 4.6F)})),
+     {hit, overlapping},
+     0,
+     1e-7},
+    {"a segment through a box overlaps it, though its way in is the closest point found",
+     asking(Moving{Capsule<double>{V(-0.6, -8, 5), V(-0.6, -0x1.64ec8p-1, -0x1.8p-4), 0}, V(0.5, -2.6, 2.5)},
+            at_rest(Aabb<double>{V(-0x1.8dca66666666p-4, -7, 5), V(2, 0.7, 0x1.4d89cp+0)})),
+     {overlapping},
+     0,
+     0},
+    {"a triangle with two equal corners",
+     asking(
+         Moving{Sphere<double>{V(-0.8, -0x1.0f135cf53a706p+3, 0x1.55cb443f674eep+1), 0.8}, V(-0x1.ecabc4p-1, 0.4, -3)},
+         Moving{Triangle<double>{V(-8, -0.8, -0.8), V(-0.8, -0.8, -0.8), V(-0.8, -0.8, -0.8)}, V(0, -8, 0.8)}),
+     {hit},
+     0.5,
+     0.5},
+    {"boxes that pass corner by corner, by 6 u, do not hit, though the turned one's arithmetic said they do",
+     asking(Moving{Obb<double>{V(-0x1.3333333333334p-2, 8, -0x1.999999999999ap-1),
+                               V(0x1.3333333333334p-2, 0x1.999999999999ap-2, 0x1.3333333333334p-2),
+                               Mat3<double>::Identity()},
+                   V(-0x1.bfffp+2, -0x1.ccccccccccccep-1, -0x1.b4fc44p-1)},
+            Moving{Aabb<double>{V(-0x1.2324552d524ddp-2, -0x1.5a49d3006dae8p-2, 0x1.999999999999ap-1),
+                                V(0x1.3333333333334p-2, 0x1.fp+2, 0x1.804p+2)},
+                   V(-0x1.199999999999ap+0, 1, -0x1.b4fc43fffffffp-1)}),
+     {apart},
+     1,
+     0},
+    {"a segment tilted by a rounding meets a long plate where it does: the plane of contact is 13 u early",
+     asking(
+         Moving{Capsule<double>{V(-8, -8, -8), V(-0x1.fffffffffffcp+2, -0.8, 7), 0}, V(0x1.fffffffffffep+2, 4.4, 0.5)},
+         at_rest(Obb<double>{V(0, 0, 0), V(0, 2, 1.6), Mat3<double>::Identity()})),
+     {hit},
+     0x1.ffffffffffff9p-1,
+     0x1p-53},
+};
+
+TEST(HardQueries, motions_have_the_answers_of_the_table) {
+  for (const Finding& finding : findings) {
+    SCOPED_TRACE(finding.about);
+    const Toi<double> toi = finding.ask(false, 0);
+    EXPECT_NE(std::ranges::find(finding.may_be, toi.status), finding.may_be.end()) << static_cast<int>(toi.status);
+    EXPECT_NEAR(toi.time, finding.time, finding.within);
+    const Toi<double> turned = finding.ask(true, 0);
+    EXPECT_EQ(turned.status, toi.status);
+    EXPECT_EQ(turned.time, toi.time);
+    EXPECT_EQ(turned.normal, toi.normal);
+    for (const int scale : {-6, -3, 3, 6}) {
+      const Toi<double> far = finding.ask(false, scale);
+      EXPECT_EQ(far.status, toi.status) << scale;
+      EXPECT_EQ(far.time, toi.time) << scale;
+      EXPECT_EQ(far.normal, toi.normal) << scale;
+    }
+  }
 }
 
-TEST(HardQueries, plane_of_no_contact_settles_nothing) {  // a corner without a radius, near the end of the step
-  const Moving plate{Aabb<double>{V(0x1.c808a8p-2, 2, 1), V(0.8, 0, 0)},
-                     V(5, -0x1.fffffffffffffp-2, -0x1.8262126666666p-1)};
-  const Moving tile{Aabb<double>{V(0x1.3ecef6ccccccdp+0, 1.5, 0x1.1f677b6666668p+1), V(7, 0, 5)}, V(5, 0, -7)};
-  EXPECT_EQ(time_of_impact(plate, tile).status, ToiStatus::apart);  // they would meet at 1 + 2^-52
-  const Moving slab{Aabb<double>{V(-8, 0, -3), V(8, 3, 0)}, V(-256, -1, 11)};
-  const auto toi = time_of_impact(slab, at_rest(Aabb<double>{V(-256, -4, 0x1.f99999999999ap+2), V(0, 0, 0.1)}));
-  EXPECT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_EQ(toi.time, 1);
-}
-
-TEST(HardQueries, segment_in_touch_to_rounding_has_come_in) {
-  using F = Vec3<float>;
-  const Moving segment{Capsule<float>{F(0.5F, -0.5F, 0x1.7e77fcp-1F), F(1, 8.5F, -0x1.ef4dap-1F), 0},
-                       F(0x1.3f3cp+0F, 0x1p-4F, 256)};
-  const Moving triangle{Triangle<float>{F(0x1.7fd4fp-2F, 0x1.88fcc8p+1F, 0x1.f2121p-1F),
-                                        F(0x1.97fd5p+2F, 0x1.50f58ep+0F, -0x1.c37b7cp+1F),
-                                        F(0x1.ae729ap+1F, 0x1.846e66p+2F, 0x1.4f2122p+3F)},
-                        F(0x1.f2ecp-8F, 0.5F, 0x1.800002p+1F)};
-  const auto toi = time_of_impact(segment, triangle);
-  EXPECT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_FLOAT_EQ(toi.time, 0x1.4f367063fc983p-9F);
-}
+// ---- Other queries, and what more there is to say of a motion.
 
 TEST(HardQueries, parallel_boxes_have_a_normal) {
   Mat3<float> axes;
   axes.col(0) << 0x1.f07c2p-1F, 0x1.f07c2p-3F, 0x1.f07c2p-6F;
   axes.col(1) << -0x1.f07c2p-3F, 0x1.e0f83ep-1F, 0x1.f07c2p-3F;
   axes.col(2) << 0x1.f07c2p-6F, -0x1.f07c2p-3F, 0x1.f07c2p-1F;
-  using F = Vec3<float>;
   const Moving first{Obb<float>{F(-2, -2, -2), F(2, 4, 2), axes}, F(-2, 3, -2)};
   const Moving second{Obb<float>{F(0x1.e0f84p+0F, -0x1.07c1fp+0F, -0x1.e0f83ep+0F), F(2, 2, 2), axes}, F(-2, -2, -2)};
   const auto toi = time_of_impact(first, second);  // they touch at the start, to float's rounding of the axes
@@ -73,18 +190,7 @@ TEST(HardQueries, parallel_boxes_have_a_normal) {
   EXPECT_NEAR(toi.normal.norm(), 1, 1e-6);
 }
 
-TEST(HardQueries, large_triangle_is_seen_from_its_nearest_corner) {
-  const Moving triangle{Triangle<double>{V(-0x1p+57, 0.7, 896), V(896, -0x1p-5, 0.7), V(0, -896, 896)},
-                        V(-0.8, -0.8, -0.8)};
-  const Moving sphere{Sphere<double>{V(0x1.34f71d957adbep+8, -0x1.33ea38d044248p+9, -0x1.2d23585adad07p+10), 0.8},
-                      V(-0.8, 28, 1792)};
-  const auto toi = time_of_impact(triangle, sphere);
-  ASSERT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_NEAR(toi.time, 0x1.ff6795830afebp-1, 1e-14);
-}
-
 TEST(HardQueries, small_triangle_and_far_sphere) {
-  using F = Vec3<float>;
   const Triangle<float> triangle{F(-0x1.99999ap-1F, -0x1.266666p+2F, -0x1.99999ap-1F),
                                  F(0x1.99999ap-1F, -0x1.99999ap-1F, 0x1.4p+2F), F(0x1.266666p+2F, -1, -0x1.acccccp+2F)};
   const Sphere<float> sphere{F(-0x1.7ffff8p+1F, 0x1p+53F, -4), 0x1.99999ap-1F};
@@ -93,27 +199,7 @@ TEST(HardQueries, small_triangle_and_far_sphere) {
   EXPECT_FLOAT_EQ(apart.normal[1], 1);
 }
 
-TEST(HardQueries, far_path_at_any_scale_gives_the_same_bits) {
-  const Moving triangle{Triangle<double>{V(2, -5, 4), V(-4, -0x1p-24, 1.456), V(-7, -3.818, -32)},
-                        V(-0.818, 510, 9.25)};
-  const Moving sphere{Sphere<double>{V(-3.818, 512, 0), 2.5}, V(0x1p-24, -4.9, 0x1p-24)};
-  const auto toi = time_of_impact(triangle, sphere);
-  ASSERT_EQ(toi.status, ToiStatus::hit);
-  for (const int e : {-700, -500, 500, 700})
-    EXPECT_EQ(time_of_impact(scaled(triangle, e), scaled(sphere, e)).time, toi.time);
-}
-
-TEST(HardQueries, long_segment_almost_along_an_edge) {
-  const Moving capsule{Capsule<double>{V(1, -0x1p+31, 0x1.fffffep-1), V(0, 2, 3), 0x1.000002p+0},
-                       V(0x1.602p+2, 0x1p+30, -0x1.6cccccp+3)};
-  const Moving box{Aabb<double>{V(0x1.802p+2, -2, -0x1.2cccccp+3), V(1, 3, 2)}, V(0, 0, 0)};
-  const double at_50_digits = 0x1.87c07d7f53c46p-1;
-  EXPECT_NEAR(time_of_impact(capsule, box).time, at_50_digits, 1e-15);
-  EXPECT_NEAR(time_of_impact(capsule, Moving{to_obb(box.shape), box.displacement}).time, at_50_digits, 1e-15);
-}
-
 TEST(HardQueries, ray_from_inside_an_enormous_sphere_stays_at_its_origin) {
-  using F = Vec3<float>;
   const Ray<float> ray{F(0x1.8008p-136F, -0x1.1414bp-65F, 0x1.2a85d4p-94F), F(0x1p+125F, 0, 0), 1};
   const auto hit = raycast(ray, Sphere<float>{F(0, 0x1.544214p+14F, 0), 0x1.debf28p+122F});
   ASSERT_TRUE(hit);
@@ -123,57 +209,6 @@ TEST(HardQueries, ray_from_inside_an_enormous_sphere_stays_at_its_origin) {
 
 // ---- Shapes in touch, or as near as rounding can tell, where the side one is seen from is noise. Found by feeding raw numbers
 // to every pair.
-
-using V = Vec3<double>;
-using F = Vec3<float>;
-
-TEST(TouchToRounding, segment_that_starts_on_a_triangle_and_goes_in_hits_it) {  // truly at 3.6e-18
-  const Moving segment{Capsule<double>{V(2, -8, -9), V(-8, 0, -0x1p-5), 0}, V(2, 0, 0x1.8000000008p+1)};
-  const Moving triangle{Triangle<double>{V(-0x1.7d9601fda252ap+2, -0x1.38c4a93b8ae3ap+1, -0x1.30365c4f767ddp+0),
-                                         V(-0x1.bb2c03fb44a54p+1, 0x1.d161537bd427dp+2, -0x1.a2d39856bb9c8p+3),
-                                         V(0x1.84d3fc04bb5acp+1, 0x1.5f1ee788ea38cp+0, 0x1.67e4d1d844c12p+1)},
-                        V(-6, -0x1.14e50cp-1, 0.3)};
-  const auto toi = time_of_impact(segment, triangle);
-  ASSERT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_LT(toi.time, 1e-16);
-}
-
-TEST(TouchToRounding, segment_that_seems_to_recede_once_it_is_there_hits_the_triangle) {
-  const Moving segment{Capsule<double>{V(-9.2, 0x1.80000000002p+1, 0), V(0, -0x1.838d78p-2, 0), 0},
-                       V(0x1.4888888888888p+3, -0x1.c1a84c5aaaacbp+4, -0x1.4409794p+3)};
-  const Moving triangle{
-      Triangle<double>{V(1, -0x1.838d78p-2, -9.2), V(16, -64, -5.6), V(0, -16, -0x1.3282d22666666p+3)}, V(0, 0, -2)};
-  const auto toi = time_of_impact(segment, triangle);
-  ASSERT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_NEAR(toi.time, 0x1.e7bf7f7befa87p-1, 0x1p-50);
-}
-
-TEST(TouchToRounding, segment_that_starts_on_a_plate_touches_it) {
-  const Moving segment{Capsule<float>{F(2, -5, -2), F(-0.2F, 2, 0.2F), 0}, F(-7, -2, 3)};
-  const auto toi = time_of_impact(segment, at_rest(Aabb<float>{F(0x1.1d14ap-3F, 0.75F, -0.5F), F(0, 0.75F, 4.6F)}));
-  EXPECT_NE(toi.status, ToiStatus::apart);
-  EXPECT_LT(toi.time, 1e-7F);
-}
-
-TEST(TouchToRounding, segment_through_a_box_overlaps_it_though_its_way_in_is_the_closest_point_found) {
-  const Moving segment{Capsule<double>{V(-0.6, -8, 5), V(-0.6, -0x1.64ec8p-1, -0x1.8p-4), 0}, V(0.5, -2.6, 2.5)};
-  const auto box = at_rest(Aabb<double>{V(-0x1.8dca66666666p-4, -7, 5), V(2, 0.7, 0x1.4d89cp+0)});
-  EXPECT_LT(separation(segment.shape, box.shape).distance, -0.5);
-  EXPECT_EQ(time_of_impact(segment, box).status, ToiStatus::overlapping);
-}
-
-TEST(TouchToRounding, triangle_with_two_equal_corners_keeps_its_bits_at_any_scale) {
-  const Moving sphere{Sphere<double>{V(-0.8, -0x1.0f135cf53a706p+3, 0x1.55cb443f674eep+1), 0.8},
-                      V(-0x1.ecabc4p-1, 0.4, -3)};
-  const Moving triangle{Triangle<double>{V(-8, -0.8, -0.8), V(-0.8, -0.8, -0.8), V(-0.8, -0.8, -0.8)}, V(0, -8, 0.8)};
-  const auto toi = time_of_impact(sphere, triangle);
-  ASSERT_EQ(toi.status, ToiStatus::hit);
-  for (const int e : {-700, -300, 300, 700}) {
-    const auto far = time_of_impact(scaled(sphere, e), scaled(triangle, e));
-    EXPECT_EQ(far.time, toi.time) << e;
-    EXPECT_EQ(far.normal, toi.normal) << e;
-  }
-}
 
 TEST(TouchToRounding, center_ray_that_starts_in_what_its_body_does_not_overlap_has_a_normal) {
   const Moving capsule{Capsule<double>{V(-0x1.63c000000ffcep+353, -0x1.50ef63ccea089p-197, -0x1.31b628f713334p-947),
@@ -236,19 +271,6 @@ TEST(TouchToRounding, parallel_rods_are_parted_across_them) {  // not from one's
   EXPECT_NEAR(gap.normal[2], 0, 1e-14);
 }
 
-TEST(TouchToRounding,
-     boxes_that_pass_corner_by_corner_do_not_hit) {  // by 6 u; the turned one's arithmetic said they do
-  const Moving turned{
-      Obb<double>{V(-0x1.3333333333334p-2, 8, -0x1.999999999999ap-1),
-                  V(0x1.3333333333334p-2, 0x1.999999999999ap-2, 0x1.3333333333334p-2), Mat3<double>::Identity()},
-      V(-0x1.bfffp+2, -0x1.ccccccccccccep-1, -0x1.b4fc44p-1)};
-  const Moving box{Aabb<double>{V(-0x1.2324552d524ddp-2, -0x1.5a49d3006dae8p-2, 0x1.999999999999ap-1),
-                                V(0x1.3333333333334p-2, 0x1.fp+2, 0x1.804p+2)},
-                   V(-0x1.199999999999ap+0, 1, -0x1.b4fc43fffffffp-1)};
-  EXPECT_EQ(time_of_impact(turned, box).status, ToiStatus::apart);
-  EXPECT_EQ(time_of_impact(box, turned).status, ToiStatus::apart);
-}
-
 TEST(TouchToRounding, ray_from_afar_through_a_capsule_hits_it) {  // in float a place on the path is known to 4 lengths
   const Capsule<float> capsule{F(0, 4, 0x1.fffffcp+0F), F(-0.4F, 0, -0.15F), 0x1.fffffcp+0F};
   for (const float x : {0.375F, -0.125F}) {
@@ -282,15 +304,6 @@ TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_s
     EXPECT_EQ(far.distance, times_power_of_two(near.distance, e)) << e;
     EXPECT_EQ(far.normal, near.normal) << e;
   }
-}
-
-TEST(TouchToRounding,
-     segment_tilted_by_a_rounding_meets_a_long_plate_where_it_does) {  // the plane of contact is 13 u early
-  const Moving segment{Capsule<double>{V(-8, -8, -8), V(-0x1.fffffffffffcp+2, -0.8, 7), 0},
-                       V(0x1.fffffffffffep+2, 4.4, 0.5)};
-  const auto toi = time_of_impact(segment, at_rest(Obb<double>{V(0, 0, 0), V(0, 2, 1.6), Mat3<double>::Identity()}));
-  ASSERT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_NEAR(toi.time, 0x1.ffffffffffff9p-1, 0x1p-53);  // by the same form with 60 digits
 }
 
 TEST(TouchToRounding, center_in_a_triangle_that_its_body_misses_does_not_hit_it_at_rest) {
