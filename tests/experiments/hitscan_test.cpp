@@ -152,7 +152,7 @@ const std::vector<HitscanRow>& measured() {
                             experiment.default_toml);
     const std::vector<HitscanCell> cells = make_hitscan_cells(settings);
     std::vector<std::vector<HitscanTally>> tallies;
-    for (const HitscanCell& c : cells) tallies.push_back(shoot(all_rules, c, 1, 10000));
+    for (const HitscanCell& c : cells) tallies.push_back(shoot(all_rules, c, 1, 20000));
     return hitscan_rows(cells, all_rules, tallies);
   }();
   return rows;
