@@ -33,7 +33,7 @@ macro(thinwall_lookup name)
     thinwall_describe(fmt TARGET fmt::fmt DEBIAN libfmt-dev MINIMUM 9
       SOURCE GIT_REPOSITORY https://github.com/fmtlib/fmt.git GIT_TAG 9.1.0)
   elseif(${name} STREQUAL md4c)
-    thinwall_describe(md4c TARGET md4c::md4c-html DEBIAN libmd4c-html0-dev
+    thinwall_describe(md4c TARGET md4c::md4c-html DEBIAN "libmd4c-dev libmd4c-html0-dev"
       SOURCE GIT_REPOSITORY https://github.com/mity/md4c.git GIT_TAG release-0.4.8)
   elseif(${name} STREQUAL TBB)
     thinwall_describe(TBB TARGET TBB::tbb DEBIAN libtbb-dev MINIMUM 2021
