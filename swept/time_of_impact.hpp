@@ -1,9 +1,10 @@
 #pragma once
-/// The front door of every time of impact: checks the input, puts the later shape first (and flips the answer back),
-/// keeps coordinates near the largest number from overflowing, and computes a float query in double.
+/// The front door of every time of impact: puts the later shape first (and flips the answer back), checks the input, keeps
+/// coordinates near the largest number from overflowing, computes a float query in double; and of the closed form, the ladder.
 
 #include <type_traits>
 
+#include <thinwall/swept/clear/clear_impact.hpp>
 #include <thinwall/swept/methods/closed_form.hpp>
 
 namespace thinwall {
@@ -18,6 +19,41 @@ THINWALL_COLD Toi<typename A::Scalar> impact_scaled_down(Method method, const Mo
   return toi;
 }
 
+/// What `method` says of any input: checked, kept from overflowing, and in double for float. The shape of later rank comes first.
+template <class Method, Shape A, Shape B>
+THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  using S = typename A::Scalar;
+  const bool has_valid_option = method.min_separation >= 0 && is_finite(method.min_separation);
+  const Magnitudes sizes = magnitudes_of(S(magnitude(a) + magnitude(b) + S(method.min_separation)), a, b);
+  if (sizes == Magnitudes::invalid || !has_valid_option) return {ToiStatus::invalid, 0, nan_vector<S>()[0]};
+  if constexpr (std::is_same_v<S, float>) {
+    const Toi<double> toi = impact(method, cast<double>(a), cast<double>(b));
+    return {toi.status, toi.evaluations, static_cast<float>(toi.time), toi.normal.template cast<float>(),
+            toi.point.template cast<float>()};
+  } else {
+    return sizes == Magnitudes::ordinary ? impact(method, a, b) : impact_scaled_down(method, a, b);
+  }
+}
+
+/// The careful rung, out of the way of the clear one.
+template <Shape A, Shape B>
+[[gnu::noinline]] Toi<double> careful_impact(const ClosedForm<double>& method, const Moving<A>& a, const Moving<B>& b) {
+  return checked_impact(method, a, b);
+}
+
+/// The closed form's ladder. The clear rung answers in plain arithmetic what no rounding can decide (swept/clear/, discrete/clear/):
+/// nearly everything. The rest is asked of the careful rung (swept/closed_form/), which asks itself once more in a wider scalar
+/// where even it is in doubt. docs/closed_forms.md draws it.
+template <class Method, Shape A, Shape B>
+THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  if constexpr (std::is_same_v<Method, ClosedForm<double>> && HasClearImpact<A, B>) {
+    const ClearToi answer = clear_impact(a, b, method.min_separation);
+    return answer.clear ? answer.toi() : careful_impact(method, a, b);
+  } else {
+    return checked_impact(method, a, b);
+  }
+}
+
 /// When A and B first touch during the step, by `method`.
 /// Returns `invalid` with time NaN for a NaN, an infinity, a negative size, axes that are not orthonormal (valid()) or a
 /// negative min_separation.
@@ -26,22 +62,12 @@ THINWALL_COLD Toi<typename A::Scalar> impact_scaled_down(Method method, const Mo
 /// Passing A and B the other way round flips the normal and changes nothing else.
 template <class Method, Shape A, Shape B>
 THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
-  using S = typename A::Scalar;
-  static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(serves<Method, A, B>, "this method does not serve this pair of shapes");
   if constexpr (A::rank < B::rank) {
-    return flipped(time_of_impact(method, b, a));
+    return flipped(impact_by_ladder(method, b, a));
   } else {
-    const bool has_valid_option = method.min_separation >= 0 && is_finite(method.min_separation);
-    const Magnitudes sizes = magnitudes_of(S(magnitude(a) + magnitude(b) + S(method.min_separation)), a, b);
-    if (sizes == Magnitudes::invalid || !has_valid_option) return {ToiStatus::invalid, 0, nan_vector<S>()[0]};
-    if constexpr (std::is_same_v<S, float>) {
-      const Toi<double> toi = impact(method, cast<double>(a), cast<double>(b));
-      return {toi.status, toi.evaluations, static_cast<float>(toi.time), toi.normal.template cast<float>(),
-              toi.point.template cast<float>()};
-    } else {
-      return sizes == Magnitudes::ordinary ? impact(method, a, b) : impact_scaled_down(method, a, b);
-    }
+    return impact_by_ladder(method, a, b);
   }
 }
 

@@ -1,0 +1,122 @@
+#pragma once
+/// The clear cases of ball_entry.hpp and rounded_box_entry.hpp, which are nearly all: the same arithmetic, without jumps.
+///
+/// An entry is clear if no rounding decides it, no product over- or underflows and the start is outside. Every comparison is written
+/// so that what is not a number is not clear; docs/closed_forms.md has each filter and why it suffices. Where nothing is contracted
+/// into fused operations, a clear entry has the careful form's bits.
+
+#include <thinwall/discrete/clear/lanes.hpp>
+
+namespace thinwall {
+
+/// When a moving point enters a body.
+struct ClearEntry {
+  bool clear;
+  packed::Pair time;     ///< [1] >= 0, twice; `never` for a miss
+  packed::Lanes normal;  ///< unit, out of the body; of no meaning for a miss
+};
+inline constexpr double never = 0x1p1000;
+
+/// Squares of lengths and displacements between which no product of four of them is out of range.
+inline constexpr double least_square = 0x1p-120, most_square = 0x1p120;
+/// Sums of lengths that slabs may have: they are compared and divided alone.
+inline constexpr double most_length = 0x1p60;
+/// A sum of squares is a dozen roundings off; where two differ by this factor, which is larger is clear, and a time's condition, which
+/// grows near a graze, is below 2^10.
+inline constexpr double beside_graze = 1 - 0x1p-10;
+/// Sums and quotients of a few terms are clear where they differ by this factor.
+inline constexpr double more_than_rounding = 1 + 0x1p-44;
+
+/// The line p + v t and the ball of radius R around the origin, by the moment p x v. Each number twice.
+struct ClearChord {
+  packed::Pair speed, toward, square, off, RR, reach, half;
+  packed::Lanes moment;
+
+  THINWALL_HOT ClearChord(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R)
+      : RR(R * R), moment(cross(p, v)) {
+    const packed::Pair of_v = two_sums(v * v, p * v), of_p = two_sums(p * p, moment * moment);
+    speed = firsts(of_v), toward = seconds(of_v), square = firsts(of_p), off = seconds(of_p);
+    reach = speed * RR;
+    half = root(max(reach - off, packed::both(0)));
+  }
+  THINWALL_HOT packed::PairMask pierces() const { return off < reach * packed::both(beside_graze); }
+  THINWALL_HOT packed::PairMask passes() const { return reach < off * packed::both(beside_graze); }
+  THINWALL_HOT packed::PairMask approaches() const { return toward < packed::both(0); }
+  THINWALL_HOT packed::Pair time() const { return (square - RR) / (half - toward); }
+  THINWALL_HOT packed::Lanes normal(const packed::Lanes& v) const { return unit(cross(v, moment) - v * all(half)); }
+};
+
+/// The point p + v t and the ball of radius R around the origin.
+THINWALL_HOT ClearEntry clear_ball_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R) {
+  using packed::both;
+  const ClearChord chord(p, v, R);
+  const packed::PairMask in_range = (both(least_square) <= min(chord.RR, chord.speed)) &
+                                    (max(chord.square, chord.speed) <= both(most_square));
+  const packed::PairMask outside = chord.RR * both(more_than_rounding) < chord.square;
+  const packed::PairMask pierces = chord.pierces();
+  return {all_of(in_range & outside & (pierces | chord.passes())),
+          select(pierces & chord.approaches(), chord.time(), both(never)), chord.normal(v)};
+}
+
+/// The unit vector along the lowest axis of those whose bits are set, against the motion v.
+THINWALL_HOT packed::Lanes clear_face_normal(unsigned axes, const packed::Lanes& v) {
+  return keep(packed::lowest(axes), against(packed::all(1), v));
+}
+
+/// When p + v t is in the box [-h, h] widened by R, as if it moved downwards on every axis; not later than `until`.
+struct ClearSlabs {
+  packed::Lanes P, W, low, high, enter;
+  packed::Pair first, last;
+  bool clear;  ///< which of the two is first, and that the start is outside
+
+  THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h, const packed::Lanes& R,
+                          double until)
+      : P(against(p, v)), W(abs(v)), low(P - h), high(P + h), enter(max((low - R) / W, packed::all(0))) {
+    using packed::all, packed::both;
+    first = largest_of(enter), last = smallest_of(min((high + R) / W, all(until)));
+    const packed::LanesMask in_range = (abs(p) + W + h <= all(most_length)) & (all(0) <= h) & (all(0) <= R);
+    const packed::LanesMask outside = R * all(more_than_rounding) < abs(p) - h;
+    const packed::PairMask apart = abs(last) * both(more_than_rounding - 1) < abs(first - last);
+    clear = both(both(all_of(in_range), any_of(outside)), all_of(apart));
+  }
+};
+
+/// The point p + v t and the box [-h, h] rounded by R > 0; entries after `until` are misses. Where the widened slabs are first
+/// shared the point is beside a face, which it meets then, or beside an edge or a corner, whose ball it meets, or passes, or leaves
+/// for the next part. The squared distance is convex: what passes a part while beside it is nowhere nearer.
+THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
+                                        const packed::Pair& R, double until) {
+  using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
+  const ClearSlabs slabs(p, v, h, all(R), until);
+  const PairMask misses = slabs.last < slabs.first;
+  const Lanes X = slabs.P - all(slabs.first) * slabs.W;
+  const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
+  ClearEntry entry{both(slabs.clear, both(all_of(both(1 / most_length) <= R), (axes | bits(misses)) != 0)),
+                   select(misses, both(never), slabs.first), clear_face_normal(axes, v)};
+  if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
+  const Lanes enter = slabs.low / slabs.W, leave = slabs.high / slabs.W;
+  Pair now = slabs.first;
+  for (int part = 0; part < 4; ++part) {
+    const LanesMask before = all(now) < enter, beyond = leave <= all(now), outside = before | beyond;
+    const Pair next = smallest_of(select(before, enter, select(beyond, all(never), leave)));
+    const Lanes q = keep(outside, select(before, slabs.low, slabs.high)), w = keep(outside, all(0) - slabs.W);
+    const ClearChord chord(q, w, R);
+    const Pair root = chord.time();
+    const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
+    const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
+    const PairMask turns = both(0) < next * chord.speed + chord.toward * both(more_than_rounding);
+    const PairMask passes = stays_out & ((chord.passes() & turns) | (slabs.last < next));
+    const PairMask decided = (meets | passes) & (both(least_square) <= chord.speed);
+    if (all_of(decided)) {
+      entry.time = select(meets, max(root, now), both(never));
+      entry.normal = against(chord.normal(w), v);
+      return entry;
+    }
+    if (!all_of(stays_out)) break;
+    now = next;
+  }
+  entry.clear = false;
+  return entry;
+}
+
+}  // namespace thinwall
