@@ -135,4 +135,57 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   return hit;
 }
 
+// ---- The clear rung (clear/clear_entry.hpp).
+
+/// The way out of the box [-h, h] from the point x inside: the lowest axis of least depth, and that depth.
+struct ClearWayOut {
+  packed::Pair depth;
+  packed::Lanes normal;
+
+  THINWALL_HOT ClearWayOut(const packed::Lanes& x, const packed::Lanes& h) {
+    const packed::Lanes depths = h - abs(x);
+    depth = smallest_of(depths);
+    normal = keep(packed::lowest(bits(depths <= all(depth))), against(packed::all(-1), x + packed::all(0)));
+  }
+};
+
+THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Aabb<double>& b) {
+  using packed::Lanes, packed::all;
+  const Lanes x = packed::lanes(b.center) - packed::lanes(a.center), half_a = packed::lanes(a.half_extents);
+  const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
+  const ClearWayOut out(x, h);
+  const packed::LanesMask in_range = (abs(x) + h <= all(most_length)) & (zero <= min(half_a, half_b));
+  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal,
+          out.depth};  // decided without a rounding of its own
+}
+
+THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<double>& sphere) {
+  using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
+  const Lanes x = packed::lanes(sphere.center) - packed::lanes(box.center), h = packed::lanes(box.half_extents);
+  const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
+  const Pair r = both(sphere.radius), rr = r * r, square = dot(excess, excess), distance = root(square);
+  const PairMask inside = square <= both(0);
+  const PairMask in_range = (inside | (both(least_square) <= square)) & (both(least_square) <= rr) &
+                            (max(rr, square) <= both(most_square)) & (both(0) <= r) & clearly_apart(square, rr);
+  const ClearWayOut out(x, h);
+  const Lanes outward = select(all(square) <= zero, out.normal, excess / all(distance));
+  return {both(all_of(in_range), all_of((abs(x) + h <= all(most_length)) & (zero <= h))),
+          all_of(square < rr),
+          zero,
+          (zero - outward) * all(r),
+          outward,
+          max(r + select(inside, out.depth, both(0) - distance), both(0))};
+}
+
+THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double>& box) {
+  using packed::Lanes, packed::LanesMask, packed::all, packed::both;
+  const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents), v = packed::lanes(ray.direction);
+  const Lanes p = packed::lanes(ray.origin) - center;
+  const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
+  const LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
+  const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
+  return {both(slabs.clear, ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
+          center + select(axis, against(h, v), clamped), keep(axis, against(all(1), v))};
+}
+
 }  // namespace thinwall

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include <thinwall/discrete/clear/clear_answers.hpp>
 #include <thinwall/discrete/results.hpp>
 #include <thinwall/discrete/shape.hpp>
 
@@ -107,11 +108,10 @@ template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact_u
                     penetration};
 }
 
-/// One point of contact data, only when touching or overlapping: exactly where overlaps() is true.
-template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact(const A& a, const B& b) {
+/// The careful rung of contact(): any input, at any scale.
+template <Shape A, Shape B>
+[[gnu::noinline]] std::optional<Contact<typename A::Scalar>> careful_contact(const A& a, const B& b) {
   using S = typename A::Scalar;
-  static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
-  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
     case Magnitudes::ordinary: return contact_unchecked(a, b);
     case Magnitudes::huge: {
@@ -123,12 +123,23 @@ template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact(c
   return std::nullopt;
 }
 
-/// Where the ray first meets the shape; nothing if it does not within max_t, at no t or point that S holds, or if the ray or the
-/// shape is not valid.
-/// Error: forward error of t a few u * kappa * t (docs/closed_forms.md).
-/// Degenerate: a start inside or touching hits at 0 with a zero normal; a ray of no direction hits only there.
-template <Scalar S, Shape A> std::optional<RayHit<S>> raycast(const Ray<S>& ray, const A& shape) {
-  static_assert(std::same_as<S, typename A::Scalar>, "the ray and the shape must have the same scalar");
+/// One point of contact data, only when touching or overlapping: exactly where overlaps() is true.
+template <Shape A, Shape B> THINWALL_HOT std::optional<Contact<typename A::Scalar>> contact(const A& a, const B& b) {
+  static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
+  if constexpr (HasClearContact<A, B>) {
+    const ClearContact answer = clear_contact(a, b);
+    if (answer.clear) return answer.contact();
+  } else if constexpr (HasClearContact<B, A>) {
+    const ClearContact answer = clear_contact(b, a);
+    if (answer.clear) return flipped(answer).contact();
+  }
+  return careful_contact(a, b);
+}
+
+/// The careful rung of raycast(): any input, at any scale.
+template <Scalar S, Shape A>
+[[gnu::noinline]] std::optional<RayHit<S>> careful_raycast(const Ray<S>& ray, const A& shape) {
   // An infinite t or point: t overflows, or a triangle seems to be hit because lengths 2^500 apart underflow beside each other.
   const auto finite = [](const std::optional<RayHit<S>>& hit) {
     return hit && is_finite(hit->t) && is_finite(hit->point) ? hit : std::nullopt;
@@ -145,6 +156,19 @@ template <Scalar S, Shape A> std::optional<RayHit<S>> raycast(const Ray<S>& ray,
     case Magnitudes::invalid: break;
   }
   return std::nullopt;
+}
+
+/// Where the ray first meets the shape; nothing if it does not within max_t, at no t or point that S holds, or if the ray or the
+/// shape is not valid.
+/// Error: forward error of t a few u * kappa * t (docs/closed_forms.md).
+/// Degenerate: a start inside or touching hits at 0 with a zero normal; a ray of no direction hits only there.
+template <Scalar S, Shape A> THINWALL_HOT std::optional<RayHit<S>> raycast(const Ray<S>& ray, const A& shape) {
+  static_assert(std::same_as<S, typename A::Scalar>, "the ray and the shape must have the same scalar");
+  if constexpr (HasClearRaycast<A>) {
+    const ClearRayHit answer = clear_raycast(ray, shape);
+    if (answer.clear) return answer.ray_hit();
+  }
+  return careful_raycast(ray, shape);
 }
 
 }  // namespace thinwall

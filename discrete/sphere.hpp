@@ -57,4 +57,34 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   return RayHit<S>{entry.time, sphere.center + entry.normal * sphere.radius, entry.normal};
 }
 
+// ---- The clear rung (clear/clear_entry.hpp).
+
+THINWALL_HOT ClearContact clear_contact(const Sphere<double>& a, const Sphere<double>& b) {
+  using packed::Pair, packed::PairMask, packed::both, packed::all;
+  const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center);
+  const Pair R = both(a.radius + b.radius), RR = R * R, square = dot(between, between), distance = root(square);
+  const packed::Lanes normal = between / all(distance);
+  const PairMask in_range = (both(least_square) <= min(RR, square)) & (max(RR, square) <= both(most_square)) &
+                            (both(0) <= min(both(a.radius), both(b.radius)));
+  return {all_of(in_range & clearly_apart(square, RR)),
+          all_of(square < RR),
+          normal * all(a.radius),
+          (all(0) - normal) * all(b.radius),
+          normal,
+          max(R - distance, both(0))};
+}
+
+THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Sphere<double>& sphere) {
+  using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
+  const Lanes center = packed::lanes(sphere.center), v = packed::lanes(ray.direction);
+  const Lanes p = packed::lanes(ray.origin) - center;
+  const ClearEntry entry = clear_ball_entry(p, v, both(sphere.radius));
+  const Pair R = both(sphere.radius), end = both(ray.max_t), beyond = entry.time - end;
+  const PairMask apart =
+      dot(p, p) * both(0x1p-40) < beyond * beyond * dot(v, v);  // by more than a millionth of the way
+  return {both(entry.clear, all_of(apart & (both(0) <= min(end, R)))),
+          all_of(entry.time < min(end, both(ClearEntry::never))), entry.time, center + entry.normal * all(R),
+          entry.normal};
+}
+
 }  // namespace thinwall

@@ -11,14 +11,18 @@ namespace thinwall {
 
 /// When a moving point enters a body.
 struct ClearEntry {
+  static constexpr double never = 0x1p1000;
+
   bool clear;
   packed::Pair time;     ///< [1] >= 0, twice; `never` for a miss
   packed::Lanes normal;  ///< unit, out of the body; of no meaning for a miss
+  int rounds = 1;        ///< how many closed forms were solved, as the careful form counts
 };
-inline constexpr double never = 0x1p1000;
 
 /// Squares of lengths and displacements between which no product of four of them is out of range.
 inline constexpr double least_square = 0x1p-120, most_square = 0x1p120;
+/// A path this part of the distance, squared, moves a time by less than 2^-14 for all roundings together.
+inline constexpr double short_path = 0x1p-50;
 /// Sums of lengths that slabs may have: they are compared and divided alone.
 inline constexpr double most_length = 0x1p60;
 /// A sum of squares is a dozen roundings off; where two differ by this factor, which is larger is clear, and a time's condition, which
@@ -26,6 +30,9 @@ inline constexpr double most_length = 0x1p60;
 inline constexpr double beside_graze = 1 - 0x1p-10;
 /// Sums and quotients of a few terms are clear where they differ by this factor.
 inline constexpr double more_than_rounding = 1 + 0x1p-44;
+THINWALL_HOT packed::PairMask clearly_apart(const packed::Pair& a, const packed::Pair& b) {
+  return (a * packed::both(more_than_rounding) < b) | (b * packed::both(more_than_rounding) < a);
+}
 
 /// The line p + v t and the ball of radius R around the origin, by the moment p x v. Each number twice.
 struct ClearChord {
@@ -39,6 +46,11 @@ struct ClearChord {
     reach = speed * RR;
     half = root(max(reach - off, packed::both(0)));
   }
+  THINWALL_HOT packed::PairMask in_range() const {
+    using packed::both;
+    return (both(least_square) <= min(RR, speed)) & (max(square, speed) <= both(most_square)) &
+           (square * both(short_path) < speed);
+  }
   THINWALL_HOT packed::PairMask pierces() const { return off < reach * packed::both(beside_graze); }
   THINWALL_HOT packed::PairMask passes() const { return reach < off * packed::both(beside_graze); }
   THINWALL_HOT packed::PairMask approaches() const { return toward < packed::both(0); }
@@ -50,12 +62,10 @@ struct ClearChord {
 THINWALL_HOT ClearEntry clear_ball_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R) {
   using packed::both;
   const ClearChord chord(p, v, R);
-  const packed::PairMask in_range = (both(least_square) <= min(chord.RR, chord.speed)) &
-                                    (max(chord.square, chord.speed) <= both(most_square));
   const packed::PairMask outside = chord.RR * both(more_than_rounding) < chord.square;
   const packed::PairMask pierces = chord.pierces();
-  return {all_of(in_range & outside & (pierces | chord.passes())),
-          select(pierces & chord.approaches(), chord.time(), both(never)), chord.normal(v)};
+  return {all_of(chord.in_range() & outside & (pierces | chord.passes())),
+          select(pierces & chord.approaches(), chord.time(), both(ClearEntry::never)), chord.normal(v)};
 }
 
 /// The unit vector along the lowest axis of those whose bits are set, against the motion v.
@@ -69,8 +79,8 @@ struct ClearSlabs {
   packed::Pair first, last;
   bool clear;  ///< which of the two is first, and that the start is outside
 
-  THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h, const packed::Lanes& R,
-                          double until)
+  THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
+                          const packed::Lanes& R, double until)
       : P(against(p, v)), W(abs(v)), low(P - h), high(P + h), enter(max((low - R) / W, packed::all(0))) {
     using packed::all, packed::both;
     first = largest_of(enter), last = smallest_of(min((high + R) / W, all(until)));
@@ -81,34 +91,35 @@ struct ClearSlabs {
   }
 };
 
-/// The point p + v t and the box [-h, h] rounded by R > 0; entries after `until` are misses. Where the widened slabs are first
-/// shared the point is beside a face, which it meets then, or beside an edge or a corner, whose ball it meets, or passes, or leaves
-/// for the next part. The squared distance is convex: what passes a part while beside it is nowhere nearer.
+/// The point p + v t and the box [-h, h] rounded by R > 0. Where the widened slabs are first shared the point is beside a face, which
+/// it meets then, or beside an edge or a corner, whose ball it meets, or passes, or leaves for the next part. The squared distance is
+/// convex: what passes a part while beside it is nowhere nearer.
 THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
-                                        const packed::Pair& R, double until) {
+                                        const packed::Pair& R) {
   using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
-  const ClearSlabs slabs(p, v, h, all(R), until);
+  const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
   const PairMask misses = slabs.last < slabs.first;
   const Lanes X = slabs.P - all(slabs.first) * slabs.W;
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
   ClearEntry entry{both(slabs.clear, both(all_of(both(1 / most_length) <= R), (axes | bits(misses)) != 0)),
-                   select(misses, both(never), slabs.first), clear_face_normal(axes, v)};
+                   select(misses, both(ClearEntry::never), slabs.first), clear_face_normal(axes, v)};
   if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
   const Lanes enter = slabs.low / slabs.W, leave = slabs.high / slabs.W;
   Pair now = slabs.first;
   for (int part = 0; part < 4; ++part) {
     const LanesMask before = all(now) < enter, beyond = leave <= all(now), outside = before | beyond;
-    const Pair next = smallest_of(select(before, enter, select(beyond, all(never), leave)));
+    const Pair next = smallest_of(select(before, enter, select(beyond, all(ClearEntry::never), leave)));
     const Lanes q = keep(outside, select(before, slabs.low, slabs.high)), w = keep(outside, all(0) - slabs.W);
     const ClearChord chord(q, w, R);
+    ++entry.rounds;
     const Pair root = chord.time();
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
     const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
     const PairMask turns = both(0) < next * chord.speed + chord.toward * both(more_than_rounding);
     const PairMask passes = stays_out & ((chord.passes() & turns) | (slabs.last < next));
-    const PairMask decided = (meets | passes) & (both(least_square) <= chord.speed);
+    const PairMask decided = (meets | passes) & chord.in_range();
     if (all_of(decided)) {
-      entry.time = select(meets, max(root, now), both(never));
+      entry.time = select(meets, max(root, now), both(ClearEntry::never));
       entry.normal = against(chord.normal(w), v);
       return entry;
     }

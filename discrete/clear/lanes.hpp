@@ -57,10 +57,9 @@ template <class To, class F, class... Given> THINWALL_HOT LanesOf<To> each(const
 #endif
 }
 
-#define THINWALL_LANE_BY_LANE(name, To, From, expression)                                     \
-  template <template <class> class Pack>                                                      \
-  THINWALL_HOT Pack<To> name(const Pack<From>& a, const Pack<From>& b) {                      \
-    return each<To>([](const auto& x, const auto& y) { return expression; }, a, b);           \
+#define THINWALL_LANE_BY_LANE(name, To, From, expression)                                                       \
+  template <template <class> class Pack> THINWALL_HOT Pack<To> name(const Pack<From>& a, const Pack<From>& b) { \
+    return each<To>([](const auto& x, const auto& y) { return expression; }, a, b);                             \
   }
 // clang-format off
 THINWALL_LANE_BY_LANE(operator+, double, double, x + y)
@@ -101,8 +100,7 @@ THINWALL_HOT Pack<double> select(const Pack<Bits>& which, const Pack<double>& ye
   return each<double>([](const auto& m, const auto& x, const auto& y) { return m ? x : y; }, which, yes, no);
 }
 /// a where `which`, else 0.
-template <template <class> class Pack>
-THINWALL_HOT Pack<double> keep(const Pack<Bits>& which, const Pack<double>& a) {
+template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack<Bits>& which, const Pack<double>& a) {
   return each<double>([](const auto& m, const auto& x) { return numbers_of(m & bits_of(x)); }, which, a);
 }
 
@@ -115,8 +113,12 @@ THINWALL_HOT double value(const Pair& a) { return a.v[0]; }
 
 #ifdef __AVX__
 THINWALL_HOT Lanes all(double x) { return {typename Register<double, 4>::Type{x, x, x, x}}; }
-THINWALL_HOT Lanes lanes(const double* x) { return std::bit_cast<Lanes>(_mm256_set_m128d(_mm_loaddup_pd(x + 2), _mm_loadu_pd(x))); }
-THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) { return {typename Register<Bits, 4>::Type{x, y, z, z}}; }
+THINWALL_HOT Lanes lanes(const double* x) {
+  return std::bit_cast<Lanes>(_mm256_set_m128d(_mm_loaddup_pd(x + 2), _mm_loadu_pd(x)));
+}
+THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
+  return {typename Register<Bits, 4>::Type{x, y, z, z}};
+}
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 0, 1)}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 2, 2)}; }
 THINWALL_HOT Lanes yzx(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 0)}; }
@@ -127,7 +129,9 @@ THINWALL_HOT Lanes lanes(const double* x) {
   std::memcpy(&a.xy, x, sizeof a.xy);
   return a;
 }
-THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) { return {typename Register<Bits, 2>::Type{x, y}, typename Register<Bits, 2>::Type{z, z}}; }
+THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
+  return {typename Register<Bits, 2>::Type{x, y}, typename Register<Bits, 2>::Type{z, z}};
+}
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {a.xy}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) { return {a.zz}; }
 THINWALL_HOT Lanes yzx(const Lanes& a) {

@@ -13,22 +13,18 @@ struct ClearToi {
   bool clear;
   packed::Pair time;  ///< [1] after the step's end for a miss
   packed::Lanes normal, point;
+  int evaluations = 1;
 
   THINWALL_HOT Toi<double> toi() const {
     using packed::all, packed::both;
     const packed::LanesMask hit = all(time) <= all(1);
-    static_assert(int(ToiStatus::apart) == 0 && int(ToiStatus::hit) == 1);
-    Toi<double> toi{ToiStatus(bits(hit) & 1U), 1, value(min(time, both(1)))};
+    static_assert(static_cast<ToiStatus>(0U) == ToiStatus::apart && static_cast<ToiStatus>(1U) == ToiStatus::hit);
+    Toi<double> toi{static_cast<ToiStatus>(bits(hit) & 1U), evaluations, value(min(time, both(1)))};
     store(keep(hit, normal), toi.normal);
     store(keep(hit, point), toi.point);
     return toi;
   }
 };
-/// Normals from B to A.
-THINWALL_HOT ClearToi flipped(const ClearToi& toi) {
-  return {toi.clear, toi.time, packed::all(0) - toi.normal, toi.point};
-}
-
 /// Whether a contact comes within the step is the careful rung's to say where it comes this near the end.
 inline constexpr double near_end = 0x1p-10;
 THINWALL_HOT bool clear_of_end(const packed::Pair& time) {
@@ -43,10 +39,10 @@ THINWALL_HOT bool clear_sizes(double r, double s, double gap) {
 THINWALL_HOT ClearToi clear_impact(const Moving<Sphere<double>>& a, const Moving<Sphere<double>>& b, double gap) {
   const double r = a.shape.radius, s = b.shape.radius;
   const packed::Lanes center = packed::lanes(a.shape.center), path = packed::lanes(a.displacement);
-  const ClearEntry entry = clear_ball_entry(packed::lanes(b.shape.center) - center, packed::lanes(b.displacement) - path,
-                                            packed::both(r + s + gap));
-  return {packed::both(entry.clear, packed::both(clear_sizes(r, s, gap), clear_of_end(entry.time))), entry.time, entry.normal,
-          (center + path * all(entry.time)) + entry.normal * packed::all(r + gap / 2)};
+  const ClearEntry entry = clear_ball_entry(packed::lanes(b.shape.center) - center,
+                                            packed::lanes(b.displacement) - path, packed::both(r + s + gap));
+  return {packed::both(entry.clear, packed::both(clear_sizes(r, s, gap), clear_of_end(entry.time))), entry.time,
+          entry.normal, (center + path * all(entry.time)) + entry.normal * packed::all(r + gap / 2)};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
@@ -54,9 +50,9 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& box, const Moving
   const packed::Lanes center = packed::lanes(sphere.shape.center), path = packed::lanes(sphere.displacement);
   const ClearEntry entry =
       clear_box_entry(center - packed::lanes(box.shape.center), path - packed::lanes(box.displacement),
-                      packed::lanes(box.shape.half_extents), packed::both(r + gap), 1 + 2 * near_end);
-  return {packed::both(entry.clear, packed::both(clear_sizes(r, r, gap), clear_of_end(entry.time))), entry.time, entry.normal,
-          (center + path * all(entry.time)) - entry.normal * packed::all(r + gap / 2)};
+                      packed::lanes(box.shape.half_extents), packed::both(r + gap));
+  return {packed::both(entry.clear, packed::both(clear_sizes(r, r, gap), clear_of_end(entry.time))), entry.time,
+          entry.normal, (center + path * all(entry.time)) - entry.normal * packed::all(r + gap / 2), entry.rounds};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<Aabb<double>>& b, double gap) {
@@ -68,7 +64,7 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const Lanes time = all(slabs.first), at_a = center_a + path_a * time, at_b = center_b + path_b * time;
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
   return {both(both(slabs.clear, gap == 0), all_of(zero <= min(half_a, half_b))),
-          select(slabs.last < slabs.first, both(never), slabs.first),
+          select(slabs.last < slabs.first, both(ClearEntry::never), slabs.first),
           clear_face_normal(bits(time <= slabs.enter), v), point};
 }
 

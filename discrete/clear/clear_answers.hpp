@@ -1,0 +1,52 @@
+#pragma once
+/// What the clear rung answers to a query at one instant, and which shapes have one.
+
+#include <optional>
+
+#include <thinwall/discrete/clear/clear_entry.hpp>
+#include <thinwall/discrete/results.hpp>
+
+namespace thinwall {
+
+/// Contact data, if whether they touch is clear; of no meaning unless they do.
+struct ClearContact {
+  bool clear, touching;
+  packed::Lanes local_a, local_b, normal;
+  packed::Pair penetration;
+
+  THINWALL_HOT std::optional<Contact<double>> contact() const {
+    std::optional<Contact<double>> made(std::in_place);  // written whatever the verdict: nothing waits for it
+    store(local_a, made->local_a);
+    store(local_b, made->local_b);
+    store(normal, made->normal);
+    made->penetration = value(penetration);
+    if (!touching) made.reset();
+    return made;
+  }
+};
+THINWALL_HOT ClearContact flipped(const ClearContact& c) {
+  return {c.clear, c.touching, c.local_b, c.local_a, packed::all(0) - c.normal, c.penetration};
+}
+
+/// Where a ray meets a shape, if that is clear.
+struct ClearRayHit {
+  bool clear, hit;
+  packed::Pair t;
+  packed::Lanes point, normal;
+
+  THINWALL_HOT std::optional<RayHit<double>> ray_hit() const {
+    std::optional<RayHit<double>> made(std::in_place);
+    made->t = value(t);
+    store(point, made->point);
+    store(normal, made->normal);
+    if (!hit) made.reset();
+    return made;
+  }
+};
+
+template <class A, class B>
+concept HasClearContact = requires(const A& a, const B& b) { clear_contact(a, b); };
+template <class A>
+concept HasClearRaycast = requires(const Ray<double>& ray, const A& shape) { clear_raycast(ray, shape); };
+
+}  // namespace thinwall

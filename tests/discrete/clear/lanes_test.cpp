@@ -1,0 +1,83 @@
+// Lanes and pairs do what plain numbers do, to the bit.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/discrete/clear/lanes.hpp>
+
+namespace thinwall::packed {
+namespace {
+
+const Vec3<double> a(3, -0x1.8p-40, 7), b(-2, 5, 0x1p60);
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Vec3<double> stored(const Lanes& x) {
+  Vec3<double> to;
+  store(x, to);
+  return to;
+}
+
+TEST(ClearLanes, arithmetic_goes_lane_by_lane) {
+  EXPECT_EQ(stored(lanes(a)), a);
+  EXPECT_EQ(stored(lanes(a) + lanes(b)), a + b);
+  EXPECT_EQ(stored(lanes(a) - lanes(b)), a - b);
+  EXPECT_EQ(stored(lanes(a) * lanes(b)), a.cwiseProduct(b));
+  EXPECT_EQ(stored(lanes(a) / lanes(b)), a.cwiseQuotient(b));
+  EXPECT_EQ(stored(min(lanes(a), lanes(b))), a.cwiseMin(b));
+  EXPECT_EQ(stored(max(lanes(a), lanes(b))), a.cwiseMax(b));
+  EXPECT_EQ(stored(abs(lanes(a))), a.cwiseAbs());
+  EXPECT_EQ(stored(yzx(lanes(a))), Vec3<double>(a[1], a[2], a[0]));
+  EXPECT_EQ(stored(packed::cross(lanes(a), lanes(b))), thinwall::cross<double>(a, b));
+  EXPECT_EQ(value(root(both(2))), std::sqrt(2.0));
+}
+
+TEST(ClearLanes, sums_have_one_order) {  // (1 + 2^-53) + 2^-53 is 1, 1 + (2^-53 + 2^-53) is not
+  const double tiny = 0x1p-53;
+  EXPECT_EQ(value(sum(lanes(Vec3<double>(1, tiny, tiny)))), 1.0);
+  EXPECT_EQ(value(sum(lanes(Vec3<double>(tiny, tiny, 1)))), 1 + 2 * tiny);
+  const Pair sums = two_sums(lanes(a), lanes(b));
+  EXPECT_EQ(value(firsts(sums)), (a[0] + a[1]) + a[2]);
+  EXPECT_EQ(value(seconds(sums)), (b[0] + b[1]) + b[2]);
+}
+
+TEST(ClearLanes, least_and_largest_are_of_all_three) {
+  for (int i = 0; i < 3; ++i) {
+    Vec3<double> v(1, 1, 1);
+    v[i] = 2;
+    EXPECT_EQ(value(largest_of(lanes(v))), 2) << i;
+    v[i] = -2;
+    EXPECT_EQ(value(smallest_of(lanes(v))), -2) << i;
+  }
+}
+
+TEST(ClearLanes, a_comparison_with_what_is_not_a_number_is_false) {
+  const Lanes x = lanes(Vec3<double>(1, nan, 3)), y = lanes(Vec3<double>(2, 2, 2));
+  EXPECT_EQ(bits(x < y), 1U);
+  EXPECT_EQ(bits(y < x), 4U);
+  EXPECT_EQ(bits(x <= x), 5U);
+  EXPECT_FALSE(all_of(both(nan) <= both(nan)));
+  EXPECT_EQ(stored(max(x, y)), Vec3<double>(2, 2, 3));  // the second, where one is not a number
+}
+
+TEST(ClearLanes, masks_select) {
+  const LanesMask first = lanes(a) < lanes(b);
+  EXPECT_EQ(bits(first), 6U);
+  EXPECT_EQ(stored(select(first, lanes(a), lanes(b))), Vec3<double>(b[0], a[1], a[2]));
+  EXPECT_EQ(stored(keep(first, lanes(a))), Vec3<double>(0, a[1], a[2]));
+  EXPECT_EQ(bits(first & (lanes(a) < all(1))), 2U);
+  EXPECT_EQ(bits(first | (lanes(a) < all(4))), 7U);
+}
+
+TEST(ClearLanes, as_if_downwards) {
+  EXPECT_EQ(stored(against(lanes(a), lanes(Vec3<double>(1, -1, 0)))), Vec3<double>(-3, a[1], -7));
+  EXPECT_EQ(stored(against(lanes(a), lanes(Vec3<double>(-0.0, -1, -2)))), a);
+}
+
+TEST(ClearLanes, the_lowest_bit_has_the_lane) {
+  for (const unsigned which : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U}) EXPECT_EQ(bits(lowest(which)), which & (~which + 1U));
+}
+
+}  // namespace
+}  // namespace thinwall::packed

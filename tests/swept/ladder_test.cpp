@@ -1,0 +1,239 @@
+// The ladder of clear and careful: which rung decides, and that both say the same. The careful rung is held against oracles by every
+// other test; here the clear one is held against the careful.
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/swept/shapes.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+#include "support/shaker.hpp"
+#include "support/thorough.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+using Ball = Sphere<double>;
+using Box = Aabb<double>;
+using V = Vec3<double>;
+constexpr double u = 0x1p-53, infinity = std::numeric_limits<double>::infinity();
+const std::size_t cases = thorough(slow_build ? 2'000 : 100'000);
+
+template <class A, class B> struct Pairing {
+  using First = A;
+  using Second = B;
+};
+template <class T> class Ladder : public ::testing::Test {};
+using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>>;
+TYPED_TEST_SUITE(Ladder, ClearPairs, );
+
+/// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
+template <class A, class B> Motion<A, B> everyday_shot(Shaker<double>& draw) {
+  const auto any = [&] { return V(draw.plain(), draw.plain(), draw.plain()); };
+  const auto sized = [&]<class T>(T shape) {
+    if constexpr (std::is_same_v<T, Ball>) shape = {V::Zero(), 0.3 + 0.25 * draw.plain()};
+    if constexpr (std::is_same_v<T, Box>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25};
+    return shape;
+  };
+  Motion<A, B> motion{at_rest(sized(A{})), at_rest(sized(B{}))};
+  const V from = V(4, 0, 0) + any() * 2, drift = any();
+  motion.b.shape = moved<double>(motion.b.shape, from);
+  motion.a.displacement = drift;
+  motion.b.displacement = drift + (any() - from) * (1.3 + 0.7 * draw.plain());
+  return motion;
+}
+
+/// Holds the clear answer, if it is one, against the careful; returns if it is.
+template <class A, class B> bool agrees_if_clear(const Motion<A, B>& motion, double gap) {
+  const ClearToi rung = clear_impact(motion.a, motion.b, gap);
+  if (!rung.clear) return false;
+  const Toi<double> clear = rung.toi(), careful = careful_impact(ClosedForm<double>{gap}, motion.a, motion.b);
+  EXPECT_EQ(clear.status, careful.status) << clear.time << " " << careful.time;
+  const double size = magnitude(motion.a) + magnitude(motion.b) + gap;
+  const double closing = std::abs(clear.normal.dot(motion.b.displacement - motion.a.displacement));
+  const double off = clear.status == ToiStatus::hit ? 4 * u * size / closing : 0;
+  EXPECT_NEAR(clear.time, careful.time, off);
+  EXPECT_LE((clear.point - careful.point).cwiseAbs().maxCoeff(), 16 * u * size + off * closing);
+  return true;
+}
+
+TYPED_TEST(Ladder, clear_decides_the_shots_of_a_scene) {
+  Shaker<double> draw(11);
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < cases; ++i) {
+    clear += agrees_if_clear(everyday_shot<typename TypeParam::First, typename TypeParam::Second>(draw), 0.0) ? 1U : 0U;
+  }
+  EXPECT_GE(static_cast<double>(clear), 0.99 * static_cast<double>(cases));
+}
+
+TYPED_TEST(Ladder, clear_and_careful_agree_on_motions_drawn_to_go_wrong) {
+  Shaker<double> draw(13);
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < 2 * cases; ++i) {
+    auto motion = drawn_motion<typename TypeParam::First, typename TypeParam::Second>(draw);
+    if (draw.pick(0, 9) == 0) {
+      const int scale = draw.pick(-600, 600);
+      motion = {scaled(motion.a, scale), scaled(motion.b, scale)};
+    }
+    clear += agrees_if_clear(motion, draw.pick(0, 9) == 0 ? 0.25 * std::abs(draw.plain()) : 0.0) ? 1U : 0U;
+  }
+  EXPECT_GE(clear, cases / 2) << "too few to mean anything";
+}
+
+TYPED_TEST(Ladder, the_front_door_climbs_it) {  // from either side
+  Shaker<double> draw(17);
+  for (int i = 0; i < 2000; ++i) {
+    const auto motion = drawn_motion<typename TypeParam::First, typename TypeParam::Second>(draw);
+    const ClearToi rung = clear_impact(motion.a, motion.b, 0);
+    const Toi<double> expected = rung.clear ? rung.toi() : careful_impact({}, motion.a, motion.b);
+    const Toi<double> toi = time_of_impact(motion.a, motion.b);
+    EXPECT_EQ(toi.status, expected.status);
+    EXPECT_EQ(toi.time, expected.time);
+    EXPECT_EQ(toi.normal, expected.normal);
+    if constexpr (!std::is_same_v<typename TypeParam::First, typename TypeParam::Second>) {
+      EXPECT_EQ(time_of_impact(motion.b, motion.a).normal, V(V::Zero() - expected.normal));
+    }
+  }
+}
+
+// ---- Which rung decides what: doubt, and beside it none.
+
+bool is_clear(const Moving<Ball>& ball, const Ball& target, double gap = 0) {
+  return clear_impact(ball, at_rest(target), gap).clear;
+}
+bool is_clear(const Box& box, const Moving<Ball>& ball, double gap = 0) {
+  return clear_impact(at_rest(box), ball, gap).clear;
+}
+bool is_clear(const Box& a, const Moving<Box>& b, double gap = 0) { return clear_impact(at_rest(a), b, gap).clear; }
+
+TEST(LadderFilters, a_graze_is_careful) {
+  const auto at_height = [](double y) { return is_clear({Ball{{-4, y, 0}, 1}, {8, 0, 0}}, Ball{{0, 0, 0}, 1}); };
+  EXPECT_FALSE(at_height(2));
+  EXPECT_FALSE(at_height(2 - 0x1p-12));
+  EXPECT_FALSE(at_height(2 + 0x1p-12));
+  EXPECT_TRUE(at_height(2 - 0x1p-8));
+  EXPECT_TRUE(at_height(2 + 0x1p-8));
+}
+
+TEST(LadderFilters, the_end_of_the_step_is_careful) {  // gap 2, met at 1
+  const auto at_speed = [](double speed) { return is_clear({Ball{{-4, 0, 0}, 1}, {speed, 0, 0}}, Ball{{0, 0, 0}, 1}); };
+  EXPECT_FALSE(at_speed(2));
+  EXPECT_FALSE(at_speed(2 + 0x1p-12));
+  EXPECT_TRUE(at_speed(2 + 0x1p-6));
+  EXPECT_TRUE(at_speed(2 - 0x1p-6));
+}
+
+TEST(LadderFilters, a_start_in_touch_is_careful) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  for (const double x : {-1.5, -2.0, std::nextafter(-2.0, -3.0)}) {
+    EXPECT_FALSE(is_clear({Ball{{x, 0, 0}, 1}, {8, 0, 0}}, Ball{{0, 0, 0}, 1})) << x;
+    EXPECT_FALSE(is_clear(box, {Ball{{x, 0, 0}, 1}, {8, 0, 0}})) << x;
+  }
+  EXPECT_FALSE(is_clear(box, {Box{{-2, 0, 0}, {1, 1, 1}}, {8, 0, 0}}));
+  EXPECT_TRUE(is_clear({Ball{{-2 - 0x1p-20, 0, 0}, 1}, {8, 0, 0}}, Ball{{0, 0, 0}, 1}));
+  EXPECT_TRUE(is_clear(box, {Ball{{-2 - 0x1p-20, 0, 0}, 1}, {8, 0, 0}}));
+  EXPECT_TRUE(is_clear(box, {Box{{-2 - 0x1p-20, 0, 0}, {1, 1, 1}}, {8, 0, 0}}));
+}
+
+TEST(LadderFilters, an_edge_met_by_an_edge_is_careful) {  // the slabs of x and y open and close at one time
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_FALSE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {4, 4, 0}}));
+  EXPECT_TRUE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {4, 3, 0}}));
+}
+
+TEST(LadderFilters, what_is_no_question_or_out_of_range_is_careful) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto ball = [](double x, double radius, double speed) {
+    return Moving<Ball>{{{x, 0, 0}, radius}, {speed, 0, 0}};
+  };
+  for (const double bad : {nan, infinity, -infinity, 1e300, -1e300}) {
+    EXPECT_FALSE(is_clear(ball(bad, 1, 8), Ball{{0, 0, 0}, 1})) << bad;
+    EXPECT_FALSE(is_clear(ball(-4, 1, bad), Ball{{0, 0, 0}, 1})) << bad;
+    EXPECT_FALSE(is_clear(ball(-4, bad, 8), Ball{{0, 0, 0}, 1})) << bad;
+    EXPECT_FALSE(is_clear(box, ball(bad, 1, 8))) << bad;
+    EXPECT_FALSE(is_clear(box, ball(-4, 1, bad))) << bad;
+    EXPECT_FALSE(is_clear(box, ball(-4, bad, 8))) << bad;
+    EXPECT_FALSE(is_clear(box, {Box{{bad, 0, 0}, {1, 1, 1}}, {8, 0, 0}})) << bad;
+    EXPECT_FALSE(is_clear(box, {Box{{-4, 0, 0}, {1, bad, 1}}, {8, 0, 0}})) << bad;
+    EXPECT_FALSE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {8, 0, bad}})) << bad;
+  }
+  EXPECT_FALSE(is_clear(ball(-4, -0.5, 8), Ball{{0, 0, 0}, 1}));
+  EXPECT_FALSE(is_clear(ball(-4, 1, 8), Ball{{0, 0, 0}, 1}, -0.5));
+  EXPECT_FALSE(is_clear(ball(-4, 1, 8), Ball{{0, 0, 0}, 1}, nan));
+  EXPECT_FALSE(is_clear(box, ball(-4, 1, 8), -0.5));
+  EXPECT_FALSE(is_clear(Box{{0, 0, 0}, {1, -1, 1}}, ball(-4, 3, 8)));
+  EXPECT_FALSE(is_clear(ball(-4, 0, 8), Ball{{0, 0, 0}, 0}));
+  EXPECT_FALSE(is_clear(ball(-4, 1, 0), Ball{{0, 0, 0}, 1}));
+}
+
+// ---- The same of the queries at one instant.
+
+TEST(LadderAtOneInstant, contacts_agree) {
+  Shaker<double> draw(19);
+  const auto agrees = [](const auto& a, const auto& b) {
+    const ClearContact rung = clear_contact(a, b);
+    if (!rung.clear) return 0U;
+    const auto clear = rung.contact(), careful = careful_contact(a, b), door = contact(b, a);
+    EXPECT_EQ(clear.has_value(), careful.has_value());
+    EXPECT_EQ(clear.has_value(), door.has_value());
+    if (!clear || !careful || !door) return 1U;
+    const double off = 8 * u * (magnitude(a) + magnitude(b));
+    EXPECT_NEAR(clear->penetration, careful->penetration, off);
+    EXPECT_LE((clear->local_a - careful->local_a).cwiseAbs().maxCoeff(), off);
+    EXPECT_LE((clear->local_b - careful->local_b).cwiseAbs().maxCoeff(), off);
+    EXPECT_EQ(clear->penetration, door->penetration);
+    return 1U;
+  };
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Ball a = drawn(draw, TypeTag<Ball>{}), b = drawn(draw, TypeTag<Ball>{});
+    const Box c = drawn(draw, TypeTag<Box>{}), d = drawn(draw, TypeTag<Box>{});
+    clear += agrees(a, b) + agrees(c, a) + agrees(c, d);
+  }
+  EXPECT_GE(clear, 2 * cases);
+}
+
+TEST(LadderAtOneInstant, rays_agree) {
+  Shaker<double> draw(23);
+  const auto agrees = [](const Ray<double>& ray, const auto& shape) {
+    const ClearRayHit rung = clear_raycast(ray, shape);
+    if (!rung.clear) return 0U;
+    const auto clear = rung.ray_hit(), careful = careful_raycast(ray, shape), door = raycast(ray, shape);
+    EXPECT_EQ(clear.has_value(), careful.has_value());
+    EXPECT_EQ(clear.has_value(), door.has_value());
+    if (!clear || !careful || !door) return 1U;
+    const double size = magnitude(ray) + magnitude(shape);
+    EXPECT_NEAR(clear->t, careful->t, 4 * u * size / std::abs(clear->normal.dot(ray.direction)));
+    EXPECT_EQ(clear->t, door->t);
+    return 1U;
+  };
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Ray<double> ray{draw.vector() * 2, draw.vector(), draw.pick(0, 1) == 0 ? infinity : 1.0};
+    clear += agrees(ray, drawn(draw, TypeTag<Ball>{})) + agrees(ray, drawn(draw, TypeTag<Box>{}));
+  }
+  EXPECT_GE(clear, cases);
+}
+
+TEST(LadderAtOneInstant, doubt_is_careful) {
+  const Ball ball{{0, 0, 0}, 1};
+  EXPECT_FALSE(clear_contact(ball, Ball{{2, 0, 0}, 1}).clear);
+  EXPECT_FALSE(clear_contact(ball, Ball{{0, 0, 0}, 1}).clear);
+  EXPECT_FALSE(clear_contact(Box{{0, 0, 0}, {1, 1, 1}}, Ball{{2, 0, 0}, 1}).clear);
+  EXPECT_FALSE(clear_contact(Box{{0, 0, 0}, {1, -1, 1}}, Box{{1, 0, 0}, {1, 3, 1}}).clear);
+  EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 1, 0}, {1, 0, 0}}, ball).clear);
+  EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3}, ball).clear);
+  EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, -3}, ball).clear);
+  EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3}, Box{{0, 0, 0}, {1, 1, 1}}).clear);
+  EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, ball).clear);
+  EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, Box{{0, 0, 0}, {1, 1, 1}}).clear);
+  EXPECT_TRUE(clear_contact(ball, Ball{{1, 0, 0}, 1}).clear);
+}
+
+}  // namespace
+}  // namespace thinwall::testing
