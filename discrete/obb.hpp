@@ -119,6 +119,46 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   return hit;
 }
 
+// ---- The clear rung (clear/clear_entry.hpp).
+
+/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often.
+struct ClearFrame {
+  packed::Lanes x, y, z;
+
+  THINWALL_HOT explicit ClearFrame(const Mat3<double>& axes)
+      : x(packed::lanes(axes.data())), y(packed::lanes(axes.data() + 3)), z(packed::lanes(axes.data() + 6)) {}
+  THINWALL_HOT bool clear() const {
+    using packed::Pair, packed::Two;
+    const Pair off = abs(two_sums(x * x, y * y) - packed::both(1)) + abs(two_sums(z * z, x * y) - Pair{Two{1, 0}}) +
+                     abs(two_sums(y * z, z * x));
+    return all_of(off <= packed::both(0x1p-49));
+  }
+  /// Vectors in the box's own axes, and one of these in the world's.
+  THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return lanes(two_sums(x * v, y * v), sum(z * v)); }
+  THINWALL_HOT packed::Lanes out_of(const packed::Lanes& v) const {
+    return (x * all(firsts(xy_of(v))) + y * all(seconds(xy_of(v)))) + z * all(zz_of(v));
+  }
+};
+
+/// What the roundings of turning move places by, at most, in a box's own axes: three a component.
+THINWALL_HOT packed::Lanes clear_turning_noise(const packed::Lanes& p, const packed::Lanes& h) {
+  return all(sum(abs(p) + h) * packed::both(0x1p-49));
+}
+
+THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {
+  using packed::Lanes, packed::all, packed::both;
+  const ClearFrame frame(box.axes);
+  const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents),
+              start = packed::lanes(ray.origin) - center;
+  const Lanes p = frame.into(start), v = frame.into(packed::lanes(ray.direction));
+  const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
+  const packed::LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
+  const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(slabs.first), h), all(0) - h));
+  const bool sure = both(frame.clear(), slabs.clear_of(all(0), clear_turning_noise(start, h)));
+  return {both(sure, ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first, center + frame.out_of(on_box),
+          frame.out_of(keep(axis, against(all(1), v)))};
+}
+
 }  // namespace thinwall
 
 #ifdef THINWALL_COMPILED

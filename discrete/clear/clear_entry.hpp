@@ -75,33 +75,52 @@ THINWALL_HOT packed::Lanes clear_face_normal(unsigned axes, const packed::Lanes&
 
 /// When p + v t is in the box [-h, h] widened by R, as if it moved downwards on every axis; not later than `until`.
 struct ClearSlabs {
-  packed::Lanes P, W, low, high, enter;
+  packed::Lanes P, W, low, high, enter, leave;
   packed::Pair first, last;
   bool clear;  ///< which of the two is first, and that the start is outside
 
   THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
                           const packed::Lanes& R, double until)
-      : P(against(p, v)), W(abs(v)), low(P - h), high(P + h), enter(max((low - R) / W, packed::all(0))) {
+      : P(against(p, v)),
+        W(abs(v)),
+        low(P - h),
+        high(P + h),
+        enter(max((low - R) / W, packed::all(0))),
+        leave(min((high + R) / W, packed::all(until))),
+        first(largest_of(enter)),
+        last(smallest_of(leave)) {
     using packed::all, packed::both;
-    first = largest_of(enter), last = smallest_of(min((high + R) / W, all(until)));
     const packed::LanesMask in_range = (abs(p) + W + h <= all(most_length)) & (all(0) <= h) & (all(0) <= R);
     const packed::LanesMask outside = R * all(more_than_rounding) < abs(p) - h;
     const packed::PairMask apart = abs(last) * both(more_than_rounding - 1) < abs(first - last);
     clear = both(both(all_of(in_range), any_of(outside)), all_of(apart));
+  }
+
+  /// The same where every length is off by up to `noise` > 0, as it is once p and v have been turned.
+  THINWALL_HOT bool clear_of(const packed::Lanes& R, const packed::Lanes& noise) const {
+    using packed::both;
+    const packed::Lanes off = noise / W;
+    const packed::PairMask shared = largest_of(enter + off) < smallest_of(leave - off);
+    const packed::PairMask never_shared = smallest_of(leave + off) < largest_of(enter - off);
+    const packed::LanesMask outside = R + noise + noise < abs(P) - (high - P);
+    return both(both(clear, any_of(outside)), both(all_of(packed::all(0) < W), all_of(shared | never_shared)));
   }
 };
 
 /// The point p + v t and the box [-h, h] rounded by R > 0. Where the widened slabs are first shared the point is beside a face, which
 /// it meets then, or beside an edge or a corner, whose ball it meets, or passes, or leaves for the next part. The squared distance is
 /// convex: what passes a part while beside it is nowhere nearer.
+/// `turned`: p and v were, and every length is off by up to `noise`, which is at most 2^-20 of R where the box is not met on a face.
+template <bool turned = false>
 THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
-                                        const packed::Pair& R) {
+                                        const packed::Pair& R, const packed::Lanes& noise = packed::all(0)) {
   using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
   const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
   const PairMask misses = slabs.last < slabs.first;
   const Lanes X = slabs.P - all(slabs.first) * slabs.W;
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
-  ClearEntry entry{both(slabs.clear, both(all_of(both(1 / most_length) <= R), (axes | bits(misses)) != 0)),
+  const bool clear = turned ? slabs.clear_of(all(R), noise) : slabs.clear;
+  ClearEntry entry{both(clear, both(all_of(both(1 / most_length) <= R), (axes | bits(misses)) != 0)),
                    select(misses, both(ClearEntry::never), slabs.first), clear_face_normal(axes, v)};
   if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
   const Lanes enter = slabs.low / slabs.W, leave = slabs.high / slabs.W;
@@ -116,9 +135,11 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
     const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
     const PairMask turns = both(0) < next * chord.speed + chord.toward * both(more_than_rounding);
-    const PairMask passes = stays_out & ((chord.passes() & turns) | (slabs.last < next));
+    PairMask passes = stays_out & chord.passes() & turns;
+    if (!turned) passes = passes | (stays_out & (slabs.last < next));
     const PairMask decided = (meets | passes) & chord.in_range();
     if (all_of(decided)) {
+      if (turned) entry.clear = both(entry.clear, all_of(noise * all(0x1p20) < all(R)));
       entry.time = select(meets, max(root, now), both(ClearEntry::never));
       entry.normal = against(chord.normal(w), v);
       return entry;

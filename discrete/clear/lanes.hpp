@@ -113,6 +113,9 @@ THINWALL_HOT double value(const Pair& a) { return a.v[0]; }
 
 #ifdef __AVX__
 THINWALL_HOT Lanes all(double x) { return {typename Register<double, 4>::Type{x, x, x, x}}; }
+THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
+  return std::bit_cast<Lanes>(_mm256_set_m128d(std::bit_cast<__m128d>(zz), std::bit_cast<__m128d>(xy)));
+}
 THINWALL_HOT Lanes lanes(const double* x) {
   return std::bit_cast<Lanes>(_mm256_set_m128d(_mm_loaddup_pd(x + 2), _mm_loadu_pd(x)));
 }
@@ -124,6 +127,7 @@ THINWALL_HOT Pair zz_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a
 THINWALL_HOT Lanes yzx(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 0)}; }
 #else
 THINWALL_HOT Lanes all(double x) { return {Two{x, x}, Two{x, x}}; }
+THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) { return {xy.v, zz.v}; }
 THINWALL_HOT Lanes lanes(const double* x) {
   Lanes a{{}, Two{x[2], x[2]}};
   std::memcpy(&a.xy, x, sizeof a.xy);

@@ -1,8 +1,8 @@
 #pragma once
 /// The clear rung of a time of impact: straight from two moving shapes to the answer, without a jump that is a coin's toss.
 
-#include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/clear/clear_entry.hpp>
+#include <thinwall/discrete/obb.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
 
@@ -66,6 +66,24 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   return {both(both(slabs.clear, gap == 0), all_of(zero <= min(half_a, half_b))),
           select(slabs.last < slabs.first, both(ClearEntry::never), slabs.first),
           clear_face_normal(bits(time <= slabs.enter), v), point};
+}
+
+/// As against an aligned box, in the box's own axes; and the time once more by the plane of contact, whose normal is the world's: turned
+/// coordinates have three roundings each, and those that do not count along the normal go.
+THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
+  using packed::Lanes, packed::Pair, packed::all, packed::both, packed::lanes;
+  const double r = sphere.shape.radius;
+  const ClearFrame frame(box.shape.axes);
+  const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), h = lanes(box.shape.half_extents);
+  const Lanes p = center - lanes(box.shape.center), v = path - lanes(box.displacement);
+  const ClearEntry entry =
+      clear_box_entry<true>(frame.into(p), frame.into(v), h, both(r + gap), clear_turning_noise(p, h));
+  const Lanes normal = frame.out_of(entry.normal);
+  const Pair toward = two_sums(normal * p, normal * v), reach = both(r + gap) + dot(abs(entry.normal), h);
+  const Pair time = select(entry.time < both(ClearEntry::never),
+                           max((reach - firsts(toward)) / seconds(toward), both(0)), both(ClearEntry::never));
+  const bool sure = both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), clear_of_end(time)));
+  return {sure, time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 
 /// This pair has a clear rung.

@@ -19,6 +19,7 @@ namespace {
 
 using Ball = Sphere<double>;
 using Box = Aabb<double>;
+using Turned = Obb<double>;
 using V = Vec3<double>;
 constexpr double u = 0x1p-53, infinity = std::numeric_limits<double>::infinity();
 const std::size_t cases = thorough(slow_build ? 2'000 : 100'000);
@@ -28,7 +29,7 @@ template <class A, class B> struct Pairing {
   using Second = B;
 };
 template <class T> class Ladder : public ::testing::Test {};
-using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>>;
+using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>, Pairing<Turned, Ball>>;
 TYPED_TEST_SUITE(Ladder, ClearPairs, );
 
 /// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
@@ -37,6 +38,7 @@ template <class A, class B> Motion<A, B> everyday_shot(Shaker<double>& draw) {
   const auto sized = [&]<class T>(T shape) {
     if constexpr (std::is_same_v<T, Ball>) shape = {V::Zero(), 0.3 + 0.25 * draw.plain()};
     if constexpr (std::is_same_v<T, Box>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25};
+    if constexpr (std::is_same_v<T, Turned>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25, draw.axes()};
     return shape;
   };
   Motion<A, B> motion{at_rest(sized(A{})), at_rest(sized(B{}))};
@@ -57,7 +59,8 @@ template <class A, class B> bool agrees_if_clear(const Motion<A, B>& motion, dou
   const double closing = std::abs(clear.normal.dot(motion.b.displacement - motion.a.displacement));
   const double off = clear.status == ToiStatus::hit ? 4 * u * size / closing : 0;
   EXPECT_NEAR(clear.time, careful.time, off);
-  EXPECT_LE((clear.point - careful.point).cwiseAbs().maxCoeff(), 16 * u * size + off * closing);
+  const double paths = motion.a.displacement.cwiseAbs().sum() + motion.b.displacement.cwiseAbs().sum();
+  EXPECT_LE((clear.point - careful.point).cwiseAbs().maxCoeff(), 16 * u * size + off * paths);
   return true;
 }
 
@@ -145,6 +148,22 @@ TEST(LadderFilters, an_edge_met_by_an_edge_is_careful) {  // the slabs of x and 
   EXPECT_TRUE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {4, 3, 0}}));
 }
 
+TEST(LadderFilters, axes_that_are_off_are_careful) {  // by more than a few roundings
+  Turned box{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
+  const auto is_sure = [&] {
+    const bool impact = clear_impact(at_rest(box), Moving<Ball>{{{-4, 0, 0}, 1}, {8, 0.5, 0.5}}, 0).clear;
+    EXPECT_EQ(clear_raycast(Ray<double>{{-4, 0, 0}, {8, 0.5, 0.5}}, box).clear, impact);
+    return impact;
+  };
+  EXPECT_TRUE(is_sure());
+  box.axes(0, 1) = 0x1p-45;
+  EXPECT_FALSE(is_sure());
+  box.axes = Mat3<double>::Identity() * (1 + 0x1p-45);
+  EXPECT_FALSE(is_sure());
+  box.axes.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(is_sure());
+}
+
 TEST(LadderFilters, what_is_no_question_or_out_of_range_is_careful) {
   const Box box{{0, 0, 0}, {1, 1, 1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -215,9 +234,10 @@ TEST(LadderAtOneInstant, rays_agree) {
   std::size_t clear = 0;
   for (std::size_t i = 0; i < cases; ++i) {
     const Ray<double> ray{draw.vector() * 2, draw.vector(), draw.pick(0, 1) == 0 ? infinity : 1.0};
-    clear += agrees(ray, drawn(draw, TypeTag<Ball>{})) + agrees(ray, drawn(draw, TypeTag<Box>{}));
+    clear += agrees(ray, drawn(draw, TypeTag<Ball>{})) + agrees(ray, drawn(draw, TypeTag<Box>{})) +
+             agrees(ray, drawn(draw, TypeTag<Turned>{}));
   }
-  EXPECT_GE(clear, cases);
+  EXPECT_GE(clear, 2 * cases);
 }
 
 TEST(LadderAtOneInstant, doubt_is_careful) {
