@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <thinwall/capsule/clear_segment_entry.hpp>
 #include <thinwall/capsule/ray_capsule.hpp>
 #include <thinwall/capsule/segment.hpp>
 #include <thinwall/capsule/segment_box.hpp>
@@ -190,6 +191,13 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   if (entry.inside || !(time <= ray.max_t) || !is_finite(time)) return std::nullopt;
   const S s = closest_parameter<S>(path.start + ray.direction * entry.time, core);
   return RayHit<S>{time, capsule.a + core * s + entry.normal * capsule.radius, entry.normal};
+}
+
+THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Capsule<double>& capsule) {
+  const packed::Lanes a = packed::lanes(capsule.a), core = packed::lanes(capsule.b) - a;
+  const packed::Lanes p = packed::lanes(ray.origin) - a, v = packed::lanes(ray.direction);
+  const ClearSegmentEntry entry = clear_segment_entry(p, v, core, packed::both(capsule.radius));
+  return clear_ray_hit(entry.entry, p, v, ray.max_t, a + core * all(entry.on), capsule.radius);
 }
 
 }  // namespace thinwall

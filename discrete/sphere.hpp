@@ -75,16 +75,9 @@ THINWALL_HOT ClearContact clear_contact(const Sphere<double>& a, const Sphere<do
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Sphere<double>& sphere) {
-  using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
-  const Lanes center = packed::lanes(sphere.center), v = packed::lanes(ray.direction);
-  const Lanes p = packed::lanes(ray.origin) - center;
-  const ClearEntry entry = clear_ball_entry(p, v, both(sphere.radius));
-  const Pair R = both(sphere.radius), end = both(ray.max_t), beyond = entry.time - end;
-  const PairMask apart =
-      dot(p, p) * both(0x1p-40) < beyond * beyond * dot(v, v);  // by more than a millionth of the way
-  return {both(entry.clear, all_of(apart & (both(0) <= min(end, R)))),
-          all_of(entry.time < min(end, both(ClearEntry::never))), entry.time, center + entry.normal * all(R),
-          entry.normal};
+  const packed::Lanes center = packed::lanes(sphere.center), v = packed::lanes(ray.direction);
+  const packed::Lanes p = packed::lanes(ray.origin) - center;
+  return clear_ray_hit(clear_ball_entry(p, v, packed::both(sphere.radius)), p, v, ray.max_t, center, sphere.radius);
 }
 
 }  // namespace thinwall

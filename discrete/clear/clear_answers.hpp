@@ -44,6 +44,18 @@ struct ClearRayHit {
   }
 };
 
+/// The hit of the ray p + v t on a core rounded by R, which it enters over `on_core`. Whether that is before the ray's end is clear if
+/// the two are a millionth of the way apart.
+THINWALL_HOT ClearRayHit clear_ray_hit(const ClearEntry& entry, const packed::Lanes& p, const packed::Lanes& v,
+                                       double max_t, const packed::Lanes& on_core, double R) {
+  using packed::both;
+  const packed::Pair end = both(max_t), beyond = entry.time - end;
+  const packed::PairMask apart = dot(p, p) * both(0x1p-40) < beyond * beyond * dot(v, v);
+  return {both(entry.clear, all_of(apart & (both(0) <= min(end, both(R))))),
+          all_of(entry.time < min(end, both(ClearEntry::never))), entry.time, on_core + entry.normal * packed::all(R),
+          entry.normal};
+}
+
 template <class A, class B>
 concept HasClearContact = requires(const A& a, const B& b) { clear_contact(a, b); };
 template <class A>

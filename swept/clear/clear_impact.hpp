@@ -1,6 +1,7 @@
 #pragma once
 /// The clear rung of a time of impact: straight from two moving shapes to the answer, without a jump that is a coin's toss.
 
+#include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/clear/clear_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
 #include <thinwall/swept/moving.hpp>
@@ -84,6 +85,18 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
                            max((reach - firsts(toward)) / seconds(toward), both(0)), both(ClearEntry::never));
   const bool sure = both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), clear_of_end(time)));
   return {sure, time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
+}
+
+THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Sphere<double>>& sphere,
+                                   double gap) {
+  using packed::Lanes, packed::all, packed::both, packed::lanes;
+  const double r = sphere.shape.radius, s = capsule.shape.radius;
+  const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
+  const ClearEntry entry =
+      clear_segment_entry(center - a, path - lanes(capsule.displacement), lanes(capsule.shape.b) - a, both(r + s + gap))
+          .entry;
+  return {both(entry.clear, both(clear_sizes(r, s, gap), clear_of_end(entry.time))), entry.time, entry.normal,
+          (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
 }
 
 /// This pair has a clear rung.

@@ -20,6 +20,7 @@ namespace {
 using Ball = Sphere<double>;
 using Box = Aabb<double>;
 using Turned = Obb<double>;
+using Rod = Capsule<double>;
 using V = Vec3<double>;
 constexpr double u = 0x1p-53, infinity = std::numeric_limits<double>::infinity();
 const std::size_t cases = thorough(slow_build ? 2'000 : 100'000);
@@ -29,7 +30,8 @@ template <class A, class B> struct Pairing {
   using Second = B;
 };
 template <class T> class Ladder : public ::testing::Test {};
-using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>, Pairing<Turned, Ball>>;
+using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>, Pairing<Turned, Ball>,
+                                    Pairing<Rod, Ball>>;
 TYPED_TEST_SUITE(Ladder, ClearPairs, );
 
 /// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
@@ -39,6 +41,7 @@ template <class A, class B> Motion<A, B> everyday_shot(Shaker<double>& draw) {
     if constexpr (std::is_same_v<T, Ball>) shape = {V::Zero(), 0.3 + 0.25 * draw.plain()};
     if constexpr (std::is_same_v<T, Box>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25};
     if constexpr (std::is_same_v<T, Turned>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25, draw.axes()};
+    if constexpr (std::is_same_v<T, Rod>) shape = {any() * 0.5, any() * 0.5, 0.2 + 0.15 * draw.plain()};
     return shape;
   };
   Motion<A, B> motion{at_rest(sized(A{})), at_rest(sized(B{}))};
@@ -148,6 +151,20 @@ TEST(LadderFilters, an_edge_met_by_an_edge_is_careful) {  // the slabs of x and 
   EXPECT_TRUE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {4, 3, 0}}));
 }
 
+TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps, and along it
+  const auto is_sure = [](const V& from, const V& by) {
+    return clear_impact(at_rest(Rod{{0, 0, 0}, {0, 0, 4}, 1}), Moving<Ball>{{from, 1}, by}, 0).clear;
+  };
+  EXPECT_FALSE(is_sure({-4, 2, 2}, {8, 0, 0}));
+  EXPECT_FALSE(is_sure({-4, 0, 6}, {8, 0, 0}));
+  EXPECT_FALSE(is_sure({2, 0, 8}, {0, 0, -4}));
+  EXPECT_FALSE(is_sure({1, 0, 8}, {0x1p-33, 0, -4}));
+  EXPECT_FALSE(is_sure({0, 0, 6}, {0, 0, -4}));
+  EXPECT_TRUE(is_sure({-4, 1, 2}, {8, 0, 0}));
+  EXPECT_TRUE(is_sure({-4, 1, 5}, {8, 0, 0.5}));
+  EXPECT_TRUE(is_sure({-4, 3, 2}, {8, 0, 0}));
+}
+
 TEST(LadderFilters, axes_that_are_off_are_careful) {  // by more than a few roundings
   Turned box{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
   const auto is_sure = [&] {
@@ -235,9 +252,9 @@ TEST(LadderAtOneInstant, rays_agree) {
   for (std::size_t i = 0; i < cases; ++i) {
     const Ray<double> ray{draw.vector() * 2, draw.vector(), draw.pick(0, 1) == 0 ? infinity : 1.0};
     clear += agrees(ray, drawn(draw, TypeTag<Ball>{})) + agrees(ray, drawn(draw, TypeTag<Box>{})) +
-             agrees(ray, drawn(draw, TypeTag<Turned>{}));
+             agrees(ray, drawn(draw, TypeTag<Turned>{})) + agrees(ray, drawn(draw, TypeTag<Rod>{}));
   }
-  EXPECT_GE(clear, 2 * cases);
+  EXPECT_GE(clear, 3 * cases);
 }
 
 TEST(LadderAtOneInstant, doubt_is_careful) {
