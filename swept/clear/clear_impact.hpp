@@ -4,6 +4,7 @@
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/clear/clear_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
+#include <thinwall/swept/clear/clear_boxes.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
 
@@ -97,6 +98,15 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
           .entry;
   return {both(entry.clear, both(clear_sizes(r, s, gap), clear_of_end(entry.time))), entry.time, entry.normal,
           (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
+}
+
+THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& b, const Moving<Aabb<double>>& a, double gap) {
+  using packed::Lanes, packed::all, packed::both, packed::lanes;
+  const Lanes center = lanes(a.shape.center), path = lanes(a.displacement);
+  const ClearBoxes boxes(a.shape, b.shape, lanes(b.shape.center) - center, lanes(b.displacement) - path);
+  const packed::Pair& time = boxes.time;
+  return {both(both(boxes.clear, gap == 0), clear_of_end(time)), time, all(0) - boxes.normal,
+          (center + path * all(time)) + boxes.from_a};
 }
 
 /// This pair has a clear rung.

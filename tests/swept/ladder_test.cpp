@@ -31,16 +31,23 @@ template <class A, class B> struct Pairing {
 };
 template <class T> class Ladder : public ::testing::Test {};
 using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>, Pairing<Turned, Ball>,
-                                    Pairing<Rod, Ball>>;
+                                    Pairing<Rod, Ball>, Pairing<Turned, Box>>;
 TYPED_TEST_SUITE(Ladder, ClearPairs, );
 
 /// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
 template <class A, class B> Motion<A, B> everyday_shot(Shaker<double>& draw) {
   const auto any = [&] { return V(draw.plain(), draw.plain(), draw.plain()); };
+  const auto any_turn = [&] {
+    Mat3<double> axes;
+    axes.col(0) = safe_unit(any());
+    axes.col(1) = safe_unit(thinwall::cross<double>(axes.col(0), any()));
+    axes.col(2) = thinwall::cross<double>(axes.col(0), axes.col(1));
+    return axes;
+  };
   const auto sized = [&]<class T>(T shape) {
     if constexpr (std::is_same_v<T, Ball>) shape = {V::Zero(), 0.3 + 0.25 * draw.plain()};
     if constexpr (std::is_same_v<T, Box>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25};
-    if constexpr (std::is_same_v<T, Turned>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25, draw.axes()};
+    if constexpr (std::is_same_v<T, Turned>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25, any_turn()};
     if constexpr (std::is_same_v<T, Rod>) shape = {any() * 0.5, any() * 0.5, 0.2 + 0.15 * draw.plain()};
     return shape;
   };
@@ -62,8 +69,13 @@ template <class A, class B> bool agrees_if_clear(const Motion<A, B>& motion, dou
   const double closing = std::abs(clear.normal.dot(motion.b.displacement - motion.a.displacement));
   const double off = clear.status == ToiStatus::hit ? 4 * u * size / closing : 0;
   EXPECT_NEAR(clear.time, careful.time, off);
+  if (clear.status != ToiStatus::hit) return true;
   const double paths = motion.a.displacement.cwiseAbs().sum() + motion.b.displacement.cwiseAbs().sum();
-  EXPECT_LE((clear.point - careful.point).cwiseAbs().maxCoeff(), 16 * u * size + off * paths);
+  const auto from_point = [&](const auto& moving) {
+    return separation(Ball{clear.point, 0}, pose_at(moving, clear.time)).distance;
+  };
+  EXPECT_NEAR(from_point(motion.a), gap / 2, 16 * u * size + off * paths);
+  EXPECT_NEAR(from_point(motion.b), gap / 2, 16 * u * size + off * paths);
   return true;
 }
 
@@ -87,7 +99,7 @@ TYPED_TEST(Ladder, clear_and_careful_agree_on_motions_drawn_to_go_wrong) {
     }
     clear += agrees_if_clear(motion, draw.pick(0, 9) == 0 ? 0.25 * std::abs(draw.plain()) : 0.0) ? 1U : 0U;
   }
-  EXPECT_GE(clear, cases / 2) << "too few to mean anything";
+  EXPECT_GE(clear, cases / 3) << "too few to mean anything";
 }
 
 TYPED_TEST(Ladder, the_front_door_climbs_it) {  // from either side

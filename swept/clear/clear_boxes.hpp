@@ -1,0 +1,111 @@
+#pragma once
+/// The clear cases of boxes_entry.hpp for an aligned and an oriented box: fifteen axes, in five groups of three lanes.
+///
+/// On each axis the times between which the shadows overlap are known within bounds, by the noise of the numbers they come of. A miss
+/// is one beyond all bounds. Of a hit the bounds say which axis is the last to be shared, and nothing comes near it; its time is
+/// computed once more, by division, from the axis itself.
+
+#include <bit>
+
+#include <thinwall/discrete/obb.hpp>
+
+namespace thinwall {
+
+/// When the shadows on three axes begin and cease to overlap, at the earliest and at the latest.
+struct ClearTimes {
+  packed::Lanes in_least, in_most, out_least, out_most;
+
+  /// Of middles c apart that move by w, and reach e together, all up to `noise`.
+  THINWALL_HOT static ClearTimes of(const packed::Lanes& c, const packed::Lanes& w, const packed::Lanes& e,
+                                    const packed::Lanes& noise) {
+    const packed::Lanes C = against(c, w), rate = packed::all(1) / abs(w), wide = e + noise, narrow = e - noise;
+    return {(C - wide) * rate, (C - narrow) * rate, (C + narrow) * rate, (C + wide) * rate};
+  }
+  /// An axis of a that has no length, 0 / 0, is passed over.
+  THINWALL_HOT friend ClearTimes shared(const ClearTimes& a, const ClearTimes& b) {
+    return {max(a.in_least, b.in_least), max(a.in_most, b.in_most), min(a.out_least, b.out_least),
+            min(a.out_most, b.out_most)};
+  }
+};
+
+/// Three numbers that the lanes of a vector are multiplied by.
+struct ClearScalars {
+  packed::Lanes x, y, z;
+
+  THINWALL_HOT explicit ClearScalars(const packed::Lanes& v)
+      : x(all(firsts(xy_of(v)))), y(all(seconds(xy_of(v)))), z(all(zz_of(v))) {}
+};
+
+/// The aligned box a at rest and the oriented box b, `between` away from it and moving by v. Its normal is from a to b.
+struct ClearBoxes {
+  bool clear;
+  packed::Pair time;             ///< [1] `never` for a miss
+  packed::Lanes normal, from_a;  ///< where they touch, from the center of a
+
+  THINWALL_HOT ClearBoxes(const Aabb<double>& a, const Obb<double>& b, const packed::Lanes& between,
+                          const packed::Lanes& v) {
+    using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both, packed::lanes;
+    const Lanes zero = all(0), ha = lanes(a.half_extents), hb = lanes(b.half_extents);
+    const ClearFrame frame(b.axes);
+    const auto row = [&](int i) { return lanes(Pair{packed::Two{b.axes(i, 0), b.axes(i, 1)}}, both(b.axes(i, 2))); };
+    const Lanes row0 = row(0), row1 = row(1), row2 = row(2), abs0 = abs(row0), abs1 = abs(row1), abs2 = abs(row2);
+    const ClearScalars D(between), V(v), A(ha), B(hb);
+    const Lanes size = all(sum((abs(between) + abs(v)) + (ha + hb))), noise = size * all(0x1p-46);
+    const bool in_range = both(
+        all_of((size <= all(most_length)) & (zero <= min(ha, hb)) & (all(1 / most_length) <= size)), frame.clear());
+
+    const ClearTimes own =
+        ClearTimes::of(between, v, ha + ((B.x * abs(frame.x) + B.y * abs(frame.y)) + B.z * abs(frame.z)), noise);
+    const ClearTimes its =
+        ClearTimes::of((D.x * row0 + D.y * row1) + D.z * row2, (V.x * row0 + V.y * row1) + V.z * row2,
+                       hb + ((A.x * abs0 + A.y * abs1) + A.z * abs2), noise);
+    const auto products = [&](const Lanes& ry, const Lanes& rz, const Lanes& dy, const Lanes& dz, const Lanes& vy,
+                              const Lanes& vz, const Lanes& hy, const Lanes& hz) {
+      const Lanes minor = abs(ry * yzx(rz) - rz * yzx(ry)), y = abs(ry), z = abs(rz);
+      return ClearTimes::of(dz * ry - dy * rz, vz * ry - vy * rz,
+                            (hy * z + hz * y) + (yzx(hb) * minor + yzx(yzx(hb)) * yzx(yzx(minor))), noise * (y + z));
+    };
+    const ClearTimes px = products(row1, row2, D.y, D.z, V.y, V.z, A.y, A.z);
+    const ClearTimes py = products(row2, row0, D.z, D.x, V.z, V.x, A.z, A.x);
+    const ClearTimes pz = products(row0, row1, D.x, D.y, V.x, V.y, A.x, A.y);
+    const ClearTimes times = shared(px, shared(py, shared(pz, shared(own, its))));
+    const Lanes until = all(1 + 0x1p-9);
+    const Pair first = largest_of(max(times.in_least, zero)), last = smallest_of(min(times.out_most, until));
+    const Pair first_most = largest_of(times.in_most), last_least = smallest_of(min(times.out_least, until));
+    clear = in_range, time = both(ClearEntry::never), normal = from_a = zero;
+    if (all_of(last < first)) return;
+
+    const Lanes near = all(first);
+    const unsigned axes = bits(near <= own.in_most) | bits(near <= its.in_most) << 3U | bits(near <= px.in_most) << 6U |
+                          bits(near <= py.in_most) << 9U | bits(near <= pz.in_most) << 12U;
+    const bool one_axis = std::has_single_bit(axes);
+    const bool meets = all_of((first_most <= last_least) & (both(0) < first));
+    const int k = std::countr_zero(axes | 1U << 15U) % 15, i = k < 6 ? k % 3 : (k - 6) / 3, j = k % 3;
+
+    // once more along its normal n, in the axes of a, and g, in those of b
+    const unsigned own_edge = k < 6 ? 0U : 1U << static_cast<unsigned>(i),
+                   its_edge = k < 6 ? 0U : 1U << static_cast<unsigned>(j);
+    const LanesMask is_own = packed::whether(k < 3), is_its = packed::whether(k >= 3 && k < 6);
+    const LanesMask along_a = packed::lowest(own_edge), along_b = packed::lowest(its_edge);
+    const Lanes unit_a = keep(packed::lowest(1U << static_cast<unsigned>(i)), all(1)),
+                edge_b = lanes(b.axes.data() + 3 * j);
+    const Lanes n = select(is_own, unit_a, select(is_its, edge_b, cross(unit_a, edge_b))), g = frame.into(n);
+    const Pair cw = two_sums(n * between, n * v), nn = dot(n, n), c = firsts(cw);
+    time = (abs(c) - (dot(ha, abs(n)) + dot(hb, abs(g)))) / abs(seconds(cw));
+    const Lanes side = select(all(c) < zero, all(-1), all(1)), level = size * all(0x1p-40);
+    normal = n * side / all(root(nn));
+
+    // where: a corner of the one on the other's face, or where two edges are nearest
+    const Lanes to_a = select(along_a, zero, against(zero - ha, n * side)),
+                to_b = select(along_b, zero, against(zero - hb, g * side));
+    const Lanes corner_b = (between + v * all(time)) - frame.out_of(to_b), gap = to_a - corner_b;
+    const Pair on = two_sums(edge_b * gap, unit_a * gap), edges = dot(unit_a, edge_b);
+    const Lanes on_edge = unit_a * all((edges * firsts(on) - seconds(on)) / nn);
+    from_a = select(is_own, corner_b, select(is_its, to_a, to_a + on_edge));
+    const LanesMask one_corner =
+        ((level < ha * abs(n)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
+    clear = both(both(in_range, both(one_axis, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
+  }
+};
+
+}  // namespace thinwall
