@@ -97,7 +97,9 @@ template <template <class> class Pack> THINWALL_HOT Pack<double> against(const P
 /// yes where `which`, else no.
 template <template <class> class Pack>
 THINWALL_HOT Pack<double> select(const Pack<Bits>& which, const Pack<double>& yes, const Pack<double>& no) {
-  return each<double>([](const auto& m, const auto& x, const auto& y) { return m ? x : y; }, which, yes, no);
+  return each<double>(
+      [](const auto& m, const auto& x, const auto& y) { return numbers_of((m & bits_of(x)) | (~m & bits_of(y))); },
+      which, yes, no);
 }
 /// a where `which`, else 0.
 template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack<Bits>& which, const Pack<double>& a) {

@@ -5,7 +5,9 @@
 /// is one beyond all bounds. Of a hit the bounds say which axis is the last to be shared, and nothing comes near it; its time is
 /// computed once more, by division, from the axis itself.
 
+#include <array>
 #include <bit>
+#include <cstddef>
 
 #include <thinwall/discrete/obb.hpp>
 
@@ -25,6 +27,31 @@ struct ClearTimes {
   THINWALL_HOT friend ClearTimes shared(const ClearTimes& a, const ClearTimes& b) {
     return {max(a.in_least, b.in_least), max(a.in_most, b.in_most), min(a.out_least, b.out_least),
             min(a.out_most, b.out_most)};
+  }
+};
+
+/// One of the fifteen axes, without a jump: 0 to 2 are those of a, 3 to 5 those of b, then their products, first by a's.
+struct ClearAxis {
+  double own, its;          ///< 1 if it is one of a's own, or of b's
+  unsigned bit_a, edge_a;   ///< the bit of a's axis; the same for a product, else 0
+  unsigned edge_b;          ///< of b's in a product, else 0
+  std::ptrdiff_t column_b;  ///< where b's axis begins
+  bool alone;
+
+  /// The axis of the one bit set in `axes`; not `alone` if there are more, or none.
+  THINWALL_HOT static const ClearAxis& of(unsigned axes) {
+    static constexpr auto all_of_them = [] {
+      std::array<ClearAxis, 16> of_k{};
+      for (unsigned k = 0; k < 15; ++k) {
+        const unsigned i = k < 6 ? k % 3 : k / 3 - 2, j = k % 3;
+        const bool product = k >= 6;
+        of_k[k] = {k < 3 ? 1.0 : 0.0,      k >= 3 && k < 6 ? 1.0 : 0.0,        1U << i, product ? 1U << i : 0U,
+                   product ? 1U << j : 0U, static_cast<std::ptrdiff_t>(3 * j), true};
+      }
+      return of_k;
+    }();
+    const bool alone = (axes & (axes - 1U)) == 0U;
+    return all_of_them[alone ? static_cast<unsigned>(std::countr_zero(axes | 1U << 15U)) : 15U];
   }
 };
 
@@ -78,17 +105,13 @@ struct ClearBoxes {
     const Lanes near = all(first);
     const unsigned axes = bits(near <= own.in_most) | bits(near <= its.in_most) << 3U | bits(near <= px.in_most) << 6U |
                           bits(near <= py.in_most) << 9U | bits(near <= pz.in_most) << 12U;
-    const bool one_axis = std::has_single_bit(axes);
     const bool meets = all_of((first_most <= last_least) & (both(0) < first));
-    const int k = std::countr_zero(axes | 1U << 15U) % 15, i = k < 6 ? k % 3 : (k - 6) / 3, j = k % 3;
+    const ClearAxis& k = ClearAxis::of(axes);
 
     // once more along its normal n, in the axes of a, and g, in those of b
-    const unsigned own_edge = k < 6 ? 0U : 1U << static_cast<unsigned>(i),
-                   its_edge = k < 6 ? 0U : 1U << static_cast<unsigned>(j);
-    const LanesMask is_own = packed::whether(k < 3), is_its = packed::whether(k >= 3 && k < 6);
-    const LanesMask along_a = packed::lowest(own_edge), along_b = packed::lowest(its_edge);
-    const Lanes unit_a = keep(packed::lowest(1U << static_cast<unsigned>(i)), all(1)),
-                edge_b = lanes(b.axes.data() + 3 * j);
+    const LanesMask is_own = zero < all(k.own), is_its = zero < all(k.its);
+    const LanesMask along_a = packed::lowest(k.edge_a), along_b = packed::lowest(k.edge_b);
+    const Lanes unit_a = keep(packed::lowest(k.bit_a), all(1)), edge_b = lanes(b.axes.data() + k.column_b);
     const Lanes n = select(is_own, unit_a, select(is_its, edge_b, cross(unit_a, edge_b))), g = frame.into(n);
     const Pair cw = two_sums(n * between, n * v), nn = dot(n, n), c = firsts(cw);
     time = (abs(c) - (dot(ha, abs(n)) + dot(hb, abs(g)))) / abs(seconds(cw));
@@ -104,7 +127,7 @@ struct ClearBoxes {
     from_a = select(is_own, corner_b, select(is_its, to_a, to_a + on_edge));
     const LanesMask one_corner =
         ((level < ha * abs(n)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
-    clear = both(both(in_range, both(one_axis, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
+    clear = both(both(in_range, both(k.alone, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
   }
 };
 
