@@ -7,6 +7,7 @@
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/boxes/box_pair.hpp>
+#include <thinwall/discrete/clear/clear_box_axes.hpp>
 #include <thinwall/discrete/entry/near_path.hpp>
 
 namespace thinwall {
@@ -143,6 +144,42 @@ struct ClearFrame {
 /// What the roundings of turning move places by, at most, in a box's own axes: three a component.
 THINWALL_HOT packed::Lanes clear_turning_noise(const packed::Lanes& p, const packed::Lanes& h) {
   return all(sum(abs(p) + h) * packed::both(0x1p-49));
+}
+
+/// Row i of a matrix: the number that each axis has along i.
+THINWALL_HOT packed::Lanes clear_row(const Mat3<double>& axes, int i) {
+  return lanes(packed::Pair{packed::Two{axes(i, 0), axes(i, 1)}}, packed::both(axes(i, 2)));
+}
+
+/// Two boxes whose centers are `between` apart in the first one's axes; `orthonormal` if all axes are clear.
+THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const packed::Lanes& between,
+                                              const packed::Lanes& size, bool orthonormal) {
+  using packed::Lanes, packed::LanesMask, packed::all, packed::both;
+  const ClearSpread d(between);
+  LanesMask apart = all(1) < all(0), within = all(0) <= min(boxes.a, boxes.b);
+  const LanesMask in_range = within & (size <= all(most_length)) & (all(1 / most_length) <= size);
+  boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise) {
+    const Lanes distance = abs(along(d));
+    apart = apart | (reach + noise < distance);
+    within = within & (distance <= reach - noise);
+  });
+  const bool overlaps = all_of(within), parted = any_of(apart);
+  return {both(both(all_of(in_range), orthonormal), overlaps || parted), overlaps};
+}
+THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>& b) {
+  const ClearFrame of_a(a.axes), of_b(b.axes);
+  const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
+  const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
+  const ClearBoxAxes boxes{
+      {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)}, ha, hb, size * packed::all(0x1p-46)};
+  return clear_boxes_overlap(boxes, of_a.into(between), size, packed::both(of_a.clear(), of_b.clear()));
+}
+THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& b, const Aabb<double>& a) {
+  const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
+  const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
+  const ClearBoxAxes boxes{
+      {clear_row(b.axes, 0), clear_row(b.axes, 1), clear_row(b.axes, 2)}, ha, hb, size * packed::all(0x1p-46)};
+  return clear_boxes_overlap(boxes, between, size, ClearFrame(b.axes).clear());
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {

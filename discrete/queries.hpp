@@ -55,9 +55,21 @@ template <Shape A, Shape B> bool overlaps_within(const A& a, const B& b, const t
   return false;
 }
 
-/// True if the shapes share a point; touching counts.
-template <Shape A, Shape B> bool overlaps(const A& a, const B& b) {
+/// The careful rung of overlaps(): any input, at any scale.
+template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, const B& b) {
   return overlaps_within(a, b, typename A::Scalar(0));
+}
+
+/// True if the shapes share a point; touching counts.
+template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
+  if constexpr (HasClearOverlap<A, B>) {
+    const ClearOverlap answer = clear_overlap(a, b);
+    if (answer.clear) return answer.overlaps;
+  } else if constexpr (HasClearOverlap<B, A>) {
+    const ClearOverlap answer = clear_overlap(b, a);
+    if (answer.clear) return answer.overlaps;
+  }
+  return careful_overlaps(a, b);
 }
 
 /// The gap between the cores of A and B, whichever of the two has the overload.

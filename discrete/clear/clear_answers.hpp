@@ -56,6 +56,13 @@ THINWALL_HOT ClearRayHit clear_ray_hit(const ClearEntry& entry, const packed::La
           entry.normal};
 }
 
+/// Whether two shapes share a point, if that is clear.
+struct ClearOverlap {
+  bool clear, overlaps;
+};
+
+template <class A, class B>
+concept HasClearOverlap = requires(const A& a, const B& b) { clear_overlap(a, b); };
 template <class A, class B>
 concept HasClearContact = requires(const A& a, const B& b) { clear_contact(a, b); };
 template <class A>

@@ -55,14 +55,6 @@ struct ClearAxis {
   }
 };
 
-/// Three numbers that the lanes of a vector are multiplied by.
-struct ClearScalars {
-  packed::Lanes x, y, z;
-
-  THINWALL_HOT explicit ClearScalars(const packed::Lanes& v)
-      : x(all(firsts(xy_of(v)))), y(all(seconds(xy_of(v)))), z(all(zz_of(v))) {}
-};
-
 /// The aligned box a at rest and the oriented box b, `between` away from it and moving by v. Its normal is from a to b.
 struct ClearBoxes {
   bool clear;
@@ -74,37 +66,31 @@ struct ClearBoxes {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both, packed::lanes;
     const Lanes zero = all(0), ha = lanes(a.half_extents), hb = lanes(b.half_extents);
     const ClearFrame frame(b.axes);
-    const auto row = [&](int i) { return lanes(Pair{packed::Two{b.axes(i, 0), b.axes(i, 1)}}, both(b.axes(i, 2))); };
-    const Lanes row0 = row(0), row1 = row(1), row2 = row(2), abs0 = abs(row0), abs1 = abs(row1), abs2 = abs(row2);
-    const ClearScalars D(between), V(v), A(ha), B(hb);
-    const Lanes size = all(sum((abs(between) + abs(v)) + (ha + hb))), noise = size * all(0x1p-46);
+    const Lanes size = all(sum((abs(between) + abs(v)) + (ha + hb)));
     const bool in_range = both(
         all_of((size <= all(most_length)) & (zero <= min(ha, hb)) & (all(1 / most_length) <= size)), frame.clear());
+    const ClearBoxAxes boxes{
+        {clear_row(b.axes, 0), clear_row(b.axes, 1), clear_row(b.axes, 2)}, ha, hb, size * all(0x1p-46)};
 
-    const ClearTimes own =
-        ClearTimes::of(between, v, ha + ((B.x * abs(frame.x) + B.y * abs(frame.y)) + B.z * abs(frame.z)), noise);
-    const ClearTimes its =
-        ClearTimes::of((D.x * row0 + D.y * row1) + D.z * row2, (V.x * row0 + V.y * row1) + V.z * row2,
-                       hb + ((A.x * abs0 + A.y * abs1) + A.z * abs2), noise);
-    const auto products = [&](const Lanes& ry, const Lanes& rz, const Lanes& dy, const Lanes& dz, const Lanes& vy,
-                              const Lanes& vz, const Lanes& hy, const Lanes& hz) {
-      const Lanes minor = abs(ry * yzx(rz) - rz * yzx(ry)), y = abs(ry), z = abs(rz);
-      return ClearTimes::of(dz * ry - dy * rz, vz * ry - vy * rz,
-                            (hy * z + hz * y) + (yzx(hb) * minor + yzx(yzx(hb)) * yzx(yzx(minor))), noise * (y + z));
-    };
-    const ClearTimes px = products(row1, row2, D.y, D.z, V.y, V.z, A.y, A.z);
-    const ClearTimes py = products(row2, row0, D.z, D.x, V.z, V.x, A.z, A.x);
-    const ClearTimes pz = products(row0, row1, D.x, D.y, V.x, V.y, A.x, A.y);
-    const ClearTimes times = shared(px, shared(py, shared(pz, shared(own, its))));
+    const ClearSpread D(between), V(v);
     const Lanes until = all(1 + 0x1p-9);
-    const Pair first = largest_of(max(times.in_least, zero)), last = smallest_of(min(times.out_most, until));
-    const Pair first_most = largest_of(times.in_most), last_least = smallest_of(min(times.out_least, until));
+    ClearTimes times{zero, all(-ClearEntry::never), until,
+                     until};  // in_most may be before the start: then they overlap
+    Lanes entered[5];
+    int group = 0;
+    boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise) {
+      const ClearTimes of_axes = ClearTimes::of(along(D), along(V), reach, noise);
+      times = shared(of_axes, times);
+      entered[group++] = of_axes.in_most;
+    });
+    const Pair first = largest_of(times.in_least), last = smallest_of(times.out_most);
+    const Pair first_most = largest_of(times.in_most), last_least = smallest_of(times.out_least);
     clear = in_range, time = both(ClearEntry::never), normal = from_a = zero;
     if (all_of(last < first)) return;
 
     const Lanes near = all(first);
-    const unsigned axes = bits(near <= own.in_most) | bits(near <= its.in_most) << 3U | bits(near <= px.in_most) << 6U |
-                          bits(near <= py.in_most) << 9U | bits(near <= pz.in_most) << 12U;
+    unsigned axes = 0;
+    for (unsigned i = 0; i < 5; ++i) axes |= bits(near <= entered[i]) << 3U * i;
     const bool meets = all_of((first_most <= last_least) & (both(0) < first));
     const ClearAxis& k = ClearAxis::of(axes);
 

@@ -246,6 +246,23 @@ TEST(LadderAtOneInstant, contacts_agree) {
   EXPECT_GE(clear, 2 * cases);
 }
 
+TEST(LadderAtOneInstant, overlaps_agree) {
+  Shaker<double> draw(29);
+  const auto agrees = [](const auto& a, const auto& b) {
+    const ClearOverlap rung = clear_overlap(a, b);
+    if (!rung.clear) return 0U;
+    EXPECT_EQ(rung.overlaps, careful_overlaps(a, b));
+    EXPECT_EQ(rung.overlaps, overlaps(b, a));
+    return 1U;
+  };
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Turned a = drawn(draw, TypeTag<Turned>{}), b = drawn(draw, TypeTag<Turned>{});
+    clear += agrees(a, b) + agrees(a, drawn(draw, TypeTag<Box>{}));
+  }
+  EXPECT_GE(clear, cases);
+}
+
 TEST(LadderAtOneInstant, rays_agree) {
   Shaker<double> draw(23);
   const auto agrees = [](const Ray<double>& ray, const auto& shape) {
@@ -282,6 +299,10 @@ TEST(LadderAtOneInstant, doubt_is_careful) {
   EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, ball).clear);
   EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, Box{{0, 0, 0}, {1, 1, 1}}).clear);
   EXPECT_TRUE(clear_contact(ball, Ball{{1, 0, 0}, 1}).clear);
+  const Turned turned{{2, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
+  EXPECT_FALSE(clear_overlap(turned, Box{{0, 0, 0}, {1, 1, 1}}).clear);
+  EXPECT_TRUE(clear_overlap(turned, Box{{0, 0, 0}, {1 + 0x1p-40, 1, 1}}).clear);
+  EXPECT_FALSE(clear_overlap(turned, Box{{0, 0, 0}, {2, -1, 1}}).clear);
 }
 
 }  // namespace
