@@ -21,8 +21,9 @@ namespace thinwall {
 /// spare.
 template <class S> class ExactTerms {
  public:
-  ExactTerms() {
-  }  // NOLINT(cppcoreguidelines-pro-type-member-init,modernize-use-equals-default): what is not in use is not set
+  // What is not in use is not set.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init,modernize-use-equals-default)
+  ExactTerms() {}
   ExactTerms(const ExactTerms& other) { *this = other; }  // NOLINT(cppcoreguidelines-pro-type-member-init)
   ExactTerms& operator=(const ExactTerms& other) {
     std::copy(other.begin(), other.end(), begin());
