@@ -1,8 +1,7 @@
 #pragma once
 /// The clear cases of ray_capsule.hpp: the side of a rounded segment, or the cap beyond which the side is met, without a jump.
 ///
-/// With k = p x d and w = v x d the side is met when |k + w t| = R |d|. Whether it is at all is that of the distance between two lines,
-/// (p.w)^2 against w.w R^2, of which no product rounds by more than counts along the normal.
+/// With k = p x d and w = v x d the side is met when |k + w t| = R |d|: the chord of k + w t and a ball, as in ball_entry.hpp.
 
 #include <thinwall/discrete/clear/clear_entry.hpp>
 
@@ -17,12 +16,12 @@ struct ClearSegmentEntry {
 THINWALL_HOT ClearSegmentEntry clear_segment_entry(const packed::Lanes& p, const packed::Lanes& v,
                                                    const packed::Lanes& d, const packed::Pair& R) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::both, packed::all;
-  const Lanes k = cross(p, d), w = cross(v, d);
-  const Pair of_w = two_sums(w * w, k * w), of_k = two_sums(k * k, p * w), along = two_sums(p * d, v * d);
-  const Pair speed = firsts(of_w), toward = seconds(of_w), square = firsts(of_k), distance = seconds(of_k),
+  const Lanes k = cross(p, d), w = cross(v, d), moment = cross(k, w);
+  const Pair of_w = two_sums(w * w, k * w), of_k = two_sums(k * k, moment * moment), along = two_sums(p * d, v * d);
+  const Pair speed = firsts(of_w), toward = seconds(of_w), square = firsts(of_k), off = seconds(of_k),
              length = dot(d, d);
-  const Pair RR = R * R, reach = speed * RR, off = distance * distance, excess = square - RR * length;
-  const Pair half = root(max((reach - off) * length, both(0))), side = excess / (half - toward);
+  const Pair RR = R * R, reach = speed * (RR * length), excess = square - RR * length;
+  const Pair half = root(max(reach - off, both(0))), side = excess / (half - toward);
   const Pair at = firsts(along) + seconds(along) * side;  // along d, in squares of its length
   const PairMask pierces = off < reach * both(beside_graze), passes = reach < off * both(beside_graze);
   const PairMask beside = RR * length * both(more_than_rounding) < square,
@@ -35,11 +34,13 @@ THINWALL_HOT ClearSegmentEntry clear_segment_entry(const packed::Lanes& p, const
   const PairMask cap_clear = (cap.pierces() | cap.passes()) & (RR * both(more_than_rounding) < cap.square);
   const PairMask beyond = (firsts(along) < both(0)) | (length < firsts(along));
 
-  const PairMask misses_side = beside & (passes | (pierces & (both(0) <= toward)));
+  const PairMask parallel = speed <= both(0);
+  const PairMask misses_side = beside & (passes | parallel | (pierces & (both(0) <= toward)));
   const PairMask asks_cap = (within & beyond) | (meets & ((at < both(0)) | (length < at)));
   // seen from 2^14 R away a graze is not clear, nor is the place on a core of 2^10 R
   const PairMask in_range = cap.in_range() & (both(least_square) <= length) & (length * both(0x1p-20) <= RR) &
-                            (dot(p, p) * both(0x1p-28) <= RR) & (cap.speed * length * both(0x1p-60) <= speed);
+                            (dot(p, p) * both(0x1p-28) <= RR) &
+                            ((cap.speed * length * both(0x1p-60) <= speed) | parallel);
   const Pair time = select(meets & on_core, side, select(asks_cap & cap_meets, cap.time(), both(ClearEntry::never)));
   const Pair on = max(min((firsts(along) + seconds(along) * time) / length, both(1)), both(0));
   const bool clear = all_of(in_range & (misses_side | (meets & on_core) | (asks_cap & cap_clear)));

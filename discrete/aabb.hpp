@@ -149,6 +149,7 @@ struct ClearWayOut {
   }
 };
 
+/// Always clear within range: both rungs compare the same sums.
 THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Aabb<double>& b) {
   using packed::Lanes, packed::all;
   const Lanes x = packed::lanes(b.center) - packed::lanes(a.center), half_a = packed::lanes(a.half_extents);
@@ -165,11 +166,12 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<do
   const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
   const Pair r = both(sphere.radius), rr = r * r, square = dot(excess, excess), distance = root(square);
   const PairMask inside = square <= both(0);
-  const PairMask in_range = (inside | (both(least_square) <= square)) & (both(least_square) <= rr) &
-                            (max(rr, square) <= both(most_square)) & (both(0) <= r) & clearly_apart(square, rr);
+  const bool has_square = all_of(both(least_square) <= square) || all_of(abs(x) <= h);
+  const PairMask in_range =
+      (both(least_square) <= rr) & (max(rr, square) <= both(most_square)) & (both(0) <= r) & clearly_apart(square, rr);
   const ClearWayOut out(x, h);
   const Lanes outward = select(all(square) <= zero, out.normal, excess / all(distance));
-  return {both(all_of(in_range), all_of((abs(x) + h <= all(most_length)) & (zero <= h))),
+  return {both(both(all_of(in_range), has_square), all_of((abs(x) + h <= all(most_length)) & (zero <= h))),
           all_of(square < rr),
           zero,
           (zero - outward) * all(r),

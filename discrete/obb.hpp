@@ -141,11 +141,6 @@ struct ClearFrame {
   }
 };
 
-/// What the roundings of turning move places by, at most, in a box's own axes: three a component.
-THINWALL_HOT packed::Lanes clear_turning_noise(const packed::Lanes& p, const packed::Lanes& h) {
-  return all(sum(abs(p) + h) * packed::both(0x1p-49));
-}
-
 /// Row i of a matrix: the number that each axis has along i.
 THINWALL_HOT packed::Lanes clear_row(const Mat3<double>& axes, int i) {
   return lanes(packed::Pair{packed::Two{axes(i, 0), axes(i, 1)}}, packed::both(axes(i, 2)));
@@ -164,7 +159,7 @@ THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const p
     within = within & (distance <= reach - noise);
   });
   const bool overlaps = all_of(within), parted = any_of(apart);
-  return {both(both(all_of(in_range), orthonormal), overlaps || parted), overlaps};
+  return {both(both(all_of(in_range), boxes.in_range()), both(orthonormal, overlaps || parted)), overlaps};
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
@@ -191,7 +186,9 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
   const packed::LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(slabs.first), h), all(0) - h));
-  const bool sure = both(frame.clear(), slabs.clear_of(all(0), clear_turning_noise(start, h)));
+  const Lanes noise = clear_noise(start, h);
+  const bool in_range = all_of(all(1 / most_length) <= noise * all(0x1p48));
+  const bool sure = both(both(frame.clear(), in_range), slabs.clear_of(all(0), noise, ray.max_t));
   return {both(sure, ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first, center + frame.out_of(on_box),
           frame.out_of(keep(axis, against(all(1), v)))};
 }

@@ -20,6 +20,14 @@ struct ClearBoxAxes {
   packed::Lanes a, b;
   packed::Lanes noise;  ///< [length] of every place and reach
 
+  /// No number of the rows is so small, and not zero, that its products with lengths would underflow and part what overlaps.
+  THINWALL_HOT bool in_range() const {
+    const auto is_plain = [](const packed::Lanes& x) {
+      return (packed::all(0x1p-500) <= abs(x)) | (abs(x) <= packed::all(0));
+    };
+    return all_of(is_plain(row[0]) & is_plain(row[1]) & is_plain(row[2]));
+  }
+
   /// visit(along, reach, noise) of each group: `along` gives a vector's part along the three axes, `reach` how far both boxes reach
   /// along them together. The axes are a's, b's, and each of a's crossed with b's, which are not of unit length and may have none.
   template <class Visit> THINWALL_HOT void each_group(const Visit& visit) const {

@@ -1,9 +1,9 @@
 #pragma once
 /// The clear cases of ball_entry.hpp and rounded_box_entry.hpp, which are nearly all: the same arithmetic, without jumps.
 ///
-/// An entry is clear if no rounding decides it, no product over- or underflows and the start is outside. Every comparison is written
-/// so that what is not a number is not clear; docs/closed_forms.md has each filter and why it suffices. Where nothing is contracted
-/// into fused operations, a clear entry has the careful form's bits.
+/// An entry is clear if no rounding decides it, nothing that counts over- or underflows and the start is outside. Every comparison is
+/// written so that what is not a number is not clear; docs/closed_forms.md has each filter and why it suffices. Where nothing is
+/// contracted into fused operations, a clear entry that is not turned has the careful form's bits, but for ties.
 
 #include <thinwall/discrete/clear/lanes.hpp>
 
@@ -21,12 +21,14 @@ struct ClearEntry {
 
 /// Squares of lengths and displacements between which no product of four of them is out of range.
 inline constexpr double least_square = 0x1p-120, most_square = 0x1p120;
+/// Times above which no quotient has underflowed.
+inline constexpr double least_time = 0x1p-900;
 /// A path this part of the distance, squared, moves a time by less than 2^-14 for all roundings together.
 inline constexpr double short_path = 0x1p-50;
 /// Sums of lengths that slabs may have: they are compared and divided alone.
 inline constexpr double most_length = 0x1p60;
-/// A sum of squares is a dozen roundings off; where two differ by this factor, which is larger is clear, and a time's condition, which
-/// grows near a graze, is below 2^10.
+/// Farther from a graze than this a time's condition, which grows near it, is below 2^10, and a dozen roundings of a moment decide nothing
+/// unless it is of a path 2^40 radii off, where they are those of the coordinates.
 inline constexpr double beside_graze = 1 - 0x1p-10;
 /// Sums and quotients of a few terms are clear where they differ by this factor.
 inline constexpr double more_than_rounding = 1 + 0x1p-44;
@@ -36,7 +38,9 @@ THINWALL_HOT packed::PairMask clearly_apart(const packed::Pair& a, const packed:
 
 /// The line p + v t and the ball of radius R around the origin, by the moment p x v. Each number twice.
 struct ClearChord {
-  packed::Pair speed, toward, square, off, RR, reach, half;
+  packed::Pair speed, toward, square;  ///< v.v, p.v (negative: it approaches) and p.p
+  packed::Pair off, RR, reach;         ///< |p x v|^2, which is below v.v R^2 where the line pierces the ball
+  packed::Pair half;                   ///< half the chord times |v|
   packed::Lanes moment;
 
   THINWALL_HOT ClearChord(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R)
@@ -75,9 +79,11 @@ THINWALL_HOT packed::Lanes clear_face_normal(unsigned axes, const packed::Lanes&
 
 /// When p + v t is in the box [-h, h] widened by R, as if it moved downwards on every axis; not later than `until`.
 struct ClearSlabs {
-  packed::Lanes P, W, low, high, enter, leave;
-  packed::Pair first, last;
-  bool clear;  ///< which of the two is first, and that the start is outside
+  packed::Lanes P, W;          ///< the place and the speed so seen
+  packed::Lanes low, high;     ///< how far it is to where the slabs begin and end, not widened
+  packed::Lanes enter, leave;  ///< [1] when it is in the widened slabs
+  packed::Pair first, last;    ///< [1] when it is in all of them: last < first, never
+  bool clear;                  ///< which of the two is first, and that the start is outside
 
   THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
                           const packed::Lanes& R, double until)
@@ -92,35 +98,45 @@ struct ClearSlabs {
     using packed::all, packed::both;
     const packed::LanesMask in_range = (abs(p) + W + h <= all(most_length)) & (all(0) <= h) & (all(0) <= R);
     const packed::LanesMask outside = R * all(more_than_rounding) < abs(p) - h;
-    const packed::PairMask apart = abs(last) * both(more_than_rounding - 1) < abs(first - last);
-    clear = both(both(all_of(in_range), any_of(outside)), all_of(apart));
+    const packed::Pair between = abs(first - last);
+    const packed::PairMask apart =
+        (min(last, first) * both(more_than_rounding - 1) < between) & (both(least_time) < between);
+    clear =
+        both(both(all_of(in_range), any_of(outside)), all_of(apart & ((last < first) | (both(least_time) < first))));
   }
 
   /// The same where every length is off by up to `noise` > 0, as it is once p and v have been turned.
-  THINWALL_HOT bool clear_of(const packed::Lanes& R, const packed::Lanes& noise) const {
-    using packed::both;
-    const packed::Lanes off = noise / W;
-    const packed::PairMask shared = largest_of(enter + off) < smallest_of(leave - off);
-    const packed::PairMask never_shared = smallest_of(leave + off) < largest_of(enter - off);
+  THINWALL_HOT bool clear_of(const packed::Lanes& R, const packed::Lanes& noise, double until) const {
+    using packed::Lanes, packed::Pair, packed::all, packed::both;
+    const Lanes near = low - R, far = high + R, zero = all(0);
+    const Pair first_least = largest_of(max((near - noise) / W, zero)),
+               first_most = largest_of(max((near + noise) / W, zero));
+    const Pair last_least = smallest_of(min((far - noise) / W, all(until))),
+               last_most = smallest_of(min((far + noise) / W, all(until)));
     const packed::LanesMask outside = R + noise + noise < abs(P) - (high - P);
-    return both(both(clear, any_of(outside)), both(all_of(packed::all(0) < W), all_of(shared | never_shared)));
+    return both(both(clear, any_of(outside)), all_of((first_most < last_least) | (last_most < first_least)));
   }
 };
 
-/// The point p + v t and the box [-h, h] rounded by R > 0. Where the widened slabs are first shared the point is beside a face, which
-/// it meets then, or beside an edge or a corner, whose ball it meets, or passes, or leaves for the next part. The squared distance is
-/// convex: what passes a part while beside it is nowhere nearer.
-/// `turned`: p and v were, and every length is off by up to `noise`, which is at most 2^-20 of R where the box is not met on a face.
-template <bool turned = false>
+/// What roundings move a place of a path past a box by, at most: those of turning it into the box's axes, three a component, too.
+THINWALL_HOT packed::Lanes clear_noise(const packed::Lanes& p, const packed::Lanes& h) {
+  return all(sum(abs(p) + h) * packed::both(0x1p-48));
+}
+
+/// The point p + v t and the box [-h, h] rounded by R, which is 2^20 times the noise or more; `turned` if p and v were. Where the widened
+/// slabs are first shared the point is beside a face, which it meets then, or beside an edge or a corner, whose ball it meets, or
+/// passes, or leaves for the next part. The squared distance is convex: what passes a part while beside it is nowhere nearer.
+template <bool turned>
 THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
-                                        const packed::Pair& R, const packed::Lanes& noise = packed::all(0)) {
+                                        const packed::Pair& R) {
   using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
   const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
   const PairMask misses = slabs.last < slabs.first;
-  const Lanes X = slabs.P - all(slabs.first) * slabs.W;
+  const Lanes X = slabs.P - all(slabs.first) * slabs.W, noise = clear_noise(p, h);
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
-  const bool clear = turned ? slabs.clear_of(all(R), noise) : slabs.clear;
-  ClearEntry entry{both(clear, both(all_of(both(1 / most_length) <= R), (axes | bits(misses)) != 0)),
+  const LanesMask is_round = (noise * all(0x1p20) < all(R)) & (all(1 / most_length) <= all(R));
+  const bool clear = turned ? slabs.clear_of(all(R), noise, ClearEntry::never) : slabs.clear;
+  ClearEntry entry{both(clear, both(all_of(is_round), (axes | bits(misses)) != 0)),
                    select(misses, both(ClearEntry::never), slabs.first), clear_face_normal(axes, v)};
   if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
   const Lanes enter = slabs.low / slabs.W, leave = slabs.high / slabs.W;
@@ -134,12 +150,14 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const Pair root = chord.time();
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
     const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
-    const PairMask turns = both(0) < next * chord.speed + chord.toward * both(more_than_rounding);
+    // by then the point recedes; or as good as, within a rounding of a distance of at most 2^16 R
+    const PairMask turns = (both(0) < next * chord.speed + chord.toward * both(more_than_rounding)) |
+                           ((both(0) <= next * chord.speed + chord.toward * both(2 - more_than_rounding)) &
+                            (xy_of(noise) * both(0x1p32) < R));
     PairMask passes = stays_out & chord.passes() & turns;
     if (!turned) passes = passes | (stays_out & (slabs.last < next));
     const PairMask decided = (meets | passes) & chord.in_range();
     if (all_of(decided)) {
-      if (turned) entry.clear = both(entry.clear, all_of(noise * all(0x1p20) < all(R)));
       entry.time = select(meets, max(root, now), both(ClearEntry::never));
       entry.normal = against(chord.normal(w), v);
       return entry;

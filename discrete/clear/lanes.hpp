@@ -201,12 +201,6 @@ THINWALL_HOT Pair smallest_of(const Lanes& a) {
   return min(firsts(two), seconds(two));
 }
 
-/// All bits, or none.
-THINWALL_HOT LanesMask whether(bool yes) {
-  const Bits each = -static_cast<Bits>(yes);
-  return lanes(each, each, each);
-}
-
 /// All bits of the lane of the lowest bit set.
 THINWALL_HOT LanesMask lowest(unsigned which) {
   static constexpr LanesMask x = lanes(-1, 0, 0), y = lanes(0, -1, 0), none = lanes(0, 0, 0);

@@ -36,7 +36,7 @@ struct ClearAxis {
   unsigned bit_a, edge_a;   ///< the bit of a's axis; the same for a product, else 0
   unsigned edge_b;          ///< of b's in a product, else 0
   std::ptrdiff_t column_b;  ///< where b's axis begins
-  bool alone;
+  bool alone;               ///< not of the last, which stands for several at once
 
   /// The axis of the one bit set in `axes`; not `alone` if there are more, or none.
   THINWALL_HOT static const ClearAxis& of(unsigned axes) {
@@ -85,7 +85,7 @@ struct ClearBoxes {
     });
     const Pair first = largest_of(times.in_least), last = smallest_of(times.out_most);
     const Pair first_most = largest_of(times.in_most), last_least = smallest_of(times.out_least);
-    clear = in_range, time = both(ClearEntry::never), normal = from_a = zero;
+    clear = both(in_range, boxes.in_range()), time = both(ClearEntry::never), normal = from_a = zero;
     if (all_of(last < first)) return;
 
     const Lanes near = all(first);
@@ -113,7 +113,7 @@ struct ClearBoxes {
     from_a = select(is_own, corner_b, select(is_its, to_a, to_a + on_edge));
     const LanesMask one_corner =
         ((level < ha * abs(n)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
-    clear = both(both(in_range, both(k.alone, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
+    clear = both(both(clear, both(k.alone, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
   }
 };
 

@@ -27,8 +27,13 @@ struct ClearToi {
     return toi;
   }
 };
-/// Whether a contact comes within the step is the careful rung's to say where it comes this near the end.
+/// Whether a contact comes within the step is the careful rung's to say where it comes this near the end; and where it is nearer than
+/// what roundings move it by, `noise` [length] over the closing speed along its normal.
 inline constexpr double near_end = 0x1p-10;
+THINWALL_HOT bool clear_of_end(const packed::Pair& time, const packed::Pair& closing, const packed::Pair& noise) {
+  using packed::both;
+  return all_of((both(2) < time) | (closing * both(near_end) + noise < closing * abs(time - both(1))));
+}
 THINWALL_HOT bool clear_of_end(const packed::Pair& time) {
   return all_of(packed::both(near_end) < abs(time - packed::both(1)));
 }
@@ -51,8 +56,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& box, const Moving
   const double r = sphere.shape.radius;
   const packed::Lanes center = packed::lanes(sphere.shape.center), path = packed::lanes(sphere.displacement);
   const ClearEntry entry =
-      clear_box_entry(center - packed::lanes(box.shape.center), path - packed::lanes(box.displacement),
-                      packed::lanes(box.shape.half_extents), packed::both(r + gap));
+      clear_box_entry<false>(center - packed::lanes(box.shape.center), path - packed::lanes(box.displacement),
+                             packed::lanes(box.shape.half_extents), packed::both(r + gap));
   return {packed::both(entry.clear, packed::both(clear_sizes(r, r, gap), clear_of_end(entry.time))), entry.time,
           entry.normal, (center + path * all(entry.time)) - entry.normal * packed::all(r + gap / 2), entry.rounds};
 }
@@ -70,22 +75,24 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
           clear_face_normal(bits(time <= slabs.enter), v), point};
 }
 
-/// As against an aligned box, in the box's own axes; and the time once more by the plane of contact, whose normal is the world's: turned
-/// coordinates have three roundings each, and those that do not count along the normal go.
+/// As against an aligned box, in the box's own axes; and the time once more by the plane of contact, whose normal n is the world's, and g in
+/// the box's: turned coordinates have three roundings each, and those that do not count along the normal go.
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
   using packed::Lanes, packed::Pair, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
   const ClearFrame frame(box.shape.axes);
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), h = lanes(box.shape.half_extents);
   const Lanes p = center - lanes(box.shape.center), v = path - lanes(box.displacement);
-  const ClearEntry entry =
-      clear_box_entry<true>(frame.into(p), frame.into(v), h, both(r + gap), clear_turning_noise(p, h));
-  const Lanes normal = frame.out_of(entry.normal);
-  const Pair toward = two_sums(normal * p, normal * v), reach = both(r + gap) + dot(abs(entry.normal), h);
-  const Pair time = select(entry.time < both(ClearEntry::never),
-                           max((reach - firsts(toward)) / seconds(toward), both(0)), both(ClearEntry::never));
-  const bool sure = both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), clear_of_end(time)));
-  return {sure, time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
+  const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), h, both(r + gap));
+  const Lanes n = frame.out_of(entry.normal), g = frame.into(n);
+  const Pair toward = two_sums(n * p, n * v), sums = two_sums(n * n, abs(g) * h), length = root(firsts(sums));
+  const Pair closing = both(0) - seconds(toward);
+  const Pair plane = (firsts(toward) - (both(r + gap) * length + seconds(sums))) / closing;
+  const Pair time = select(entry.time < both(ClearEntry::never), max(plane, both(0)), both(ClearEntry::never));
+  const bool in_time = clear_of_end(time, closing, sum(abs(p) + h) * both(0x1p-44));
+  const Lanes normal = n / all(length);
+  return {both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), in_time)), time, normal,
+          (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Sphere<double>>& sphere,
@@ -93,20 +100,24 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
   using packed::Lanes, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius, s = capsule.shape.radius;
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
-  const ClearEntry entry =
-      clear_segment_entry(center - a, path - lanes(capsule.displacement), lanes(capsule.shape.b) - a, both(r + s + gap))
-          .entry;
-  return {both(entry.clear, both(clear_sizes(r, s, gap), clear_of_end(entry.time))), entry.time, entry.normal,
+  const Lanes p = center - a, v = path - lanes(capsule.displacement), core = lanes(capsule.shape.b) - a;
+  const ClearEntry entry = clear_segment_entry(p, v, core, both(r + s + gap)).entry;
+  const bool in_time =
+      clear_of_end(entry.time, both(0) - dot(entry.normal, v), sum(abs(p) + abs(core)) * both(0x1p-44));
+  return {both(entry.clear, both(clear_sizes(r, s, gap), in_time)), entry.time, entry.normal,
           (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& b, const Moving<Aabb<double>>& a, double gap) {
   using packed::Lanes, packed::all, packed::both, packed::lanes;
   const Lanes center = lanes(a.shape.center), path = lanes(a.displacement);
-  const ClearBoxes boxes(a.shape, b.shape, lanes(b.shape.center) - center, lanes(b.displacement) - path);
-  const packed::Pair& time = boxes.time;
-  return {both(both(boxes.clear, gap == 0), clear_of_end(time)), time, all(0) - boxes.normal,
-          (center + path * all(time)) + boxes.from_a};
+  const Lanes between = lanes(b.shape.center) - center, v = lanes(b.displacement) - path;
+  const ClearBoxes boxes(a.shape, b.shape, between, v);
+  const Lanes sizes = lanes(a.shape.half_extents) + lanes(b.shape.half_extents);
+  const bool in_time =
+      clear_of_end(boxes.time, both(0) - dot(boxes.normal, v), sum(abs(between) + sizes) * both(0x1p-44));
+  return {both(both(boxes.clear, gap == 0), in_time), boxes.time, all(0) - boxes.normal,
+          (center + path * all(boxes.time)) + boxes.from_a};
 }
 
 /// This pair has a clear rung.

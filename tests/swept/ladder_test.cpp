@@ -66,7 +66,7 @@ template <class A, class B> bool agrees_if_clear(const Motion<A, B>& motion, dou
   const Toi<double> clear = rung.toi(), careful = careful_impact(ClosedForm<double>{gap}, motion.a, motion.b);
   EXPECT_EQ(clear.status, careful.status) << clear.time << " " << careful.time;
   const double size = magnitude(motion.a) + magnitude(motion.b) + gap;
-  const double closing = std::abs(clear.normal.dot(motion.b.displacement - motion.a.displacement));
+  const double closing = std::abs(careful.normal.dot(motion.b.displacement - motion.a.displacement));
   const double off = clear.status == ToiStatus::hit ? 4 * u * size / closing : 0;
   EXPECT_NEAR(clear.time, careful.time, off);
   if (clear.status != ToiStatus::hit) return true;
@@ -76,6 +76,10 @@ template <class A, class B> bool agrees_if_clear(const Motion<A, B>& motion, dou
   };
   EXPECT_NEAR(from_point(motion.a), gap / 2, 16 * u * size + off * paths);
   EXPECT_NEAR(from_point(motion.b), gap / 2, 16 * u * size + off * paths);
+  const double round = skin_radius(motion.a.shape) + skin_radius(motion.b.shape) + gap;
+  if (round > 0) {  // where there is none, two slabs that open at once have a normal each
+    EXPECT_LE((clear.normal - careful.normal).cwiseAbs().maxCoeff(), 0x1p-20 + 2 * off * paths / round);
+  }
   return true;
 }
 
@@ -86,6 +90,72 @@ TYPED_TEST(Ladder, clear_decides_the_shots_of_a_scene) {
     clear += agrees_if_clear(everyday_shot<typename TypeParam::First, typename TypeParam::Second>(draw), 0.0) ? 1U : 0U;
   }
   EXPECT_GE(static_cast<double>(clear), 0.99 * static_cast<double>(cases));
+}
+
+/// The same shot straight along an axis, as things fall; boxes upright.
+template <class A, class B> Motion<A, B> straight_shot(Shaker<double>& draw) {
+  Motion<A, B> motion = everyday_shot<A, B>(draw);
+  if constexpr (std::is_same_v<A, Turned>) motion.a.shape.axes.setIdentity();
+  if constexpr (std::is_same_v<A, Rod>) motion.a.shape.b = motion.a.shape.a + V(0, 0, 0.5);
+  const V at = center(motion.a.shape) - center(motion.b.shape);
+  motion.a.displacement.setZero();
+  motion.b.displacement.setZero();
+  const int axis = std::is_same_v<A, Rod> && draw.pick(0, 1) == 0 ? 2 : draw.pick(0, 2);
+  motion.b.displacement[axis] = (draw.pick(0, 1) == 0 ? 4 : -4) + draw.plain();
+  motion.b.shape =
+      moved<double>(motion.b.shape, V(at - motion.b.displacement * 0.7 + V(draw.plain(), draw.plain(), draw.plain())));
+  return motion;
+}
+
+TYPED_TEST(Ladder, clear_decides_what_falls_straight) {
+  using A = typename TypeParam::First;
+  using B = typename TypeParam::Second;
+  if constexpr (std::is_same_v<A, Turned> && std::is_same_v<B, Box>) {
+    GTEST_SKIP() << "faces that are level are the careful rung's";
+  }
+  Shaker<double> draw(31);
+  std::size_t clear = 0, apart = 0;
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Motion<A, B> motion = straight_shot<A, B>(draw);
+    if (overlaps(motion.a.shape, motion.b.shape)) continue;
+    ++apart;
+    clear += agrees_if_clear(motion, 0.0) ? 1U : 0U;
+  }
+  EXPECT_GE(static_cast<double>(clear), 0.99 * static_cast<double>(apart));
+}
+
+/// Odd sizes and places: a speck far off, a long way along a rod, a graze or a stop within the noise, next to nothing as a number.
+template <class A, class B> Motion<A, B> odd_motion(Shaker<double>& draw) {
+  Motion<A, B> motion = everyday_shot<A, B>(draw);
+  const auto shrink = [&](auto& shape) {
+    if constexpr (requires { shape.radius; }) shape.radius *= power<double>(-draw.pick(0, 60));
+    if constexpr (requires { shape.half_extents; })
+      shape.half_extents[draw.pick(0, 2)] *= power<double>(-draw.pick(0, 1000));
+    if constexpr (requires { shape.axes; }) {
+      if (draw.pick(0, 3) == 0) shape.axes.setIdentity();
+      if (draw.pick(0, 3) == 0) shape.axes(draw.pick(0, 2), draw.pick(0, 2)) += power<double>(-draw.pick(40, 1074));
+    }
+  };
+  shrink(motion.a.shape);
+  shrink(motion.b.shape);
+  const Separation<double> there = separation(pose_at(motion.a, 0.9), pose_at(motion.b, 0.9));
+  if (draw.pick(0, 1) == 0) motion.b.shape = moved<double>(motion.b.shape, there.normal * -there.distance);
+  if (draw.pick(0, 2) == 0) {  // far, or shallow
+    const V motion_of_b = motion.b.displacement - motion.a.displacement;
+    const double farther = power<double>(draw.pick(0, 14));
+    motion.b.shape = moved<double>(motion.b.shape, motion_of_b * (0.9 - 0.9 * farther));
+    motion.b.displacement = motion.a.displacement + motion_of_b * farther;
+  }
+  if (draw.pick(0, 3) == 0) motion.b.displacement[draw.pick(0, 2)] = motion.a.displacement[0] = 0;
+  return motion;
+}
+
+TYPED_TEST(Ladder, clear_and_careful_agree_on_odd_motions) {
+  Shaker<double> draw(37);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const auto motion = odd_motion<typename TypeParam::First, typename TypeParam::Second>(draw);
+    if (valid(motion.a) && valid(motion.b)) agrees_if_clear(motion, 0.0);
+  }
 }
 
 TYPED_TEST(Ladder, clear_and_careful_agree_on_motions_drawn_to_go_wrong) {
@@ -273,7 +343,7 @@ TEST(LadderAtOneInstant, rays_agree) {
     EXPECT_EQ(clear.has_value(), door.has_value());
     if (!clear || !careful || !door) return 1U;
     const double size = magnitude(ray) + magnitude(shape);
-    EXPECT_NEAR(clear->t, careful->t, 4 * u * size / std::abs(clear->normal.dot(ray.direction)));
+    EXPECT_NEAR(clear->t, careful->t, 4 * u * size / std::abs(careful->normal.dot(ray.direction)));
     EXPECT_EQ(clear->t, door->t);
     return 1U;
   };
