@@ -247,6 +247,24 @@ TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps,
   EXPECT_TRUE(is_sure({-4, 3, 2}, {8, 0, 0}));
 }
 
+TEST(LadderFilters,
+     an_end_within_the_noise_of_a_creep_is_careful) {  // a hundredth of the gap beside it, which is a few roundings
+  const auto creep = [](double gap) {
+    const Moving<Ball> ball{{{-2 - gap, 0, 0}, 1}, {gap * 1.01, 0, 0}};
+    return clear_impact(at_rest(Turned{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}), ball, 0).clear;
+  };
+  EXPECT_FALSE(creep(0x1p-43));
+  EXPECT_TRUE(creep(0x1p-20));
+}
+
+TEST(LadderFilters,
+     quotients_that_underflow_are_careful) {  // the slabs of x and y open both at zero, as far as double tells
+  const Box plate{{0, 0, 0}, {1, 1e-300, 1}};
+  const V above(0, std::nextafter(1e-300, 1.0), 0), by(1, -1e12, 0);
+  EXPECT_FALSE(clear_raycast(Ray<double>{above, by}, plate).clear);
+  EXPECT_FALSE(is_clear(plate, {Box{above, {0, 0, 0}}, by}));
+}
+
 TEST(LadderFilters, axes_that_are_off_are_careful) {  // by more than a few roundings
   Turned box{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
   const auto is_sure = [&] {
