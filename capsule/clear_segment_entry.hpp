@@ -23,22 +23,22 @@ THINWALL_HOT ClearSegmentEntry clear_segment_entry(const packed::Lanes& p, const
   const Pair RR = R * R, reach = speed * (RR * length), excess = square - RR * length;
   const Pair half = root(max(reach - off, both(0))), side = excess / (half - toward);
   const Pair at = firsts(along) + seconds(along) * side;  // along d, in squares of its length
-  const PairMask pierces = off < reach * both(beside_graze), passes = reach < off * both(beside_graze);
-  const PairMask beside = RR * length * both(more_than_rounding) < square,
-                 within = square * both(more_than_rounding) < RR * length;
+  const PairMask pierces = off < reach * both(packed::beside_graze), passes = reach < off * both(packed::beside_graze);
+  const PairMask beside = RR * length * both(packed::more_than_rounding) < square,
+                 within = square * both(packed::more_than_rounding) < RR * length;
   const PairMask on_core = (both(0) <= at) & (at <= length), meets = beside & pierces & (toward < both(0));
   // the cap
   const PairMask far_end = length < both(2) * select(within, firsts(along), at);
   const ClearChord cap(p - all(keep(far_end, both(1))) * d, v, R);
   const PairMask cap_meets = cap.pierces() & cap.approaches();
-  const PairMask cap_clear = (cap.pierces() | cap.passes()) & (RR * both(more_than_rounding) < cap.square);
+  const PairMask cap_clear = (cap.pierces() | cap.passes()) & (RR * both(packed::more_than_rounding) < cap.square);
   const PairMask beyond = (firsts(along) < both(0)) | (length < firsts(along));
 
   const PairMask parallel = speed <= both(0);
   const PairMask misses_side = beside & (passes | parallel | (pierces & (both(0) <= toward)));
   const PairMask asks_cap = (within & beyond) | (meets & ((at < both(0)) | (length < at)));
   // seen from 2^14 R away a graze is not clear, nor is the place on a core of 2^10 R
-  const PairMask in_range = cap.in_range() & (both(least_square) <= length) & (length * both(0x1p-20) <= RR) &
+  const PairMask in_range = cap.in_range() & (both(packed::least_square) <= length) & (length * both(0x1p-20) <= RR) &
                             (dot(p, p) * both(0x1p-28) <= RR) &
                             ((cap.speed * length * both(0x1p-60) <= speed) | parallel);
   const Pair time = select(meets & on_core, side, select(asks_cap & cap_meets, cap.time(), both(ClearEntry::never)));

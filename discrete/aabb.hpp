@@ -155,7 +155,7 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Aabb<double
   const Lanes x = packed::lanes(b.center) - packed::lanes(a.center), half_a = packed::lanes(a.half_extents);
   const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
   const ClearWayOut out(x, h);
-  const packed::LanesMask in_range = (abs(x) + h <= all(most_length)) & (zero <= min(half_a, half_b));
+  const packed::LanesMask in_range = (abs(x) + h <= all(packed::most_length)) & (zero <= min(half_a, half_b));
   return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal,
           out.depth};  // decided without a rounding of its own
 }
@@ -166,12 +166,12 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<do
   const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
   const Pair r = both(sphere.radius), rr = r * r, square = dot(excess, excess), distance = root(square);
   const PairMask inside = square <= both(0);
-  const bool has_square = all_of(both(least_square) <= square) || all_of(abs(x) <= h);
-  const PairMask in_range =
-      (both(least_square) <= rr) & (max(rr, square) <= both(most_square)) & (both(0) <= r) & clearly_apart(square, rr);
+  const bool has_square = all_of(both(packed::least_square) <= square) || all_of(abs(x) <= h);
+  const PairMask in_range = (both(packed::least_square) <= rr) & (max(rr, square) <= both(packed::most_square)) &
+                            (both(0) <= r) & clearly_apart(square, rr);
   const ClearWayOut out(x, h);
   const Lanes outward = select(all(square) <= zero, out.normal, excess / all(distance));
-  return {both(both(all_of(in_range), has_square), all_of((abs(x) + h <= all(most_length)) & (zero <= h))),
+  return {both(both(all_of(in_range), has_square), all_of((abs(x) + h <= all(packed::most_length)) & (zero <= h))),
           all_of(square < rr),
           zero,
           (zero - outward) * all(r),

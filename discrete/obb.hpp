@@ -152,7 +152,7 @@ THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const p
   using packed::Lanes, packed::LanesMask, packed::all, packed::both;
   const ClearSpread d(between);
   LanesMask apart = all(1) < all(0), within = all(0) <= min(boxes.a, boxes.b);
-  const LanesMask in_range = within & (size <= all(most_length)) & (all(1 / most_length) <= size);
+  const LanesMask in_range = within & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
   boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise) {
     const Lanes distance = abs(along(d));
     apart = apart | (reach + noise < distance);
@@ -187,7 +187,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const packed::LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(slabs.first), h), all(0) - h));
   const Lanes noise = clear_noise(start, h);
-  const bool in_range = all_of(all(1 / most_length) <= noise * all(0x1p48));
+  const bool in_range = all_of(all(1 / packed::most_length) <= noise * all(0x1p48));
   const bool sure = both(both(frame.clear(), in_range), slabs.clear_of(all(0), noise, ray.max_t));
   return {both(sure, ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first, center + frame.out_of(on_box),
           frame.out_of(keep(axis, against(all(1), v)))};

@@ -64,7 +64,8 @@ THINWALL_HOT ClearContact clear_contact(const Sphere<double>& a, const Sphere<do
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center);
   const Pair R = both(a.radius + b.radius), RR = R * R, square = dot(between, between), distance = root(square);
   const packed::Lanes normal = between / all(distance);
-  const PairMask in_range = (both(least_square) <= min(RR, square)) & (max(RR, square) <= both(most_square)) &
+  const PairMask in_range = (both(packed::least_square) <= min(RR, square)) &
+                            (max(RR, square) <= both(packed::most_square)) &
                             (both(0) <= min(both(a.radius), both(b.radius)));
   return {all_of(in_range & clearly_apart(square, RR)),
           all_of(square < RR),

@@ -19,6 +19,9 @@ struct ClearEntry {
   int rounds = 1;        ///< how many closed forms were solved, as the careful form counts
 };
 
+// ---- What the filters compare with.
+
+namespace packed {
 /// Squares of lengths and displacements between which no product of four of them is out of range.
 inline constexpr double least_square = 0x1p-120, most_square = 0x1p120;
 /// Times above which no quotient has underflowed.
@@ -32,8 +35,12 @@ inline constexpr double most_length = 0x1p60;
 inline constexpr double beside_graze = 1 - 0x1p-10;
 /// Sums and quotients of a few terms are clear where they differ by this factor.
 inline constexpr double more_than_rounding = 1 + 0x1p-44;
+/// Whether a contact comes within the step is the careful rung's to say where it comes this near the end.
+inline constexpr double near_end = 0x1p-10;
+}  // namespace packed
+
 THINWALL_HOT packed::PairMask clearly_apart(const packed::Pair& a, const packed::Pair& b) {
-  return (a * packed::both(more_than_rounding) < b) | (b * packed::both(more_than_rounding) < a);
+  return (a * packed::both(packed::more_than_rounding) < b) | (b * packed::both(packed::more_than_rounding) < a);
 }
 
 /// The line p + v t and the ball of radius R around the origin, by the moment p x v. Each number twice.
@@ -52,11 +59,11 @@ struct ClearChord {
   }
   THINWALL_HOT packed::PairMask in_range() const {
     using packed::both;
-    return (both(least_square) <= min(RR, speed)) & (max(square, speed) <= both(most_square)) &
-           (square * both(short_path) < speed);
+    return (both(packed::least_square) <= min(RR, speed)) & (max(square, speed) <= both(packed::most_square)) &
+           (square * both(packed::short_path) < speed);
   }
-  THINWALL_HOT packed::PairMask pierces() const { return off < reach * packed::both(beside_graze); }
-  THINWALL_HOT packed::PairMask passes() const { return reach < off * packed::both(beside_graze); }
+  THINWALL_HOT packed::PairMask pierces() const { return off < reach * packed::both(packed::beside_graze); }
+  THINWALL_HOT packed::PairMask passes() const { return reach < off * packed::both(packed::beside_graze); }
   THINWALL_HOT packed::PairMask approaches() const { return toward < packed::both(0); }
   THINWALL_HOT packed::Pair time() const { return (square - RR) / (half - toward); }
   THINWALL_HOT packed::Lanes normal(const packed::Lanes& v) const { return unit(cross(v, moment) - v * all(half)); }
@@ -66,7 +73,7 @@ struct ClearChord {
 THINWALL_HOT ClearEntry clear_ball_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R) {
   using packed::both;
   const ClearChord chord(p, v, R);
-  const packed::PairMask outside = chord.RR * both(more_than_rounding) < chord.square;
+  const packed::PairMask outside = chord.RR * both(packed::more_than_rounding) < chord.square;
   const packed::PairMask pierces = chord.pierces();
   return {all_of(chord.in_range() & outside & (pierces | chord.passes())),
           select(pierces & chord.approaches(), chord.time(), both(ClearEntry::never)), chord.normal(v)};
@@ -96,13 +103,13 @@ struct ClearSlabs {
         first(largest_of(enter)),
         last(smallest_of(leave)) {
     using packed::all, packed::both;
-    const packed::LanesMask in_range = (abs(p) + W + h <= all(most_length)) & (all(0) <= h) & (all(0) <= R);
-    const packed::LanesMask outside = R * all(more_than_rounding) < abs(p) - h;
+    const packed::LanesMask in_range = (abs(p) + W + h <= all(packed::most_length)) & (all(0) <= h) & (all(0) <= R);
+    const packed::LanesMask outside = R * all(packed::more_than_rounding) < abs(p) - h;
     const packed::Pair between = abs(first - last);
     const packed::PairMask apart =
-        (min(last, first) * both(more_than_rounding - 1) < between) & (both(least_time) < between);
-    clear =
-        both(both(all_of(in_range), any_of(outside)), all_of(apart & ((last < first) | (both(least_time) < first))));
+        (min(last, first) * both(packed::more_than_rounding - 1) < between) & (both(packed::least_time) < between);
+    clear = both(both(all_of(in_range), any_of(outside)),
+                 all_of(apart & ((last < first) | (both(packed::least_time) < first))));
   }
 
   /// The same where every length is off by up to `noise` > 0, as it is once p and v have been turned.
@@ -134,7 +141,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const PairMask misses = slabs.last < slabs.first;
   const Lanes X = slabs.P - all(slabs.first) * slabs.W, noise = clear_noise(p, h);
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
-  const LanesMask is_round = (noise * all(0x1p20) < all(R)) & (all(1 / most_length) <= all(R));
+  const LanesMask is_round = (noise * all(0x1p20) < all(R)) & (all(1 / packed::most_length) <= all(R));
   const bool clear = turned ? slabs.clear_of(all(R), noise, ClearEntry::never) : slabs.clear;
   ClearEntry entry{both(clear, both(all_of(is_round), (axes | bits(misses)) != 0)),
                    select(misses, both(ClearEntry::never), slabs.first), clear_face_normal(axes, v)};
@@ -151,8 +158,8 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
     const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
     // by then the point recedes; or as good as, within a rounding of a distance of at most 2^16 R
-    const PairMask turns = (both(0) < next * chord.speed + chord.toward * both(more_than_rounding)) |
-                           ((both(0) <= next * chord.speed + chord.toward * both(2 - more_than_rounding)) &
+    const PairMask turns = (both(0) < next * chord.speed + chord.toward * both(packed::more_than_rounding)) |
+                           ((both(0) <= next * chord.speed + chord.toward * both(2 - packed::more_than_rounding)) &
                             (xy_of(noise) * both(0x1p32) < R));
     PairMask passes = stays_out & chord.passes() & turns;
     if (!turned) passes = passes | (stays_out & (slabs.last < next));

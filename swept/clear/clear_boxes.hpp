@@ -68,7 +68,8 @@ struct ClearBoxes {
     const ClearFrame frame(b.axes);
     const Lanes size = all(sum((abs(between) + abs(v)) + (ha + hb)));
     const bool in_range = both(
-        all_of((size <= all(most_length)) & (zero <= min(ha, hb)) & (all(1 / most_length) <= size)), frame.clear());
+        all_of((size <= all(packed::most_length)) & (zero <= min(ha, hb)) & (all(1 / packed::most_length) <= size)),
+        frame.clear());
     const ClearBoxAxes boxes{
         {clear_row(b.axes, 0), clear_row(b.axes, 1), clear_row(b.axes, 2)}, ha, hb, size * all(0x1p-46)};
 

@@ -27,15 +27,14 @@ struct ClearToi {
     return toi;
   }
 };
-/// Whether a contact comes within the step is the careful rung's to say where it comes this near the end; and where it is nearer than
-/// what roundings move it by, `noise` [length] over the closing speed along its normal.
-inline constexpr double near_end = 0x1p-10;
+/// Whether a time is not near the end of the step; nor nearer to it than what roundings move it by, `noise` [length] over the closing
+/// speed along its normal.
 THINWALL_HOT bool clear_of_end(const packed::Pair& time, const packed::Pair& closing, const packed::Pair& noise) {
   using packed::both;
-  return all_of((both(2) < time) | (closing * both(near_end) + noise < closing * abs(time - both(1))));
+  return all_of((both(2) < time) | (closing * both(packed::near_end) + noise < closing * abs(time - both(1))));
 }
 THINWALL_HOT bool clear_of_end(const packed::Pair& time) {
-  return all_of(packed::both(near_end) < abs(time - packed::both(1)));
+  return all_of(packed::both(packed::near_end) < abs(time - packed::both(1)));
 }
 /// No radius and no gap is negative, or not a number.
 THINWALL_HOT bool clear_sizes(double r, double s, double gap) {
