@@ -2,6 +2,7 @@
 /// The front door of every time of impact: puts the later shape first (and flips the answer back), checks the input, keeps
 /// coordinates near the largest number from overflowing, computes a float query in double; and of the closed form, the ladder.
 
+#include <algorithm>
 #include <type_traits>
 
 #include <thinwall/swept/clear/clear_impact.hpp>
@@ -35,10 +36,25 @@ THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const 
   }
 }
 
-/// The careful rung, out of the way of the clear one.
+template <class Method, Shape A, Shape B>
+THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, const Moving<A>& a, const Moving<B>& b);
+
+/// The careful rung, out of the way of the clear one. What the latter left for its size alone climbs the ladder again at a size near 1,
+/// so that the unit of length changes no bit.
 template <Shape A, Shape B>
-[[gnu::noinline]] Toi<double> careful_impact(const ClosedForm<double>& method, const Moving<A>& a, const Moving<B>& b) {
-  return checked_impact(method, a, b);
+[[gnu::noinline]] Toi<double> careful_impact(ClosedForm<double> method, const Moving<A>& a, const Moving<B>& b) {
+  const auto extent = [](const auto& shape) { return center(shape).cwiseAbs().sum() + half_widths(shape).sum(); };
+  const double lengths = extent(a.shape) + extent(b.shape),
+               paths = a.displacement.cwiseAbs().sum() + b.displacement.cwiseAbs().sum();
+  const double size = std::max(lengths, paths);
+  const bool alike = 0x1p-60 * size < std::min(lengths, paths);  // else a power of two would flush some
+  const bool out_of_range = (size > 0 && size < 0x1p-50) || (size > 0x1p50 && is_finite(size));
+  if (!alike || !out_of_range) return checked_impact(method, a, b);
+  const int e = binary_exponent(size);
+  method.min_separation = times_power_of_two(method.min_separation, -e);
+  Toi<double> toi = impact_by_ladder(method, scaled(a, -e), scaled(b, -e));
+  toi.point = times_power_of_two(toi.point, e);
+  return toi;
 }
 
 /// The closed form's ladder. The clear rung answers in plain arithmetic what no rounding can decide (swept/clear/, discrete/clear/):
