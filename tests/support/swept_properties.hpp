@@ -2,6 +2,7 @@
 /// What the closed form must fulfil for any two moving shapes, against the oracle.
 
 #include <thinwall/swept/swept_volume.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
 
 #include "support/discrete_properties.hpp"
 #include "support/draw.hpp"
