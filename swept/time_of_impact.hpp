@@ -36,25 +36,23 @@ THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const 
   }
 }
 
-template <class Method, Shape A, Shape B>
-THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, const Moving<A>& a, const Moving<B>& b);
-
-/// The careful rung, out of the way of the clear one. What the latter left for its size alone climbs the ladder again at a size near 1,
-/// so that the unit of length changes no bit.
+/// The careful rung, out of the way of the clear one; which is asked once more, at a size near 1, what it left for its size alone, so that the
+/// unit of length changes no bit.
 template <Shape A, Shape B>
-[[gnu::noinline]] Toi<double> careful_impact(ClosedForm<double> method, const Moving<A>& a, const Moving<B>& b) {
+[[gnu::noinline]] Toi<double> careful_impact(const ClosedForm<double>& method, const Moving<A>& a, const Moving<B>& b) {
   const auto extent = [](const auto& shape) { return center(shape).cwiseAbs().sum() + half_widths(shape).sum(); };
   const double lengths = extent(a.shape) + extent(b.shape),
                paths = a.displacement.cwiseAbs().sum() + b.displacement.cwiseAbs().sum();
   const double size = std::max(lengths, paths);
-  const bool alike = 0x1p-60 * size < std::min(lengths, paths);  // else a power of two would flush some
-  const bool out_of_range = (size > 0 && size < 0x1p-50) || (size > 0x1p50 && is_finite(size));
-  if (!alike || !out_of_range) return checked_impact(method, a, b);
-  const int e = binary_exponent(size);
-  method.min_separation = times_power_of_two(method.min_separation, -e);
-  Toi<double> toi = impact_by_ladder(method, scaled(a, -e), scaled(b, -e));
-  toi.point = times_power_of_two(toi.point, e);
-  return toi;
+  const bool alike = 0x1p-60 * size < std::min(lengths, paths);  // what a power of two flushes is nothing beside them
+  if (alike && is_finite(size) && (size < 0x1p-50 || size > 0x1p50)) {
+    const int e = binary_exponent(size);
+    const ClearToi answer = clear_impact(scaled(a, -e), scaled(b, -e), times_power_of_two(method.min_separation, -e));
+    Toi<double> toi = answer.toi();
+    toi.point = times_power_of_two(toi.point, e);
+    if (answer.clear) return toi;
+  }
+  return checked_impact(method, a, b);
 }
 
 /// The closed form's ladder. The clear rung answers in plain arithmetic what no rounding can decide (swept/clear/, discrete/clear/):
