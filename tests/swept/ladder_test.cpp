@@ -307,6 +307,12 @@ TEST(LadderFilters, what_is_no_question_or_out_of_range_is_careful) {
   EXPECT_FALSE(is_clear(ball(-4, 1, 0), Ball{{0, 0, 0}, 1}));
 }
 
+TEST(LadderFilters, a_size_below_zero_is_invalid_however_small_beside_the_rest) {
+  const Moving<Ball> a{{{-0x1p+900, 0, 0}, 0x1p+890}, {0x1p+901, 0, 0}}, b{{{0, 0, 0}, -0x1p-606}, {0, 0, 0}};
+  EXPECT_EQ(time_of_impact(a, b).status, ToiStatus::invalid);
+  EXPECT_EQ(time_of_impact(ClosedForm<double>{-0x1p-606}, a, a).status, ToiStatus::invalid);
+}
+
 // ---- The same of the queries at one instant.
 
 TEST(LadderAtOneInstant, contacts_agree) {
