@@ -16,32 +16,28 @@ struct ClearSegmentEntry {
 THINWALL_HOT ClearSegmentEntry clear_segment_entry(const packed::Lanes& p, const packed::Lanes& v,
                                                    const packed::Lanes& d, const packed::Pair& R) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::both, packed::all;
-  const Lanes k = cross(p, d), w = cross(v, d), moment = cross(k, w);
-  const Pair of_w = two_sums(w * w, k * w), of_k = two_sums(k * k, moment * moment), along = two_sums(p * d, v * d);
-  const Pair speed = firsts(of_w), toward = seconds(of_w), square = firsts(of_k), off = seconds(of_k),
-             length = dot(d, d);
-  const Pair RR = R * R, reach = speed * (RR * length), excess = square - RR * length;
-  const Pair half = root(max(reach - off, both(0))), side = excess / (half - toward);
-  const Pair at = firsts(along) + seconds(along) * side;  // along d, in squares of its length
-  const PairMask pierces = off < reach * both(packed::beside_graze), passes = reach < off * both(packed::beside_graze);
-  const PairMask beside = RR * length * both(packed::more_than_rounding) < square,
-                 within = square * both(packed::more_than_rounding) < RR * length;
-  const PairMask on_core = (both(0) <= at) & (at <= length), meets = beside & pierces & (toward < both(0));
+  const Pair along = two_sums(p * d, v * d), length = dot(d, d), RR = R * R;
+  const ClearChord side(cross(p, d), cross(v, d), RR * length);
+  const Pair at = firsts(along) + seconds(along) * side.time();  // along d, in squares of its length
+  const PairMask beside = side.RR * both(packed::more_than_rounding) < side.square,
+                 within = side.square * both(packed::more_than_rounding) < side.RR;
+  const PairMask on_core = (both(0) <= at) & (at <= length), meets = beside & side.pierces() & side.approaches();
   // the cap
   const PairMask far_end = length < both(2) * select(within, firsts(along), at);
-  const ClearChord cap(p - all(keep(far_end, both(1))) * d, v, R);
+  const ClearChord cap(p - all(keep(far_end, both(1))) * d, v, RR);
   const PairMask cap_meets = cap.pierces() & cap.approaches();
   const PairMask cap_clear = (cap.pierces() | cap.passes()) & (RR * both(packed::more_than_rounding) < cap.square);
   const PairMask beyond = (firsts(along) < both(0)) | (length < firsts(along));
 
-  const PairMask parallel = speed <= both(0);
-  const PairMask misses_side = beside & (passes | parallel | (pierces & (both(0) <= toward)));
+  const PairMask parallel = side.speed <= both(0);
+  const PairMask misses_side = beside & (side.passes() | parallel | (side.pierces() & (both(0) <= side.toward)));
   const PairMask asks_cap = (within & beyond) | (meets & ((at < both(0)) | (length < at)));
   // seen from 2^14 R away a graze is not clear, nor is the place on a core of 2^10 R
   const PairMask in_range = cap.in_range() & (both(packed::least_square) <= length) & (length * both(0x1p-20) <= RR) &
                             (dot(p, p) * both(0x1p-28) <= RR) &
-                            ((cap.speed * length * both(0x1p-60) <= speed) | parallel);
-  const Pair time = select(meets & on_core, side, select(asks_cap & cap_meets, cap.time(), both(ClearEntry::never)));
+                            ((cap.speed * length * both(0x1p-60) <= side.speed) | parallel);
+  const Pair time =
+      select(meets & on_core, side.time(), select(asks_cap & cap_meets, cap.time(), both(ClearEntry::never)));
   const Pair on = max(min((firsts(along) + seconds(along) * time) / length, both(1)), both(0));
   const bool clear = all_of(in_range & (misses_side | (meets & on_core) | (asks_cap & cap_clear)));
   return {{clear, time, unit((p - d * all(on)) + v * all(time))}, on};

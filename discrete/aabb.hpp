@@ -156,8 +156,7 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Aabb<double
   const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
   const ClearWayOut out(x, h);
   const packed::LanesMask in_range = (abs(x) + h <= all(packed::most_length)) & (zero <= min(half_a, half_b));
-  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal,
-          out.depth};  // decided without a rounding of its own
+  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal, out.depth};
 }
 
 THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<double>& sphere) {

@@ -45,8 +45,8 @@ template <Shape A, Shape B>
                paths = a.displacement.cwiseAbs().sum() + b.displacement.cwiseAbs().sum();
   const double size = std::max(lengths, paths);
   const bool alike = 0x1p-60 * size < std::min(lengths, paths);  // what a power of two flushes is nothing beside them
-  const bool is_question =
-      valid(a) && valid(b) && method.min_separation >= 0;  // so far: a size below zero might be flushed
+  // asked before, as a size below zero might be flushed
+  const bool is_question = valid(a) && valid(b) && method.min_separation >= 0;
   if (is_question && alike && (size < 0x1p-50 || size > 0x1p50)) {
     const int e = binary_exponent(size);
     const ClearToi answer = clear_impact(scaled(a, -e), scaled(b, -e), times_power_of_two(method.min_separation, -e));

@@ -43,15 +43,15 @@ THINWALL_HOT packed::PairMask clearly_apart(const packed::Pair& a, const packed:
   return (a * packed::both(packed::more_than_rounding) < b) | (b * packed::both(packed::more_than_rounding) < a);
 }
 
-/// The line p + v t and the ball of radius R around the origin, by the moment p x v. Each number twice.
+/// The line p + v t and the ball around the origin whose radius squared is RR, by the moment p x v. Each number twice.
 struct ClearChord {
   packed::Pair speed, toward, square;  ///< v.v, p.v (negative: it approaches) and p.p
   packed::Pair off, RR, reach;         ///< |p x v|^2, which is below v.v R^2 where the line pierces the ball
   packed::Pair half;                   ///< half the chord times |v|
   packed::Lanes moment;
 
-  THINWALL_HOT ClearChord(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R)
-      : RR(R * R), moment(cross(p, v)) {
+  THINWALL_HOT ClearChord(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& radius_square)
+      : RR(radius_square), moment(cross(p, v)) {
     const packed::Pair of_v = two_sums(v * v, p * v), of_p = two_sums(p * p, moment * moment);
     speed = firsts(of_v), toward = seconds(of_v), square = firsts(of_p), off = seconds(of_p);
     reach = speed * RR;
@@ -72,7 +72,7 @@ struct ClearChord {
 /// The point p + v t and the ball of radius R around the origin.
 THINWALL_HOT ClearEntry clear_ball_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R) {
   using packed::both;
-  const ClearChord chord(p, v, R);
+  const ClearChord chord(p, v, R * R);
   const packed::PairMask outside = chord.RR * both(packed::more_than_rounding) < chord.square;
   const packed::PairMask pierces = chord.pierces();
   return {all_of(chord.in_range() & outside & (pierces | chord.passes())),
@@ -152,7 +152,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const LanesMask before = all(now) < enter, beyond = leave <= all(now), outside = before | beyond;
     const Pair next = smallest_of(select(before, enter, select(beyond, all(ClearEntry::never), leave)));
     const Lanes q = keep(outside, select(before, slabs.low, slabs.high)), w = keep(outside, all(0) - slabs.W);
-    const ClearChord chord(q, w, R);
+    const ClearChord chord(q, w, R * R);
     ++entry.rounds;
     const Pair root = chord.time();
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);

@@ -27,6 +27,7 @@ struct ClearToi {
     return toi;
   }
 };
+
 /// Whether a time is not near the end of the step; nor nearer to it than what roundings move it by, `noise` [length] over the closing
 /// speed along its normal.
 THINWALL_HOT bool clear_of_end(const packed::Pair& time, const packed::Pair& closing, const packed::Pair& noise) {

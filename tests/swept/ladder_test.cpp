@@ -247,8 +247,8 @@ TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps,
   EXPECT_TRUE(is_sure({-4, 3, 2}, {8, 0, 0}));
 }
 
-TEST(LadderFilters,
-     an_end_within_the_noise_of_a_creep_is_careful) {  // a hundredth of the gap beside it, which is a few roundings
+// A hundredth of the gap beside it, which is a few roundings.
+TEST(LadderFilters, an_end_within_the_noise_of_a_creep_is_careful) {
   const auto creep = [](double gap) {
     const Moving<Ball> ball{{{-2 - gap, 0, 0}, 1}, {gap * 1.01, 0, 0}};
     return clear_impact(at_rest(Turned{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}), ball, 0).clear;
@@ -257,8 +257,8 @@ TEST(LadderFilters,
   EXPECT_TRUE(creep(0x1p-20));
 }
 
-TEST(LadderFilters,
-     quotients_that_underflow_are_careful) {  // the slabs of x and y open both at zero, as far as double tells
+// The slabs of x and y open both at zero, as far as double tells.
+TEST(LadderFilters, quotients_that_underflow_are_careful) {
   const Box plate{{0, 0, 0}, {1, 1e-300, 1}};
   const V above(0, std::nextafter(1e-300, 1.0), 0), by(1, -1e12, 0);
   EXPECT_FALSE(clear_raycast(Ray<double>{above, by}, plate).clear);
