@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <thinwall/capsule/clear_segment_entry.hpp>
+#include <thinwall/capsule/clear_segments.hpp>
 #include <thinwall/capsule/ray_capsule.hpp>
 #include <thinwall/capsule/segment.hpp>
 #include <thinwall/capsule/segment_box.hpp>
@@ -191,6 +192,50 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   if (entry.inside || !(time <= ray.max_t) || !is_finite(time)) return std::nullopt;
   const S s = closest_parameter<S>(path.start + ray.direction * entry.time, core);
   return RayHit<S>{time, capsule.a + core * s + entry.normal * capsule.radius, entry.normal};
+}
+
+// ---- The clear rung (discrete/clear/clear_entry.hpp).
+
+/// Bodies whose cores are as a point at x and `core` are, R round together; `nearest` of that. The normal is out of the core.
+template <class Core>
+THINWALL_HOT ClearContact clear_core_contact(const Core& core, const ClearNearest& nearest, const packed::Lanes& x,
+                                             double r, double s) {
+  using packed::Pair, packed::both, packed::all;
+  const packed::Lanes& n = nearest.gap;
+  const Pair size = sum(abs(x)) + core.size + both(r + s), length = root(dot(n, n)), between = both(r + s) - length;
+  const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size) &
+                                    (both(0) <= min(both(r), both(s)));
+  const packed::PairMask wide = size * both(0x1p-20) <= length, decided = size * both(0x1p-46) < abs(between);
+  const packed::PairMask behind = core.reach(n) - dot(n, nearest.at) <= size * length * both(0x1p-40);
+  return {both(nearest.one, all_of(in_range & wide & decided & behind)),
+          all_of(both(0) < between),
+          packed::Lanes{},
+          packed::Lanes{},
+          n / all(length),
+          between};
+}
+
+THINWALL_HOT ClearContact clear_contact(const Capsule<double>& capsule, const Sphere<double>& sphere) {
+  using packed::all, packed::lanes, packed::both;
+  const packed::Lanes a = lanes(capsule.a), x = lanes(sphere.center) - a;
+  const ClearSegment core(lanes(capsule.b) - a);
+  const ClearNearest nearest = core.nearest(x);
+  ClearContact contact = clear_core_contact(core, nearest, x, capsule.radius, sphere.radius);
+  contact.local_a = core.d * all(nearest.place - both(0.5)) + contact.normal * all(capsule.radius);
+  contact.local_b = contact.normal * all(-sphere.radius);
+  return contact;
+}
+
+THINWALL_HOT ClearContact clear_contact(const Capsule<double>& first, const Capsule<double>& second) {
+  using packed::all, packed::lanes, packed::both;
+  const packed::Lanes a = lanes(first.a), b = lanes(second.a), x = b - a;
+  const ClearSegments core(lanes(first.b) - a, lanes(second.b) - b, all(0));
+  const ClearNearest nearest = core.nearest(x);
+  ClearContact contact = clear_core_contact(core, nearest, x, first.radius, second.radius);
+  const packed::Lanes on_a = core.d * all(nearest.place), on_b = on_a - nearest.at;  // from their starts
+  contact.local_a = (on_a - core.d * all(0.5)) + contact.normal * all(first.radius);
+  contact.local_b = (on_b - core.e * all(0.5)) - contact.normal * all(second.radius);
+  return contact;
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Capsule<double>& capsule) {

@@ -18,8 +18,7 @@ template <Scalar S>
 Entry<S> rounded_segment_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R);
 
 /// First time at which p + v t is within R of the segment s * d, s in [0, 1].
-template <Scalar S>
-THINWALL_HOT Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+template <Scalar S> Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
   using std::sqrt;
   if (!products_in_range(largest(p, d, R)) || !products_in_range(largest(v))) {
     const Entry<S> rescaled = rounded_segment_entry_rescaled(p, v, d, R);

@@ -47,7 +47,7 @@ template <Scalar S> SegmentPair<S> closest_on_segments(const Vec3<S>& r, const V
     return pair;
   }
   SegmentPair<S> pair;
-  const Vec3<S> across = cross(d1, d2);
+  const Vec3<S> across = accurate_cross(d1, d2);  // a tilt counts by the square of 1 / their angle
   const S determinant = across.squaredNorm();
   if (determinant > S(0)) {
     pair.s = clamp01(S(cross(r, d2).dot(across) / determinant));

@@ -60,7 +60,7 @@ template <Scalar S> struct BoxSlope {
   S slope = 0, growth = 0;
   int sides = 0;  ///< which of the box's sides the point is beyond, three values an axis
 
-  THINWALL_HOT BoxSlope(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h, const S& s) {
+  BoxSlope(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h, const S& s) {
     for (int i = 0; i < 3; ++i) {
       const S x = p[i] + s * d[i];
       const int side = static_cast<int>(x > h[i]) - static_cast<int>(x < -h[i]);

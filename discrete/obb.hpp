@@ -124,10 +124,14 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 
 /// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often.
 struct ClearFrame {
+  const double* numbers;
   packed::Lanes x, y, z;
 
   THINWALL_HOT explicit ClearFrame(const Mat3<double>& axes)
-      : x(packed::lanes(axes.data())), y(packed::lanes(axes.data() + 3)), z(packed::lanes(axes.data() + 6)) {}
+      : numbers(axes.data()),
+        x(packed::lanes(axes.data())),
+        y(packed::lanes(axes.data() + 3)),
+        z(packed::lanes(axes.data() + 6)) {}
   THINWALL_HOT bool clear() const {
     using packed::Pair, packed::Two;
     const Pair off = abs(two_sums(x * x, y * y) - packed::both(1)) + abs(two_sums(z * z, x * y) - Pair{Two{1, 0}}) +
@@ -139,6 +143,7 @@ struct ClearFrame {
   THINWALL_HOT packed::Lanes out_of(const packed::Lanes& v) const {
     return (x * all(firsts(xy_of(v))) + y * all(seconds(xy_of(v)))) + z * all(zz_of(v));
   }
+  THINWALL_HOT packed::Lanes axis(int i) const { return packed::lanes(numbers + 3 * static_cast<std::ptrdiff_t>(i)); }
 };
 
 /// Row i of a matrix: the number that each axis has along i.

@@ -120,10 +120,28 @@ template <Shape A, Shape B> std::optional<Contact<typename A::Scalar>> contact_u
                     penetration};
 }
 
-/// The careful rung of contact(): any input, at any scale.
+template <class A, class B> THINWALL_HOT ClearContact clear_contact_either_way(const A& a, const B& b) {
+  if constexpr (HasClearContact<A, B>) {
+    return clear_contact(a, b);
+  } else {
+    return flipped(clear_contact(b, a));
+  }
+}
+
+/// The careful rung of contact(): any input, at any scale. What the clear one left for its size alone it is asked once more, at a size
+/// near 1, so that the unit of length changes no bit.
 template <Shape A, Shape B>
 [[gnu::noinline]] std::optional<Contact<typename A::Scalar>> careful_contact(const A& a, const B& b) {
   using S = typename A::Scalar;
+  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
+    const double size = magnitude(a) + magnitude(b);
+    if ((size < 0x1p-50 || size > 0x1p50) && is_finite(size) && valid(a) && valid(b)) {
+      const int e = binary_exponent(size);
+      const ClearContact answer = clear_contact_either_way(scaled(a, -e), scaled(b, -e));
+      const auto near = answer.contact();
+      if (answer.clear) return near ? std::optional(scaled(*near, e)) : near;
+    }
+  }
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
     case Magnitudes::ordinary: return contact_unchecked(a, b);
     case Magnitudes::huge: {
@@ -139,12 +157,9 @@ template <Shape A, Shape B>
 template <Shape A, Shape B> THINWALL_HOT std::optional<Contact<typename A::Scalar>> contact(const A& a, const B& b) {
   static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
-  if constexpr (HasClearContact<A, B>) {
-    const ClearContact answer = clear_contact(a, b);
+  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
+    const ClearContact answer = clear_contact_either_way(a, b);
     if (answer.clear) return answer.contact();
-  } else if constexpr (HasClearContact<B, A>) {
-    const ClearContact answer = clear_contact(b, a);
-    if (answer.clear) return flipped(answer).contact();
   }
   return careful_contact(a, b);
 }

@@ -131,6 +131,37 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   return RayHit<S>{entry.time, ray.origin + ray.direction * entry.time, entry.normal};
 }
 
+// ---- The clear rung (clear/clear_entry.hpp).
+
+/// By the volumes of the line's moment with the edges: Moeller and Trumbore, Fast, minimum storage ray-triangle intersection, 1997. Not
+/// of a needle, whose plane roundings tilt; nor where one of the volumes, or the way to the plane, could be of either sign.
+THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Triangle<double>& triangle) {
+  using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both, packed::lanes;
+  const Lanes a = lanes(triangle.a), e1 = lanes(triangle.b) - a, e2 = lanes(triangle.c) - a;
+  const Lanes p = lanes(ray.origin) - a, v = lanes(ray.direction), n = cross(e1, e2), moment = cross(p, v);
+  const Pair plane = two_sums(n * p, n * v), edges = two_sums(moment * e1, moment * e2);
+  const Pair sizes = two_sums(abs(p), abs(v)), lengths = two_sums(abs(e1), abs(e2));
+  const Pair side = select(seconds(plane) < both(0), both(-1), both(1)), volume = seconds(plane) * side;
+  const Pair height = firsts(plane) * side;  // below the plane where negative: the ray rises to it
+  const Pair in2 = firsts(edges) * side, in1 = (both(0) - seconds(edges)) * side, in0 = volume - (in1 + in2);
+  const Pair length = firsts(lengths) + seconds(lengths);
+  const Pair area = length * length * both(0x1p-48), noise = firsts(sizes) * seconds(sizes) * length * both(0x1p-48);
+  const Pair noise0 = noise + seconds(sizes) * area, least = min(in1 - noise, min(in2 - noise, in0 - noise0));
+  const Pair most = min(in1 + noise, min(in2 + noise, in0 + noise0));  // the least of the three, at most
+  const Pair t = (both(0) - height) / volume, end = both(ray.max_t);
+  const Pair above = firsts(sizes) * area, late = above + abs(t) * seconds(sizes) * area, rest = (end - t) * volume;
+  const PairMask hits = (both(0) < least) & (height < both(0) - above) & (late < rest);
+  const PairMask misses = (most < both(0)) | (above < height) | (rest < both(0) - late);
+  const PairMask flat = seconds(sizes) * area < volume;
+  const Pair nn = dot(n, n), size = firsts(sizes) + length;
+  const PairMask in_range = (max(size, seconds(sizes)) <= both(packed::most_length)) &
+                            (both(1 / packed::most_length) <= min(length, seconds(sizes))) & (both(0) <= end) &
+                            (both(packed::least_time) <= noise);
+  const PairMask broad = both(0x1p-8) * (dot(e1, e1) * dot(e2, e2)) < nn;
+  return {all_of(in_range & ((hits & flat & broad) | (misses & flat))), all_of(hits), t, lanes(ray.origin) + v * all(t),
+          n * all((both(0) - side) / root(nn))};
+}
+
 }  // namespace thinwall
 
 #ifdef THINWALL_COMPILED

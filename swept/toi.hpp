@@ -26,4 +26,10 @@ template <Scalar S> Toi<S> flipped(const Toi<S>& toi) {
   return {toi.status, toi.evaluations, toi.time, Vec3<S>::Zero() - toi.normal, toi.point};
 }
 
+/// The same answer in another scalar, rounded.
+template <Scalar T, Scalar S> Toi<T> cast(const Toi<S>& toi) {
+  return {toi.status, toi.evaluations, static_cast<T>(toi.time), toi.normal.template cast<T>(),
+          toi.point.template cast<T>()};
+}
+
 }  // namespace thinwall

@@ -47,11 +47,11 @@ template <Scalar S> struct EdgeAxis {
   int j;
   S on_u, on_v;
 
-  THINWALL_HOT EdgeAxis(const BoxPair<S>& pair, int axis_a, int axis_b)
+  EdgeAxis(const BoxPair<S>& pair, int axis_a, int axis_b)
       : i(axis_a), u((i + 1) % 3), v((i + 2) % 3), j(axis_b), on_u(-pair.axes(v, j)), on_v(pair.axes(u, j)) {}
-  THINWALL_HOT S along(const Vec3<S>& x) const { return x[u] * on_u + x[v] * on_v; }
+  S along(const Vec3<S>& x) const { return x[u] * on_u + x[v] * on_v; }
   /// How far both boxes reach along n. B's true products, not A's turned ones: those are off by more than a thin overlap.
-  THINWALL_HOT S reach(const BoxPair<S>& pair) const {
+  S reach(const BoxPair<S>& pair) const {
     const int k = (j + 1) % 3, l = (j + 2) % 3;
     return (pair.half_a[u] * largest(on_u) + pair.half_a[v] * largest(on_v)) +
            (pair.half_b[k] * largest(S(pair.axes(u, k) * on_u + pair.axes(v, k) * on_v)) +

@@ -124,6 +124,7 @@ THINWALL_HOT Lanes lanes(const double* x) {
 THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
   return {typename Register<Bits, 4>::Type{x, y, z, z}};
 }
+THINWALL_HOT LanesMask all(const PairMask& m) { return {__builtin_shufflevector(m.v, m.v, 0, 0, 0, 0)}; }
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 0, 1)}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 2, 2)}; }
 THINWALL_HOT Lanes yzx(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 0)}; }
@@ -138,6 +139,7 @@ THINWALL_HOT Lanes lanes(const double* x) {
 THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
   return {typename Register<Bits, 2>::Type{x, y}, typename Register<Bits, 2>::Type{z, z}};
 }
+THINWALL_HOT LanesMask all(const PairMask& m) { return {m.v, m.v}; }  ///< of one mask twice
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {a.xy}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) { return {a.zz}; }
 THINWALL_HOT Lanes yzx(const Lanes& a) {

@@ -81,7 +81,7 @@ THINWALL_COLD S accurate_edge_discriminant(const Vec3<S>& p, const Vec3<S>& v, c
 /// Requires p, v, R whose products of four are in range (products_in_range), v not zero. accurate() is the discriminant in
 /// twice the digits.
 template <Scalar S, class Accurate>
-THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
+Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
   using std::sqrt;
   const S speed_square = v.squaredNorm();
   const Vec3<S> moment = cross(p, v);
@@ -95,7 +95,7 @@ THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, con
   }
   return {D >= S(0), speed_square, -p.dot(v), p.squaredNorm() - R * R, half, moment};
 }
-template <Scalar S> THINWALL_HOT Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   return chord_through_ball(p, v, R, [&] { return accurate_discriminant(p, v, R); });
 }
 
@@ -115,7 +115,7 @@ template <Scalar S> Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>
 /// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
 /// v = 0 never enters.
 template <Scalar S, class Accurate>
-THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
+Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
   Entry<S> entry;
   if (within(p, R)) {
     entry.inside = true;
@@ -132,7 +132,7 @@ THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R,
   return entry;
 }
 
-template <Scalar S> THINWALL_HOT Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
+template <Scalar S> Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   return ball_entry(p, v, R, [&] { return accurate_discriminant(p, v, R); });
 }
 

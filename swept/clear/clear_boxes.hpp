@@ -1,5 +1,5 @@
 #pragma once
-/// The clear cases of boxes_entry.hpp for an aligned and an oriented box: fifteen axes, in five groups of three lanes.
+/// The clear cases of boxes_entry.hpp: fifteen axes, in five groups of three lanes.
 ///
 /// On each axis the times between which the shadows overlap are known within bounds, by the noise of the numbers they come of. A miss
 /// is one beyond all bounds. Of a hit the bounds say which axis is the last to be shared, and nothing comes near it; its time is
@@ -33,9 +33,8 @@ struct ClearTimes {
 /// One of the fifteen axes, without a jump: 0 to 2 are those of a, 3 to 5 those of b, then their products, first by a's.
 struct ClearAxis {
   double own, its;          ///< 1 if it is one of a's own, or of b's
-  unsigned bit_a, edge_a;   ///< the bit of a's axis; the same for a product, else 0
-  unsigned edge_b;          ///< of b's in a product, else 0
-  std::ptrdiff_t column_b;  ///< where b's axis begins
+  unsigned edge_a, edge_b;  ///< the bits of a's axis and of b's for a product, else 0
+  int a, b;                 ///< the axes of a and of b, from 0
   bool alone;               ///< not of the last, which stands for several at once
 
   /// The axis of the one bit set in `axes`; not `alone` if there are more, or none.
@@ -45,8 +44,13 @@ struct ClearAxis {
       for (unsigned k = 0; k < 15; ++k) {
         const unsigned i = k < 6 ? k % 3 : k / 3 - 2, j = k % 3;
         const bool product = k >= 6;
-        of_k[k] = {k < 3 ? 1.0 : 0.0,      k >= 3 && k < 6 ? 1.0 : 0.0,        1U << i, product ? 1U << i : 0U,
-                   product ? 1U << j : 0U, static_cast<std::ptrdiff_t>(3 * j), true};
+        of_k[k] = {k < 3 ? 1.0 : 0.0,
+                   k >= 3 && k < 6 ? 1.0 : 0.0,
+                   product ? 1U << i : 0U,
+                   product ? 1U << j : 0U,
+                   static_cast<int>(i),
+                   static_cast<int>(j),
+                   true};
       }
       return of_k;
     }();
@@ -55,25 +59,34 @@ struct ClearAxis {
   }
 };
 
-/// The aligned box a at rest and the oriented box b, `between` away from it and moving by v. Its normal is from a to b.
+/// A box that is not turned, as ClearFrame is one that is.
+struct ClearUpright {
+  THINWALL_HOT static bool clear() { return true; }
+  THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
+  THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }
+  THINWALL_HOT static packed::Lanes axis(int i) {
+    return keep(packed::lowest(1U << static_cast<unsigned>(i)), packed::all(1));
+  }
+};
+
+/// The box a at rest and the box b, `between` away from it and moving by v. Its normal is from a to b.
 struct ClearBoxes {
   bool clear;
   packed::Pair time;             ///< [1] `never` for a miss
   packed::Lanes normal, from_a;  ///< where they touch, from the center of a
 
-  THINWALL_HOT ClearBoxes(const Aabb<double>& a, const Obb<double>& b, const packed::Lanes& between,
-                          const packed::Lanes& v) {
+  /// `row` is that of ClearBoxAxes.
+  template <class FrameA>
+  THINWALL_HOT ClearBoxes(const FrameA& of_a, const packed::Lanes& ha, const ClearFrame& of_b, const packed::Lanes& hb,
+                          const packed::Lanes (&row)[3], const packed::Lanes& between, const packed::Lanes& v) {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both, packed::lanes;
-    const Lanes zero = all(0), ha = lanes(a.half_extents), hb = lanes(b.half_extents);
-    const ClearFrame frame(b.axes);
-    const Lanes size = all(sum((abs(between) + abs(v)) + (ha + hb)));
+    const Lanes zero = all(0), size = all(sum((abs(between) + abs(v)) + (ha + hb)));
     const bool in_range = both(
         all_of((size <= all(packed::most_length)) & (zero <= min(ha, hb)) & (all(1 / packed::most_length) <= size)),
-        frame.clear());
-    const ClearBoxAxes boxes{
-        {clear_row(b.axes, 0), clear_row(b.axes, 1), clear_row(b.axes, 2)}, ha, hb, size * all(0x1p-46)};
+        both(of_a.clear(), of_b.clear()));
+    const ClearBoxAxes boxes{{row[0], row[1], row[2]}, ha, hb, size * all(0x1p-46)};
 
-    const ClearSpread D(between), V(v);
+    const ClearSpread D(of_a.into(between)), V(of_a.into(v));
     const Lanes until = all(1 + 0x1p-9);
     ClearTimes times{zero, all(-ClearEntry::never), until,
                      until};  // in_most may be before the start: then they overlap
@@ -95,25 +108,27 @@ struct ClearBoxes {
     const bool meets = all_of((first_most <= last_least) & (both(0) < first));
     const ClearAxis& k = ClearAxis::of(axes);
 
-    // once more along its normal n, in the axes of a, and g, in those of b
+    // once more along its normal n: g and f in the axes of b and a
     const LanesMask is_own = zero < all(k.own), is_its = zero < all(k.its);
     const LanesMask along_a = packed::lowest(k.edge_a), along_b = packed::lowest(k.edge_b);
-    const Lanes unit_a = keep(packed::lowest(k.bit_a), all(1)), edge_b = lanes(b.axes.data() + k.column_b);
-    const Lanes n = select(is_own, unit_a, select(is_its, edge_b, cross(unit_a, edge_b))), g = frame.into(n);
+    const Lanes edge_a = of_a.axis(k.a), edge_b = of_b.axis(k.b);
+    const Lanes n = select(is_own, edge_a, select(is_its, edge_b, cross(edge_a, edge_b)));
+    const Lanes f = of_a.into(n), g = of_b.into(n);
     const Pair cw = two_sums(n * between, n * v), nn = dot(n, n), c = firsts(cw);
-    time = (abs(c) - (dot(ha, abs(n)) + dot(hb, abs(g)))) / abs(seconds(cw));
+    time = (abs(c) - (dot(ha, abs(f)) + dot(hb, abs(g)))) / abs(seconds(cw));
     const Lanes side = select(all(c) < zero, all(-1), all(1)), level = size * all(0x1p-40);
     normal = n * side / all(root(nn));
 
     // where: a corner of the one on the other's face, or where two edges are nearest
-    const Lanes to_a = select(along_a, zero, against(zero - ha, n * side)),
+    const Lanes to_a = select(along_a, zero, against(zero - ha, f * side)),
                 to_b = select(along_b, zero, against(zero - hb, g * side));
-    const Lanes corner_b = (between + v * all(time)) - frame.out_of(to_b), gap = to_a - corner_b;
-    const Pair on = two_sums(edge_b * gap, unit_a * gap), edges = dot(unit_a, edge_b);
-    const Lanes on_edge = unit_a * all((edges * firsts(on) - seconds(on)) / nn);
-    from_a = select(is_own, corner_b, select(is_its, to_a, to_a + on_edge));
+    const Lanes corner_b = (between + v * all(time)) - of_b.out_of(to_b);
+    const Lanes corner_a = of_a.out_of(to_a), gap = corner_a - corner_b;
+    const Pair on = two_sums(edge_b * gap, edge_a * gap), edges = dot(edge_a, edge_b);
+    const Lanes on_edge = edge_a * all((edges * firsts(on) - seconds(on)) / nn);
+    from_a = select(is_own, corner_b, select(is_its, corner_a, corner_a + on_edge));
     const LanesMask one_corner =
-        ((level < ha * abs(n)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
+        ((level < ha * abs(f)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
     clear = both(both(clear, both(k.alone, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
   }
 };

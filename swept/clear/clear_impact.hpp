@@ -2,9 +2,14 @@
 /// The clear rung of a time of impact: straight from two moving shapes to the answer, without a jump that is a coin's toss.
 
 #include <thinwall/capsule/capsule.hpp>
+#include <thinwall/capsule/clear_segment_box.hpp>
+#include <thinwall/capsule/clear_segments.hpp>
 #include <thinwall/discrete/clear/clear_entry.hpp>
+#include <thinwall/discrete/clear/clear_triangle.hpp>
 #include <thinwall/discrete/obb.hpp>
+#include <thinwall/discrete/triangle.hpp>
 #include <thinwall/swept/clear/clear_boxes.hpp>
+#include <thinwall/swept/clear/clear_walk.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
 
@@ -108,16 +113,86 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
           (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
 }
 
-THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& b, const Moving<Aabb<double>>& a, double gap) {
+/// Two boxes, `a` by its half extents and its axes, and the answer from a to b.
+template <class FrameA, class BoxA>
+THINWALL_HOT ClearToi clear_boxes_impact(const FrameA& of_a, const BoxA& a, const ClearFrame& of_b,
+                                         const Moving<Obb<double>>& b, const packed::Lanes (&row)[3], double gap) {
   using packed::Lanes, packed::all, packed::both, packed::lanes;
-  const Lanes center = lanes(a.shape.center), path = lanes(a.displacement);
-  const Lanes between = lanes(b.shape.center) - center, v = lanes(b.displacement) - path;
-  const ClearBoxes boxes(a.shape, b.shape, between, v);
-  const Lanes sizes = lanes(a.shape.half_extents) + lanes(b.shape.half_extents);
+  const Lanes center = lanes(a.shape.center), path = lanes(a.displacement), ha = lanes(a.shape.half_extents);
+  const Lanes between = lanes(b.shape.center) - center, v = lanes(b.displacement) - path,
+              hb = lanes(b.shape.half_extents);
+  const ClearBoxes boxes(of_a, ha, of_b, hb, row, between, v);
   const bool in_time =
-      clear_of_end(boxes.time, both(0) - dot(boxes.normal, v), sum(abs(between) + sizes) * both(0x1p-44));
-  return {both(both(boxes.clear, gap == 0), in_time), boxes.time, all(0) - boxes.normal,
+      clear_of_end(boxes.time, both(0) - dot(boxes.normal, v), sum(abs(between) + (ha + hb)) * both(0x1p-44));
+  return {both(both(boxes.clear, gap == 0), in_time), boxes.time, boxes.normal,
           (center + path * all(boxes.time)) + boxes.from_a};
+}
+THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& b, const Moving<Aabb<double>>& a, double gap) {
+  const Mat3<double>& axes = b.shape.axes;
+  ClearToi toi = clear_boxes_impact(ClearUpright{}, a, ClearFrame(axes), b,
+                                    {clear_row(axes, 0), clear_row(axes, 1), clear_row(axes, 2)}, gap);
+  toi.normal = packed::all(0) - toi.normal;
+  return toi;
+}
+THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& a, const Moving<Obb<double>>& b, double gap) {
+  const ClearFrame of_a(a.shape.axes), of_b(b.shape.axes);
+  return clear_boxes_impact(of_a, a, of_b, b, {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)}, gap);
+}
+
+THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& a, const Moving<Capsule<double>>& b, double gap) {
+  using packed::Lanes, packed::all, packed::both, packed::lanes;
+  const double r = a.shape.radius, s = b.shape.radius;
+  const Lanes start = lanes(a.shape.a), path = lanes(a.displacement), from_b = lanes(b.shape.a);
+  const Lanes p = from_b - start, v = lanes(b.displacement) - path;
+  const Lanes core_a = lanes(a.shape.b) - start;
+  const ClearSegments cores(core_a, lanes(b.shape.b) - from_b, v);
+  const ClearWalk walk = clear_walk(cores, p, v, both(r + s + gap));
+  return {both(both(walk.clear, clear_sizes(r, s, gap)), clear_of_end(walk.time, walk.closing, walk.noise)), walk.time,
+          walk.normal,
+          ((start + path * all(walk.time)) + core_a * all(walk.nearest.place)) + walk.normal * all(r + gap / 2),
+          walk.rounds};
+}
+
+THINWALL_HOT ClearToi clear_impact(const Moving<Triangle<double>>& triangle, const Moving<Sphere<double>>& sphere,
+                                   double gap) {
+  using packed::Lanes, packed::all, packed::both, packed::lanes;
+  const double r = sphere.shape.radius;
+  const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(triangle.shape.a);
+  const Lanes p = center - a, v = path - lanes(triangle.displacement);
+  const ClearTriangle core(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a, v);
+  const ClearWalk walk = clear_walk(core, p, v, both(r + gap));
+  return {both(both(walk.clear, clear_sizes(r, r, gap)), clear_of_end(walk.time, walk.closing, walk.noise)), walk.time,
+          walk.normal, (center + path * all(walk.time)) - walk.normal * all(r + gap / 2), walk.rounds};
+}
+
+/// In the box's own axes; and the time once more by the plane of contact, as of a sphere and an oriented box.
+template <class Frame, class Box>
+THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, const Frame& frame, const Box& box,
+                                        double gap) {
+  using packed::Lanes, packed::Pair, packed::all, packed::both, packed::lanes;
+  const double r = capsule.shape.radius;
+  const Lanes center = lanes(box.shape.center), path = lanes(box.displacement), a = lanes(capsule.shape.a);
+  const Lanes p = a - center, v = lanes(capsule.displacement) - path, d = lanes(capsule.shape.b) - a,
+              h = lanes(box.shape.half_extents);
+  const ClearSegmentBox core(frame.into(d), h, frame.into(v));
+  const ClearWalk walk = clear_walk(core, frame.into(p), core.v, both(r + gap));
+  const Lanes n = frame.out_of(walk.normal), g = frame.into(n), s = all(walk.nearest.place);
+  const Lanes on = walk.nearest.at + core.d * s;
+  const Pair toward = two_sums(n * (p + d * s), n * v), sums = two_sums(n * n, g * on), length = root(firsts(sums));
+  const Pair closing = both(0) - seconds(toward);
+  const Pair plane = (firsts(toward) - (both(r + gap) * length + seconds(sums))) / closing;
+  const Pair time = select(walk.time < both(ClearEntry::never), max(plane, both(0)), walk.time);
+  const Lanes normal = n / all(length);
+  const bool sizes = both(clear_sizes(r, r, gap), all_of(all(0) <= h));
+  return {both(both(walk.clear, frame.clear()), both(sizes, clear_of_end(time, closing, walk.noise))), time,
+          all(0) - normal, ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
+}
+THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Aabb<double>>& box,
+                                   double gap) {
+  return clear_capsule_box(capsule, ClearUpright{}, box, gap);
+}
+THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Obb<double>>& box, double gap) {
+  return clear_capsule_box(capsule, ClearFrame(box.shape.axes), box, gap);
 }
 
 /// This pair has a clear rung.

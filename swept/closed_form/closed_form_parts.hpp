@@ -82,8 +82,7 @@ THINWALL_COLD T settled_near_end(const Moving<A>& a, const Moving<B>& b, const T
 
 /// Turns an entry (its normal from A to B, `gap` the minimal separation) into the answer; point(time) says where they touch.
 template <class A, class B, Scalar T, class Point>
-THINWALL_HOT Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& found,
-                           const Point& point) {
+Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& found, const Point& point) {
   if (found.inside) return overlapping_at_start(a, b, found.rounds);
   if (found.gave_up) return {ToiStatus::gave_up, found.rounds, std::min(T(1), found.time)};
   const auto end_is_near = [&] { return largest(T(found.time - T(1))) <= constant_power_of_two<T, -10>(); };
@@ -112,9 +111,7 @@ THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, cons
     const auto exact = cast<W>(moving);
     return Moving{with_true_axes(exact.shape), exact.displacement};
   };
-  const auto toi = impact(ClosedForm<W>{W(method.min_separation)}, wide(a), wide(b));
-  return {toi.status, toi.evaluations, static_cast<T>(toi.time), toi.normal.template cast<T>(),
-          toi.point.template cast<T>()};
+  return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, wide(a), wide(b)));
 }
 
 /// The same for a pair whose coordinates were turned into a box's axes: three roundings more each, and axes that are

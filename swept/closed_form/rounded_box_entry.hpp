@@ -34,8 +34,7 @@ template <Scalar S> struct SlabTimes {
 
   /// `over_speed(length, axis)` divides by v[axis].
   template <class OverSpeed>
-  THINWALL_HOT SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R,
-                         const OverSpeed& over_speed) {
+  SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R, const OverSpeed& over_speed) {
     using std::copysign;
     const S infinity = std::numeric_limits<S>::infinity();
     Vec3<S> widened_enter;
@@ -78,8 +77,7 @@ THINWALL_COLD SlabTimes<S> divided_slab_times(const Vec3<S>& p, const Vec3<S>& v
 }
 
 /// Three reciprocals in place of twelve divisions, unless that could decide which of two times comes first.
-template <Scalar S>
-THINWALL_HOT SlabTimes<S> slab_times(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
+template <Scalar S> SlabTimes<S> slab_times(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
   const Vec3<S> inverse = v.cwiseInverse();
   const SlabTimes<S> times(p, v, h, R, [&](const S& length, int i) -> S { return length * inverse[i]; });
   const S noise = 8 * std::numeric_limits<S>::epsilon() * std::max(times.first, largest(times.last));
@@ -141,8 +139,7 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
 }
 
 /// First time at which p + v t is within R of the box [-h, h].
-template <Scalar S>
-THINWALL_HOT Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
+template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
   Entry<S> entry;
   if (within(excess_of(p, h), R)) {
     entry.inside = true;

@@ -19,7 +19,7 @@ template <Scalar S> struct SharedTime {
   /// Shadows whose middles are `distance` apart and move at `speed`, and that reach `reach` from there together.
   /// An axis of length zero is 0 / 0, which changes nothing; without speed the quotients are infinite, or 0 / 0 where the
   /// shadows touch.
-  THINWALL_HOT void narrow(int axis, const S& distance, const S& speed, const S& reach) {
+  void narrow(int axis, const S& distance, const S& speed, const S& reach) {
     using std::copysign;
     const S ahead = copysign(reach, speed);
     const S enter = (-ahead - distance) / speed, leave = (ahead - distance) / speed;

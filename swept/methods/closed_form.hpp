@@ -10,7 +10,7 @@
 namespace thinwall {
 
 template <Scalar S, Scalar T>
-THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Moving<Sphere<T>>& b) {
   const T gap(method.min_separation);
   const Entry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                        a.shape.radius + b.shape.radius + gap);
@@ -18,7 +18,7 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>&
 }
 
 template <Scalar S, Scalar T>
-THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Entry<T> entry =
       rounded_box_entry<T>(sphere.shape.center - box.shape.center, relative_displacement(sphere, box),
@@ -28,7 +28,7 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& b
 }
 
 template <Scalar S, Scalar T>
-THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
   const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                               a.shape.half_extents + b.shape.half_extents, T(method.min_separation));
   return toi_of(a, b, T(method.min_separation), entry,
@@ -42,7 +42,7 @@ THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a
 }
 
 template <Scalar S, Scalar T>
-THINWALL_HOT Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Obb<T>& frame = box.shape;
   const T reach = sphere.shape.radius + gap;

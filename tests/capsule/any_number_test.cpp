@@ -28,7 +28,8 @@ template <class A, class B> void expect_whole_answers(const A& a, const B& b) {
   ASSERT_EQ(touch.has_value(), overlap);
   ASSERT_EQ(manifold(a, b).empty(), !overlap);
   if (!touch) return;
-  EXPECT_EQ(touch->normal, gap.normal);
+  const S apart = (touch->normal - gap.normal).cwiseAbs().maxCoeff();  // either may be of another rung
+  EXPECT_LE(apart, S(0x1p-40));
   EXPECT_GE(touch->penetration, S(0));
   EXPECT_TRUE(!ordinary || (is_finite(touch->local_a) && is_finite(touch->local_b)));
   for (const Contact<S>& point : manifold(a, b)) {

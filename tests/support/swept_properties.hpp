@@ -1,6 +1,8 @@
 #pragma once
 /// What the closed form must fulfil for any two moving shapes, against the oracle.
 
+#include <algorithm>
+
 #include <thinwall/swept/swept_volume.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
@@ -74,7 +76,7 @@ template <class A, class B> bool is_clear(const Moving<A>& a, const Moving<B>& b
 }
 
 /// Lengths times 2^k leave time and normal as they are, to the bit; displacements times 2^k divide the time: to the bit too, unless
-/// another rung of the ladder answers.
+/// another rung of the ladder answers, or a walk.
 template <class A, class B> void powers_of_two_change_no_bits() {
   using S = typename A::Scalar;
   const auto [a, b] = draw_moving_pair<A, B>(*rc::gen::element(Style::lattice, Style::plain));
@@ -96,7 +98,10 @@ template <class A, class B> void powers_of_two_change_no_bits() {
   const Toi<S> faster = time_of_impact(faster_a, faster_b);
   RC_ASSERT(faster.status == ToiStatus::hit);
   const S expected = times_power(here.time, -speed), later = expected * (S(1) + times_power(S(1), -40));
-  if (is_clear(a, b) != is_clear(faster_a, faster_b)) {
+  // A walk ends elsewhere along a faster motion, by roundings of its guesses.
+  constexpr int least = std::min(A::rank, B::rank), most = std::max(A::rank, B::rank);
+  constexpr bool walks = most == Triangle<S>::rank || (most == Capsule<S>::rank && least > Sphere<S>::rank);
+  if (walks || is_clear(a, b) != is_clear(faster_a, faster_b)) {
     RC_ASSERT(largest(S(faster.time - expected)) <= later - expected);
     RC_ASSERT(largest(Vec3<S>(faster.normal - here.normal)) <= times_power(S(1), -40));
     return;

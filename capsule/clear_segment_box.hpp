@@ -1,0 +1,69 @@
+#pragma once
+/// The clear cases of segment_box.hpp: what of a segment is nearest to a box, without a jump.
+
+#include <thinwall/discrete/clear/clear_box_axes.hpp>
+#include <thinwall/discrete/clear/clear_nearest.hpp>
+
+namespace thinwall {
+
+/// The sums of the box [-h, h] and the segment { -s d }, s in [0, 1]: seen from the box's center the segment starts where the place is.
+/// Of the points of contact it says the box's. The squared distance from the box along the segment is convex, and a parabola between
+/// the places where the segment crosses the planes of the faces: its slope at those shows in which of them it is least.
+struct ClearSegmentBox {
+  packed::Lanes d, h, v, per_d;
+  packed::Pair size;
+
+  THINWALL_HOT ClearSegmentBox(const packed::Lanes& core, const packed::Lanes& half, const packed::Lanes& motion)
+      : d(core), h(half), v(motion), per_d(packed::all(1) / core), size(sum(abs(core) + half)), D(core), H(half) {}
+
+  THINWALL_HOT packed::Lanes low() const { return packed::all(0) - h - max(d, packed::all(0)); }
+  THINWALL_HOT packed::Lanes high() const { return h - min(d, packed::all(0)); }
+  THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
+    const packed::Pair both = two_sums(abs(n) * h, n * d);
+    return firsts(both) - min(seconds(both), packed::both(0));
+  }
+
+  THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
+    using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
+    const Lanes none = all(0), one = all(1), back = none - h;
+    const Lanes in = max(min((back - x) * per_d, one), none), out = max(min((h - x) * per_d, one), none);
+    const ClearSpread X(x);
+    const Lanes slope_in = slope(X, in), slope_out = slope(X, out);
+    const Pair low = largest_of(max(keep(slope_in <= none, in), keep(slope_out <= none, out)));
+    const Pair high = smallest_of(min(select(none <= slope_in, in, one), select(none <= slope_out, out, one)));
+    const Pair between = (low + high) * both(0.5);  // of a stretch that is all as near, where low is beyond high
+    const Lanes there = x + d * all(between);
+    const LanesMask outside = h < abs(there);
+    const Lanes out_d = keep(outside, d), out_v = keep(outside, v);
+    const Pair of_d = two_sums(out_d * out_d, out_d * (x + against(h, there))),
+               of_v = two_sums(out_v * out_v, out_v * out_d);
+    const Pair dd = firsts(of_d);
+    const Pair least = min(max((both(0) - seconds(of_d)) / dd, low), high);
+    const PairMask level = dd <= both(0);
+    const Pair s = select(level, between, least);
+    const PairMask side = (both(0) < s) & (s < both(1)) & (both(0) < dd);
+    const Lanes moved = x + d * all(s), on = max(min(moved, h), back);
+    const Pair speed = firsts(of_v) - keep(side, seconds(of_v) * seconds(of_v) / dd);
+    return {on - d * all(s), moved - on, speed, s};
+  }
+
+ private:
+  /// Of the squared distance, halved, at three places on the segment that starts at X. Where it crosses the plane of a face, that face's
+  /// axis has no part in it, to the bit: what is level stays so.
+  THINWALL_HOT packed::Lanes slope(const ClearSpread& X, const packed::Lanes& s) const {
+    using packed::all, packed::lanes;
+    const packed::LanesMask at_end = (s <= all(0)) | (all(1) <= s);
+    return (keep(at_end | lanes(0, -1, -1), part(X.x, D.x, H.x, s)) +
+            keep(at_end | lanes(-1, 0, -1), part(X.y, D.y, H.y, s))) +
+           keep(at_end | lanes(-1, -1, 0), part(X.z, D.z, H.z, s));
+  }
+  THINWALL_HOT static packed::Lanes part(const packed::Lanes& from, const packed::Lanes& along,
+                                         const packed::Lanes& half, const packed::Lanes& s) {
+    const packed::Lanes at = from + s * along;
+    return along * (at - max(min(at, half), packed::all(0) - half));
+  }
+
+  ClearSpread D, H;
+};
+
+}  // namespace thinwall
