@@ -413,7 +413,8 @@ TEST_F(Mpi, other_commands_run_once) {
   EXPECT_EQ(list.output.find("\nbouncing "), list.output.rfind("\nbouncing ")) << list.output;
   const ProcessResult shard = on_ranks(2, {"run", "wall.toml", "--shard", "1/2", "--out", "shard"});
   EXPECT_EQ(shard.status, 2);
-  EXPECT_NE(shard.output.find("--shard: mpirun shares a run out"), std::string::npos) << shard.output;
+  // not "--shard: ...": under load, mpirun has been seen to drop the first character of a rank's line
+  EXPECT_NE(shard.output.find("shard: mpirun shares a run out"), std::string::npos) << shard.output;
   ASSERT_EQ(call({"run", "wall.toml", "--out", "whole"}).status, 0);
   const ProcessResult again = on_ranks(2, {"reproduce", "whole"});
   EXPECT_EQ(again.status, 0) << again.output;
