@@ -13,7 +13,7 @@ Vec3<double> out_of_box2d(const b2Vec2& v) { return Vec3<double>(v.x, v.y, 0); }
 
 class Box2dWorld final : public EngineWorld {
  public:
-  Box2dWorld(const EngineScene& scene, const BallState& ball, bool continuous, bool bullet)
+  Box2dWorld(const EngineScene& scene, const BodyState& ball, bool continuous, bool bullet)
       : world_(b2Vec2(0, 0)), step_(static_cast<float>(scene.step)) {
     world_.SetContinuousPhysics(continuous);
     b2PolygonShape wall_shape;
@@ -39,7 +39,7 @@ class Box2dWorld final : public EngineWorld {
   }
 
   void step() override { world_.Step(step_, 8, 3); }  // iterations as its manual advises
-  BallState ball() const override {
+  BodyState ball() const override {
     return {out_of_box2d(ball_->GetPosition()), out_of_box2d(ball_->GetLinearVelocity())};
   }
 
@@ -55,7 +55,7 @@ EngineMode box2d_mode(std::string name, std::string what, bool continuous, bool 
           .poses_per_step = continuous ? 0 : 1,
           .skin = b2_polygonRadius,
           .exact = false,
-          .make = [continuous, bullet](const EngineScene& scene, const BallState& ball) {
+          .make = [continuous, bullet](const EngineScene& scene, const BodyState& ball) {
             return std::make_unique<Box2dWorld>(scene, ball, continuous, bullet);
           }};
 }

@@ -33,7 +33,7 @@ struct BulletSweep {
 
 class BulletWorld final : public EngineWorld {
  public:
-  BulletWorld(const EngineScene& scene, const BallState& ball, const BulletSweep& sweep)
+  BulletWorld(const EngineScene& scene, const BodyState& ball, const BulletSweep& sweep)
       : wall_shape_(in_bullet({scene.thickness / 2, scene.half_side, scene.half_side})),
         ball_shape_(static_cast<btScalar>(scene.radius)),
         wall_(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &wall_shape_)),
@@ -64,7 +64,7 @@ class BulletWorld final : public EngineWorld {
   BulletWorld& operator=(const BulletWorld&) = delete;
 
   void step() override { world_.stepSimulation(step_, 0); }
-  BallState ball() const override {
+  BodyState ball() const override {
     return {out_of_bullet(ball_.getWorldTransform().getOrigin()), out_of_bullet(ball_.getLinearVelocity())};
   }
 
@@ -92,11 +92,11 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
                                     .poses_per_step = 1,
                                     .skin = 0,
                                     .exact = false,
-                                    .make = [](const EngineScene& scene, const BallState& ball) {
+                                    .make = [](const EngineScene& scene, const BodyState& ball) {
                                       return std::make_unique<BulletWorld>(scene, ball, BulletSweep{});
                                     }}};
   for (const double factor : choices.swept_radius) {
-    const auto make = [factor, threshold = choices.motion_threshold](const EngineScene& scene, const BallState& ball) {
+    const auto make = [factor, threshold = choices.motion_threshold](const EngineScene& scene, const BodyState& ball) {
       return std::make_unique<BulletWorld>(scene, ball, BulletSweep{factor * scene.radius, threshold * scene.radius});
     };
     modes.push_back({.name = "ccd_" + exact_text(factor),

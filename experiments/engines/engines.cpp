@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/engines/model.hpp>
+#include <thinwall/experiments/engines/stages.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
@@ -370,6 +370,12 @@ std::string answer_of(const Rows& rows) {
   return text.starts_with(' ') ? text.substr(1) : text;
 }
 
+std::vector<SelfTest> tests_of(const Rows& rows, const std::vector<StageRow>& stages) {
+  std::vector<CellCount> counts = own_counts(rows);
+  std::ranges::move(own_counts(stages), std::back_inserter(counts));
+  return self_test(counts);
+}
+
 /// A row for each engine and mode, a column for each path, as many as fit.
 std::string percent_matrix(const Rows& rows, double wall) {
   const std::vector<std::string> labels = labels_of(rows);
@@ -392,7 +398,7 @@ std::string percent_matrix(const Rows& rows, double wall) {
       table("percent", fmt::format("Percent through a wall {} m wide, against meters a step.", wall), columns, labels));
 }
 
-std::string summary_of(const EnginePlan& plan, const Rows& rows) {
+std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages) {
   std::string text;
   for (const double wall : walls_of(rows)) text += percent_matrix(rows, wall) + "\n";
   const double first = wall_of(rows.front());
@@ -401,7 +407,8 @@ std::string summary_of(const EnginePlan& plan, const Rows& rows) {
   turned.description = "Of the balls that turned: lateness, and energy after over energy before.";
   text += terminal(
       turned, {"engine", "mode", "wall_size", "path", "lateness", "latest", "energy", "least_energy", "most_energy"});
-  text += fmt::format("\nSelf-test of ours: {}.\n", all_passed(self_test(own_counts(rows))) ? "passed" : "FAILED");
+  text += "\n" + stages_summary(stages);
+  text += fmt::format("\nSelf-test of ours: {}.\n", all_passed(tests_of(rows, stages)) ? "passed" : "FAILED");
   for (const std::string& missing : missing_engines(plan)) text += missing + ".\n";
   return text;
 }
@@ -445,15 +452,17 @@ std::string engines_text(const EnginePlan& plan) {
   return fmt::format("{}", fmt::join(parts, "\n\n"));
 }
 
-Outcome outcome_of(const EnginePlan& plan, const Rows& rows) {
-  const std::vector<SelfTest> tests = self_test(own_counts(rows));
-  return {
-      .answer = answer_of(rows),
-      .summary = summary_of(plan, rows),
-      .tables = {told_table(rows), cells_table(rows), timings_table(rows)},
-      .figures = figures_of(rows),
-      .sections = {{"The engines", engines_text(plan)}, {"Self-test", self_test_text(tests) + agreement_text(rows)}},
-      .self_test_passed = all_passed(tests)};
+Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages) {
+  const std::vector<SelfTest> tests = tests_of(rows, stages);
+  return {.answer = answer_of(rows),
+          .summary = summary_of(plan, rows, stages),
+          .tables = {told_table(rows), stages_table(stages), cells_table(rows), timings_table(rows),
+                     stage_timings_table(stages)},
+          .figures = figures_of(rows),
+          .sections = {{"The engines", engines_text(plan)},
+                       {"The stages", stages_text(plan, stages)},
+                       {"Self-test", self_test_text(tests) + agreement_text(rows)}},
+          .self_test_passed = all_passed(tests)};
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
@@ -470,12 +479,29 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
                                  row.setup->mode.name, v.first),
                      v.shots, compute});
   }
-  const auto finish = [plan, rows, volleys](const Done<EngineTally>& done) {
+  const std::vector<StageRow> stages = stage_rows(*plan);
+  const std::vector<StageVolley> played = stage_volleys(*plan, stages);
+  std::vector<Task<StageTally>> stage_tasks;
+  for (const StageVolley& v : played) {
+    const StageRow& row = stages[v.row];
+    stage_tasks.push_back(
+        {fmt::format("stage {} {} {} from {}", row.kind->name, row.setup->engine.name, row.setup->mode.name, v.first),
+         v.shots, [plan, row, v] { return play(row, v.first, v.shots, plan->seed); }});
+  }
+  const auto finish = [plan, rows, volleys, stages, played](const Done<EngineTally>& done,
+                                                            const Done<StageTally>& stages_done) {
     Rows all = rows;
+    std::vector<StageRow> all_stages = stages;
     add_results(volleys, done.results, all);
-    return outcome_of(*plan, all);
+    for (std::size_t i = 0; i < played.size(); ++i) all_stages[played[i].row].tally += stages_done.results[i];
+    const std::vector<std::string> failed = drop_failed(all, all_stages);
+    Outcome outcome = outcome_of(*plan, all, all_stages);
+    for (const std::string& name : failed) {
+      outcome.summary += fmt::format("\n\n{} is left out: it died or hung, and left shots unanswered.", name);
+    }
+    return outcome;
   };
-  return make_run(finish, missing_engines(*plan), std::move(tasks));
+  return make_run(finish, missing_engines(*plan), std::move(tasks), std::move(stage_tasks));
 }
 
 }  // namespace

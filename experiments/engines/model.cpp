@@ -16,8 +16,18 @@ namespace thinwall {
 
 std::vector<Engine> engine_list() {
 #define THINWALL_MAKE_ENGINE(make) make(),
-  return {THINWALL_ENGINES(THINWALL_MAKE_ENGINE)};
+  std::vector<Engine> engines = {THINWALL_ENGINES(THINWALL_MAKE_ENGINE)};
 #undef THINWALL_MAKE_ENGINE
+  const std::vector<Engine> others = npm_engines();
+  engines.insert(engines.end() - 1, others.begin(), others.end());  // ours is last
+  return engines;
+}
+
+EngineStage stage_of(const EngineScene& scene) {
+  const Vec3<double> half_extents = {scene.thickness / 2, scene.half_side, scene.half_side};
+  return {.step = scene.step,
+          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
+          .moving = {Sphere<double>{Vec3<double>::Zero(), scene.radius}}};
 }
 
 const Factors<EngineCell>& engine_factors() {
@@ -59,23 +69,23 @@ namespace {
 
 /// The lines of flight before and after the bounce meet at some time: of a ball that turns in an instant, when it turned. Its
 /// distance from first contact, in steps; < 0 where the ball turns before it touches.
-double lateness_of(const EngineShot& shot, const BallState& end, double steps) {
+double lateness_of(const EngineShot& shot, const BodyState& end, double steps) {
   const double contact_at = -shot.scene.thickness / 2 - shot.scene.radius;
   const double in = shot.start.velocity[0] * shot.scene.step, out = end.velocity[0] * shot.scene.step;
   return (end.position[0] - contact_at - out * (steps - shot.contact)) / (in - out);
 }
 
 /// Where the ball would be had there been no wall, to a hundredth of its radius.
-bool flew_straight(const EngineShot& shot, const BallState& end, double steps) {
+bool flew_straight(const EngineShot& shot, const BodyState& end, double steps) {
   const Vec3<double> straight = shot.start.position + steps * shot.scene.step * shot.start.velocity;
   return (end.position - straight).norm() <= shot.scene.radius / 100;
 }
 
 }  // namespace
 
-void judge(const EngineShot& shot, const std::vector<BallState>& flight, EngineTally& tally) {
+void judge(const EngineShot& shot, const std::vector<BodyState>& flight, EngineTally& tally) {
   ++tally.shots;
-  const BallState& end = flight.back();
+  const BodyState& end = flight.back();
   const auto steps = static_cast<double>(flight.size());
   const double half = shot.scene.thickness / 2;
   if (!end.position.allFinite() || !end.velocity.allFinite()) {
@@ -95,7 +105,7 @@ void judge(const EngineShot& shot, const std::vector<BallState>& flight, EngineT
     tally.earliest = std::min(tally.earliest, lateness);
     tally.most_energy = std::max(tally.most_energy, energy);
     tally.least_energy = std::min(tally.least_energy, energy);
-    for (const BallState& at : flight) {
+    for (const BodyState& at : flight) {
       tally.deepest = std::max(tally.deepest, at.position[0] + shot.scene.radius + half);
     }
   }
@@ -126,7 +136,8 @@ constexpr double most_walls_a_path = 1e6;
 
 /// What brings an engine that is not in this program.
 std::string remedy(const Engine& engine) {
-  return fmt::format("install {} and configure with -DTHINWALL_PEERS=ON", engine.package);
+  return engine.remedy.empty() ? fmt::format("install {} and configure with -DTHINWALL_PEERS=ON", engine.package)
+                               : engine.remedy;
 }
 
 void choose_engines(const Settings& settings, EnginePlan& plan) {
@@ -205,6 +216,16 @@ EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options)
   const std::int64_t volleys = (plan.shots + most_shots_an_engine_volley - 1) / most_shots_an_engine_volley;
   settings.limit_cells({"path", "wall_size"}, plan.setups.size() * static_cast<std::size_t>(volleys));
   choose_cells(settings, plan);
+  const std::vector<std::string_view> stages = stage_names();
+  plan.stages = settings.choices_or_all("stage", stages);
+  plan.stage_shots = settings.trials("stage_shots", 0, most_engine_shots, options.trials);
+  plan.stage_path = settings.number("stage_path", {.lower = 1e-9, .upper = 1000, .unit = "m"});
+  const double least_path = 13 * plan.cells.front().radius + 2 * plan.cells.front().thickness;
+  if (plan.stage_shots > 0 && plan.stage_path < least_path) {
+    settings.complain("stage_path",
+                      fmt::format("at least {} m, so that what is not stopped has passed at the end of a shot",
+                                  rounded_text(least_path, 3)));
+  }
   plan.seed = options.seed;
   return plan;
 }
@@ -245,12 +266,29 @@ EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t fi
                  std::uint64_t seed) {
   const RandomStream stream = random_stream(cell, seed);
   EngineTally tally;
-  std::vector<BallState> flight(static_cast<std::size_t>(cell.steps));
+  if (!mode.make) {
+    std::vector<EngineShot> all;
+    std::vector<std::vector<BodyState>> starts;
+    for (std::int64_t i = first; i < first + shots; ++i) {
+      all.push_back(engine_shot(cell, stream, static_cast<std::uint64_t>(i)));
+      starts.push_back({all.back().start});
+    }
+    const EngineFlights flights = mode.play(stage_of(all.front().scene), starts, cell.steps);
+    for (std::size_t i = 0; i < flights.shots.size(); ++i) {
+      std::vector<BodyState> flight;
+      for (const std::vector<BodyState>& bodies : flights.shots[i]) flight.push_back(bodies.front());
+      judge(all[i], flight, tally);
+    }
+    tally.seconds = flights.seconds;
+    tally.unanswered = shots - std::ssize(flights.shots);
+    return tally;
+  }
+  std::vector<BodyState> flight(static_cast<std::size_t>(cell.steps));
   for (std::int64_t i = first; i < first + shots; ++i) {
     const EngineShot shot = engine_shot(cell, stream, static_cast<std::uint64_t>(i));
     const auto world = mode.make(shot.scene, shot.start);
     const double start = thread_seconds();
-    for (BallState& at : flight) {
+    for (BodyState& at : flight) {
       world->step();
       at = world->ball();
     }
@@ -265,7 +303,8 @@ void add_results(const std::vector<EngineVolley>& volleys, const std::vector<Eng
   for (std::size_t i = 0; i < volleys.size(); ++i) {
     EngineRow& row = rows[volleys[i].row];
     row.tally += tallies[i];
-    row.nanoseconds.push_back(1e9 * tallies[i].seconds / static_cast<double>(tallies[i].shots * row.cell.steps));
+    if (tallies[i].shots > 0)
+      row.nanoseconds.push_back(1e9 * tallies[i].seconds / static_cast<double>(tallies[i].shots * row.cell.steps));
   }
 }
 

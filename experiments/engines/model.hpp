@@ -32,7 +32,7 @@ const Factors<EngineCell>& engine_factors();
 /// A ball before the wall, and when it first touches.
 struct EngineShot {
   EngineScene scene;
-  BallState start;
+  BodyState start;
   double contact;  ///< [steps] from the start to first contact, in (0, 2): the oracle's answer
 };
 EngineShot engine_shot(const EngineCell& cell, const RandomStream& stream, std::uint64_t trial);
@@ -45,6 +45,7 @@ inline constexpr std::int64_t most_engine_shots = std::int64_t(1) << 20;  ///< o
 /// Over the shots of one cell in one mode; the real numbers are of the turned.
 struct EngineTally {
   std::int64_t shots = 0, tunneled = 0, unseen = 0, stuck = 0, lost = 0, turned = 0;
+  std::int64_t unanswered = 0;                            ///< shots besides, of an engine that died or hung
   RealSum lateness, energy;                               ///< [steps], [1] at most 1024 each
   double latest = no_most, earliest = no_least;           ///< [steps]
   double least_energy = no_least, most_energy = no_most;  ///< [1]
@@ -65,6 +66,7 @@ struct EngineTally {
         least("least_energy", &T::least_energy, "1", "The least of them."),
         most("most_energy", &T::most_energy, "1", "The most of them."),
         most("deepest", &T::deepest, "m", "Deepest in the wall at the end of a step, of the turned; < 0 is apart."),
+        sum("unanswered", &T::unanswered, "1", "Shots besides, of an engine that died or hung."),
         kept("seconds", &T::seconds));
   }
 
@@ -75,7 +77,7 @@ struct EngineTally {
 };
 
 /// Adds the shot to the tally. `flight` is where the ball was at the end of each step.
-void judge(const EngineShot& shot, const std::vector<BallState>& flight, EngineTally& tally);
+void judge(const EngineShot& shot, const std::vector<BodyState>& flight, EngineTally& tally);
 
 // Theory: a ball that is looked at in poses alone. Derived in docs/tunneling_theory.md for one angle; here the angle of incidence is
 // uniform between 0 and a largest one.
@@ -105,10 +107,16 @@ struct EngineSetup {
 struct EnginePlan {
   std::vector<EngineCell> cells;  ///< by wall, then by path in rising order
   std::vector<EngineSetup> setups;
-  std::vector<Engine> missing;  ///< asked for by "all", and not in the program
-  std::int64_t shots;           ///< of each cell and setup
+  std::vector<Engine> missing;      ///< asked for by "all", and not in the program
+  std::int64_t shots;               ///< of each cell and setup
+  std::vector<std::string> stages;  ///< names, of stages.hpp
+  std::int64_t stage_shots;         ///< of each stage and setup; 0: none is played
+  double stage_path;                ///< [m] of the motion in a step
   std::uint64_t seed;
 };
+
+/// Those that may be asked for: stages.hpp has them.
+std::vector<std::string_view> stage_names();
 
 /// Throws UsageError.
 EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options);

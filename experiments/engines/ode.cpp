@@ -28,7 +28,7 @@ dWorldID new_world() {
 
 class OdeWorld final : public EngineWorld {
  public:
-  OdeWorld(const EngineScene& scene, const BallState& ball) : step_(scene.step) {
+  OdeWorld(const EngineScene& scene, const BodyState& ball) : step_(scene.step) {
     dCreateBox(space_, scene.thickness, 2 * scene.half_side, 2 * scene.half_side);
     dMass mass;
     dMassSetSphereTotal(&mass, 1, scene.radius);
@@ -50,7 +50,7 @@ class OdeWorld final : public EngineWorld {
     dWorldStep(world_, step_);
     dJointGroupEmpty(contacts_);
   }
-  BallState ball() const override {
+  BodyState ball() const override {
     const dReal* p = dBodyGetPosition(ball_);
     const dReal* v = dBodyGetLinearVel(ball_);
     return {Vec3<double>(p[0], p[1], p[2]), Vec3<double>(v[0], v[1], v[2])};
@@ -83,7 +83,7 @@ std::vector<EngineMode> ode_modes(const EngineChoices&) {
            .poses_per_step = 1,
            .skin = 0,
            .exact = false,
-           .make = [](const EngineScene& scene, const BallState& ball) {
+           .make = [](const EngineScene& scene, const BodyState& ball) {
              return std::make_unique<OdeWorld>(scene, ball);
            }}};
 }

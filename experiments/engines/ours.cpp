@@ -1,7 +1,11 @@
 #include <thinwall/experiments/engines/engine.hpp>
 
+#include <stdexcept>
+#include <type_traits>
+
 #include <fmt/format.h>
 
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/world.hpp>
 
 namespace thinwall {
@@ -10,31 +14,60 @@ namespace {
 
 class OwnWorld final : public EngineWorld {
  public:
-  OwnWorld(const EngineScene& scene, const BallState& ball, const WorldOptions& options)
-      : world_(bodies(scene, ball), options), step_(scene.step) {}
+  OwnWorld(const EngineStage& stage, std::span<const BodyState> starts, const WorldOptions& options)
+      : world_(bodies(stage, starts), options), step_(stage.step) {}
 
   void step() override { world_.step(step_); }
-  BallState ball() const override {
-    const Body& ball = *world_.find(1);
-    return {position(ball), ball.velocity};
+  BodyState ball() const override { return body(1); }
+  BodyState body(std::uint32_t id) const {
+    const Body& body = *world_.find(id);
+    return {position(body), body.velocity};
   }
 
  private:
-  static std::vector<Body> bodies(const EngineScene& scene, const BallState& state) {
-    Body ball, wall;
-    ball.id = 1;
-    ball.shape = Sphere<double>{state.position, scene.radius};
-    ball.velocity = state.velocity;
-    ball.restitution = 1;
-    wall.id = 2;
-    wall.shape = Aabb<double>{Vec3<double>::Zero(), {scene.thickness / 2, scene.half_side, scene.half_side}};
-    wall.is_static = true;
-    return {ball, wall};
+  /// Those that move have the ids 1, 2, ...
+  static std::vector<Body> bodies(const EngineStage& stage, std::span<const BodyState> starts) {
+    std::vector<Body> all;
+    const auto add = [&](const EngineShape& shape, const BodyState& state, bool is_static) {
+      Body& body = all.emplace_back();
+      body.id = static_cast<std::uint32_t>(all.size());
+      std::visit(
+          [&]<class Shape>(const Shape& s) {
+            if constexpr (std::is_same_v<Shape, EngineMesh>)
+              throw std::invalid_argument("a world has no meshes");
+            else
+              body.shape = moved(s, state.position);
+          },
+          shape);
+      body.velocity = state.velocity;
+      body.restitution = 1;
+      body.is_static = is_static;
+    };
+    for (std::size_t i = 0; i < starts.size(); ++i) add(stage.moving[i], starts[i], false);
+    for (const EngineShape& shape : stage.fixed) add(shape, {Vec3<double>::Zero(), Vec3<double>::Zero()}, true);
+    return all;
   }
 
   World world_;
   double step_;
 };
+
+EngineFlights play_own(const WorldOptions& options, const EngineStage& stage,
+                       std::span<const std::vector<BodyState>> starts, std::int64_t steps) {
+  EngineFlights flights;
+  for (const std::vector<BodyState>& shot : starts) {
+    OwnWorld world(stage, shot, options);
+    EngineFlights::Flight& flight = flights.shots.emplace_back();
+    for (std::int64_t i = 0; i < steps; ++i) {
+      const double start = thread_seconds();
+      world.step();
+      flights.seconds += thread_seconds() - start;
+      std::vector<BodyState>& at = flight.emplace_back();
+      for (std::uint32_t id = 1; id <= shot.size(); ++id) at.push_back(world.body(id));
+    }
+  }
+  return flights;
+}
 
 EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
   WorldOptions options;
@@ -48,9 +81,12 @@ EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
           .poses_per_step = sweeps ? 0 : substeps,
           .skin = 0,
           .exact = sweeps,
-          .make = [options](const EngineScene& scene, const BallState& ball) {
-            return std::make_unique<OwnWorld>(scene, ball, options);
-          }};
+          .make =
+              [options](const EngineScene& scene, const BodyState& ball) {
+                return std::make_unique<OwnWorld>(stage_of(scene), std::span(&ball, 1), options);
+              },
+          .play = [options](const EngineStage& stage, std::span<const std::vector<BodyState>> starts,
+                            std::int64_t steps) { return play_own(options, stage, starts, steps); }};
 }
 
 std::vector<EngineMode> own_modes(const EngineChoices& choices) {

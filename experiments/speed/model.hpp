@@ -31,7 +31,7 @@ struct Counter {
   bool operator==(const Counter&) const = default;
 };
 
-/// One row of Google Benchmark's: KIND/SUBJECT/WAY, such as time_of_impact/sphere_aabb/kernel.
+/// One row of Google Benchmark's: KIND/SUBJECT/WAY, such as time_of_impact/sphere_aabb/careful.
 struct BenchRow {
   std::string kind, subject, way;
   double nanoseconds = 0;         ///< [ns] of the processor, an answer
@@ -85,7 +85,7 @@ struct TimedWay {
   std::optional<double> error(std::string_view counter) const;  ///< where the row has it
   double wrong_verdicts() const { return error("missed").value_or(0) + error("false").value_or(0); }
 
-  std::string name() const;    ///< what a picture calls it: "thinwall, kernel", "Bullet, subsimplex cast"
+  std::string name() const;    ///< what a picture calls it: "thinwall, careful", "Bullet, subsimplex cast"
   bool is_front_door() const;  ///< the program's own answer through it
   bool is_peer() const;        ///< another library answers
   bool must_be_right()

@@ -1,0 +1,269 @@
+/// Engines that are npm packages: scripts in npm/, which node runs, a process for each thread that asks, asked in lines of JSON.
+/// npm/serve.mjs says what a line holds.
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/engines/engine.hpp>
+#include <thinwall/experiments/engines/speaker.hpp>
+
+#ifndef THINWALL_NPM_ENGINES
+#define THINWALL_NPM_ENGINES ""  // the folder of the scripts
+#endif
+
+namespace thinwall {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double seconds_to_start = 60, seconds_a_volley = 120;
+
+struct NpmMode {
+  const char* name;
+  const char* what;
+  int poses_per_step = 0;  ///< and skin [m], as of EngineMode
+  double skin = 0;
+};
+
+struct NpmEngine {
+  const char* name;  ///< of the script, too
+  const char* called;
+  const char* package;
+  const char* made_of;
+  bool has_meshes;
+  std::vector<NpmMode> modes;
+};
+
+/// What it comes with and what its own documentation has for fast bodies; the scripts set it. Skins are the engines' own: of
+/// Rapier's prediction, Jolt's speculative distance, Box2D's four slops, PhysX's contact offset of either body.
+const std::vector<NpmEngine>& list() {
+  static const std::vector<NpmEngine> all = {
+      {"rapier",
+       "Rapier",
+       "@dimforge/rapier3d-compat",
+       "A World with a fixed cuboid and a ball, in float, in WebAssembly.",
+       true,
+       {{"discrete", "World.maxCcdSubsteps = 0, without which it sweeps bodies that do not ask for it", 1, 0.02},
+        {"default", "as it comes"},
+        {"ccd", "RigidBodyDesc.setCcdEnabled(true), which its guide has for fast bodies"},
+        {"soft_ccd", "RigidBodyDesc.setSoftCcdPrediction(path of a step), World.maxCcdSubsteps = 0"}}},
+      {"jolt",
+       "Jolt",
+       "jolt-physics",
+       "A PhysicsSystem with a static box and a sphere, in float, in WebAssembly; its speed limit of 500 m/s raised.",
+       true,
+       {{"discrete", "EMotionQuality_Discrete, as a body comes", 1, 0.02},
+        {"linear_cast", "EMotionQuality_LinearCast, which its documentation has for small fast bodies"}}},
+      {"physx",
+       "PhysX",
+       "physx-js-webidl",
+       "A PxScene with a static box and a sphere, in float, in WebAssembly; its meshes are not built here.",
+       false,
+       {{"discrete", "as it comes", 1, 0.04},
+        {"swept",
+         "eENABLE_CCD of scene and body and eDETECT_CCD_CONTACT of the pair, which its guide has for fast bodies"},
+        {"speculative", "PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD"}}},
+      {"havok",
+       "Havok",
+       "@babylonjs/havok",
+       "A world with a static box and a sphere, in float, in WebAssembly; its speed limit raised.",
+       true,
+       {{"default", "as it comes: it sweeps every body, and has no switch for that"}}},
+      {"mujoco",
+       "MuJoCo",
+       "@mujoco/mujoco",
+       "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous detection. Its meshes are convex hulls, which a flat one is not.",
+       false,
+       {{"default", "solref and solimp as they come, which take the speed away", 1, 0},
+        {"elastic", "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps"}}},
+      {"box2d3",
+       "Box2D 3",
+       "box2d3-wasm",
+       "A b2World with a static box and a circle, in the plane, in float, in WebAssembly; its speed limit of 400 m/s raised.",
+       false,
+       {{"discrete", "b2WorldDef.enableContinuous = false", 1, 0.02},
+        {"continuous", "as it comes: what moves is swept against what is fixed"},
+        {"bullet", "b2BodyDef.isBullet = true, which its manual has for fast bodies"}}}};
+  return all;
+}
+
+/// The version that package.json asks for, and whether npm has brought it.
+json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return json::parse(in, nullptr, false);
+}
+
+std::string installed_version(const fs::path& scripts, const std::string& package) {
+  const json asked = read_json(scripts / "package.json"),
+             there = read_json(scripts / "node_modules" / package / "package.json");
+  if (!asked.is_object() || !there.is_object()) return {};
+  const std::string version = there.value("version", "");
+  return asked.value("dependencies", json::object()).value(package, "") == version ? version : "";
+}
+
+/// What serve.mjs calls a shape, and where a fixed one stays.
+struct ToJson {
+  json operator()(const Sphere<double>& s) const { return {{"sphere", s.radius}, {"at", list(s.center)}}; }
+  json operator()(const Aabb<double>& b) const { return {{"box", list(b.half_extents)}, {"at", list(b.center)}}; }
+  json operator()(const Capsule<double>& c) const {
+    return {{"capsule", {(c.b - c.a).norm() / 2, c.radius}}, {"at", list((c.a + c.b) / 2)}};
+  }
+  json operator()(const EngineMesh& m) const {
+    json points = json::array();
+    for (const Vec3<double>& p : m.points) points.push_back(list(p));
+    return {{"mesh", {{"points", points}, {"triangles", m.triangles}}}, {"at", {0, 0, 0}}};
+  }
+  static json list(const Vec3<double>& v) { return {v[0], v[1], v[2]}; }
+};
+
+/// The processes of one engine: as many as threads ask it at once, each started when it is needed. None is started, or asked, once one
+/// has failed.
+class NpmProcesses {
+ public:
+  NpmProcesses(std::string name, fs::path scripts) : name_(std::move(name)), scripts_(std::move(scripts)) {}
+
+  EngineFlights play(const std::string& mode, const EngineStage& stage, std::span<const std::vector<BodyState>> starts,
+                     std::int64_t steps) {
+    try {
+      std::unique_ptr<Speaker> speaker = take();
+      if (!speaker) return {};
+      EngineFlights flights =
+          flights_of(speaker->ask(question(mode, stage, starts, steps), seconds_a_volley), starts, steps);
+      const std::scoped_lock lock(mutex_);
+      idle_.push_back(std::move(speaker));
+      return flights;
+    } catch (const std::exception& error) {
+      const std::scoped_lock lock(mutex_);
+      if (!failed_) std::cerr << fmt::format("engines: {}: left out from here on\n", error.what());
+      failed_ = true;
+      return {};
+    }
+  }
+
+ private:
+  /// Null where the engine has failed.
+  std::unique_ptr<Speaker> take() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (failed_) return nullptr;
+      if (!idle_.empty()) {
+        std::unique_ptr<Speaker> speaker = std::move(idle_.back());
+        idle_.pop_back();
+        return speaker;
+      }
+    }
+    auto speaker = std::make_unique<Speaker>(name_, std::vector<std::string>{"node", "serve.mjs", name_}, scripts_);
+    if (!speaker->hear(seconds_to_start).is_object()) throw SpeakerError(name_ + " does not say what it is");
+    return speaker;
+  }
+
+  static json question(const std::string& mode, const EngineStage& stage,
+                       std::span<const std::vector<BodyState>> starts, std::int64_t steps) {
+    json shots = json::array(), fixed = json::array(), moving = json::array();
+    for (const std::vector<BodyState>& bodies : starts) {
+      json& shot = shots.emplace_back(json::array());
+      for (const BodyState& body : bodies) {
+        const Vec3<double>&p = body.position, &v = body.velocity, &w = body.spin;
+        shot.push_back({p[0], p[1], p[2], v[0], v[1], v[2], w[0], w[1], w[2]});
+      }
+    }
+    for (const EngineShape& shape : stage.fixed) fixed.push_back(std::visit(ToJson{}, shape));
+    for (const EngineShape& shape : stage.moving) moving.push_back(std::visit(ToJson{}, shape));
+    return {{"id", question_id}, {"mode", mode},     {"step", stage.step},       {"steps", steps},
+            {"fixed", fixed},    {"moving", moving}, {"shots", std::move(shots)}};
+  }
+
+  /// Throws SpeakerError, or json's own, unless it is an answer to such a question.
+  EngineFlights flights_of(const json& answer, std::span<const std::vector<BodyState>> starts,
+                           std::int64_t steps) const {
+    if (answer.contains("error")) throw SpeakerError(fmt::format("{} says: {}", name_, answer.at("error").dump()));
+    if (answer.at("id") != question_id || answer.at("flights").size() != starts.size())
+      throw SpeakerError(name_ + " answers something else");
+    EngineFlights flights;
+    flights.seconds = answer.at("seconds").get<double>();
+    for (const json& answered : answer.at("flights")) {
+      EngineFlights::Flight& flight = flights.shots.emplace_back();
+      for (const json& bodies : answered) {
+        std::vector<BodyState>& at = flight.emplace_back();
+        for (const json& body : bodies) {
+          const auto number = [&body](std::size_t i) {  // JSON has no other word for what is not finite
+            return body.at(i).is_null() ? std::numeric_limits<double>::quiet_NaN() : body.at(i).get<double>();
+          };
+          at.push_back({{number(0), number(1), number(2)},
+                        {number(3), number(4), number(5)},
+                        {number(6), number(7), number(8)}});
+        }
+        if (at.size() != starts.front().size()) throw SpeakerError(name_ + " answers of another number of bodies");
+      }
+      if (std::ssize(flight) != steps) throw SpeakerError(name_ + " answers with another number of steps");
+    }
+    return flights;
+  }
+
+  static constexpr int question_id = 1;  // a process is asked one thing at a time
+
+  std::string name_;
+  fs::path scripts_;
+  std::mutex mutex_;  ///< of what follows
+  std::vector<std::unique_ptr<Speaker>> idle_;
+  bool failed_ = false;
+};
+
+NpmProcesses& processes_of(const std::string& name, const fs::path& scripts) {
+  static std::mutex mutex;
+  static std::map<std::pair<fs::path, std::string>, NpmProcesses> all;
+  const std::scoped_lock lock(mutex);
+  return all.try_emplace({scripts, name}, name, scripts).first->second;
+}
+
+std::vector<EngineMode> modes_of(const NpmEngine& engine, const fs::path& scripts) {
+  std::vector<EngineMode> modes;
+  for (const NpmMode& mode : engine.modes) {
+    const auto play = [name = std::string(engine.name), of = std::string(mode.name), scripts](
+                          const EngineStage& stage, std::span<const std::vector<BodyState>> starts,
+                          std::int64_t steps) { return processes_of(name, scripts).play(of, stage, starts, steps); };
+    modes.push_back({.name = mode.name,
+                     .what = mode.what,
+                     .poses_per_step = mode.poses_per_step,
+                     .skin = mode.skin,
+                     .play = play,
+                     .has_meshes = engine.has_meshes,
+                     .turns = true});
+  }
+  return modes;
+}
+
+}  // namespace
+
+std::vector<Engine> npm_engines() { return npm_engines(THINWALL_NPM_ENGINES); }
+
+std::vector<Engine> npm_engines(const fs::path& scripts) {
+  std::vector<Engine> engines;
+  for (const NpmEngine& one : list()) {
+    const std::string version = scripts.empty() ? "" : installed_version(scripts, one.package);
+    Engine engine = {
+        .name = one.name,
+        .called = one.called,
+        .package = one.package,
+        .made_of = fmt::format("{} Version {} of {}.", one.made_of, version, one.package),
+        .remedy = fmt::format(
+            "configure with -DTHINWALL_PEERS=ON and run `npm ci` in experiments/engines/npm, which brings {}",
+            one.package)};
+    if (!version.empty()) engine.modes = [&one, scripts](const EngineChoices&) { return modes_of(one, scripts); };
+    engines.push_back(std::move(engine));
+  }
+  return engines;
+}
+
+}  // namespace thinwall

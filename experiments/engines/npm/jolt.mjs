@@ -1,0 +1,75 @@
+// Jolt Physics: https://github.com/jrouwe/JoltPhysics. In float.
+import initialize from 'jolt-physics';
+
+export const name = 'Jolt';
+export const modes = ['discrete', 'linear_cast'];
+
+const still = 0, moves = 1; // layers: what moves meets all, what is still does not meet itself
+let Jolt;
+
+export async function start() { Jolt = await initialize(); }
+
+const vec3 = ([x, y, z]) => new Jolt.Vec3(x, y, z);
+
+function shapeOf(shape) {
+  if (shape.sphere !== undefined) return new Jolt.SphereShape(shape.sphere);
+  if (shape.box) return new Jolt.BoxShape(vec3(shape.box), Math.min(0.05, ...shape.box));
+  if (shape.capsule) return new Jolt.CapsuleShape(...shape.capsule);
+  const triangles = new Jolt.TriangleList();
+  for (const corners of shape.mesh.triangles) {
+    triangles.push_back(new Jolt.Triangle(...corners.map((k) => vec3(shape.mesh.points[k]))));
+  }
+  return new Jolt.MeshShapeSettings(triangles).Create().Get();
+}
+
+function settings() {
+  const all = new Jolt.JoltSettings();
+  const pairs = new Jolt.ObjectLayerPairFilterTable(2);
+  pairs.EnableCollision(still, moves);
+  pairs.EnableCollision(moves, moves);
+  const layers = new Jolt.BroadPhaseLayerInterfaceTable(2, 2);
+  layers.MapObjectToBroadPhaseLayer(still, new Jolt.BroadPhaseLayer(still));
+  layers.MapObjectToBroadPhaseLayer(moves, new Jolt.BroadPhaseLayer(moves));
+  all.mObjectLayerPairFilter = pairs;
+  all.mBroadPhaseLayerInterface = layers;
+  all.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
+  return all;
+}
+
+export function world(mode, { step, fixed, moving }) {
+  const all = settings();
+  const it = new Jolt.JoltInterface(all);
+  Jolt.destroy(all);
+  const system = it.GetPhysicsSystem(), bodies = system.GetBodyInterface();
+  system.SetGravity(new Jolt.Vec3(0, 0, 0));
+  const add = (shape, at, motion, layer, more) => {
+    const made = new Jolt.BodyCreationSettings(shapeOf(shape), new Jolt.RVec3(...at), new Jolt.Quat(0, 0, 0, 1), motion, layer);
+    made.mRestitution = 1;
+    made.mFriction = made.mLinearDamping = made.mAngularDamping = 0;
+    made.mAllowSleeping = false;
+    made.mMaxLinearVelocity = 1e6; // 500 m/s as it comes
+    made.mMaxAngularVelocity = 1e6;
+    more?.(made);
+    const body = bodies.CreateBody(made);
+    bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
+    Jolt.destroy(made);
+    return body;
+  };
+  for (const shape of fixed) add(shape, shape.at, Jolt.EMotionType_Static, still);
+  let placed = [];
+  return {
+    place(states) {
+      placed = moving.map((shape, i) => add(shape, states[i].slice(0, 3), Jolt.EMotionType_Dynamic, moves, (made) => {
+        made.mLinearVelocity = vec3(states[i].slice(3, 6));
+        made.mAngularVelocity = vec3([...states[i].slice(6, 9), 0, 0, 0]);
+        if (mode === 'linear_cast') made.mMotionQuality = Jolt.EMotionQuality_LinearCast;
+      }));
+    },
+    advance() { it.Step(step, 1); },
+    states() {
+      return placed.map((body) => [body.GetCenterOfMassPosition(), body.GetLinearVelocity(), body.GetAngularVelocity()]
+        .flatMap((v) => [v.GetX(), v.GetY(), v.GetZ()]));
+    },
+    free() { Jolt.destroy(it); },
+  };
+}
