@@ -102,15 +102,17 @@ template <class A, class B> double unit_length(const Shot<A, B>& q) {
 template <class B> double unit_length(const RayShot<B>& q) { return std::sqrt(q.ray.direction.squaredNorm()); }
 template <class A, class B> double unit_length(const Pose<A, B>&) { return 1; }
 
-/// Shots of shapes made by `make_a` at shapes made by `make_b`, hits as likely as misses, both moving.
-template <class A, class B, class MakeA, class MakeB> Shots<A, B> shots(const MakeA& make_a, const MakeB& make_b) {
+/// Shots of shapes made by `make_a` at shapes made by `make_b`, hits as likely as misses, both moving, along `axes` alone.
+template <class A, class B, class MakeA, class MakeB>
+Shots<A, B> shots(const MakeA& make_a, const MakeB& make_b, const Vec3<double>& axes = {1, 1, 1}) {
   Uniform uniform;
   Shots<A, B> set;
   bool wanted = true;
   while (set.queries.size() < query_count) {
-    const Vec3<double> from = uniform.direction() * uniform.between(1.5, 3);
-    const Vec3<double> aim = uniform.direction() * uniform.between(0, 2);
-    const Vec3<double> drift = uniform.direction() * uniform.between(0, 2);
+    const auto vector = [&](double least, double most) -> Vec3<double> {
+      return (uniform.direction() * uniform.between(least, most)).cwiseProduct(axes);
+    };
+    const Vec3<double> from = vector(1.5, 3), aim = vector(0, 2), drift = vector(0, 2);
     const Moving<A> a{moved<double>(make_a(uniform), from), (aim - from) * uniform.between(0.5, 3) + drift};
     const Moving<B> b{make_b(uniform), drift};
     const auto truth = time_of_impact(cast<long double>(a), cast<long double>(b));

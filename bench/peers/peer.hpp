@@ -33,11 +33,14 @@ extern template const Poses<Ball, Box>& any_poses();
 extern template const Poses<TurnedBox, TurnedBox>& any_poses();
 extern template const Poses<Pill, Pill>& any_poses();
 const Shots<Ball, Box>& wall_shots();
+const Shots<Ball, Box>& plane_shots();
+inline constexpr std::string_view in_plane = "sphere_aabb_in_plane";
 
 /// visit(pair, set, least operations) of each pair whose time of impact is asked for.
 template <class Visit> void for_each_cast(const Visit& visit) {
   visit("sphere_thin_wall", &wall_shots, flat_hit);
   visit("sphere_aabb", &any_shots<Ball, Box>, flat_hit);
+  visit(std::string(in_plane), &plane_shots, flat_hit);
   visit("sphere_sphere", &any_shots<Ball, Ball>, round_hit);
   visit("aabb_aabb", &any_shots<Box, Box>, flat_hit);
   visit("sphere_capsule", &any_shots<Ball, Pill>, round_hit);
@@ -80,9 +83,9 @@ void add_row(const std::string& name, const QuerySet<Query>& (*set)(), const Ope
 }
 
 struct Peer {
-  std::string_view name;     ///< as people call it
-  std::string_view package;  ///< Debian's; empty for our own
-  bool (*add)();             ///< registers its rows; false if the program was built without it
+  std::string_view name;    ///< as people call it
+  std::string_view remedy;  ///< what brings it; empty for our own
+  bool (*add)();            ///< registers its rows; false if it is not there
 };
 
 bool add_thinwall();
@@ -90,5 +93,6 @@ bool add_bullet();
 bool add_ode();
 bool add_fcl();
 bool add_libccd();
+bool add_npm(const std::string& engine);
 
 }  // namespace thinwall::bench

@@ -24,6 +24,10 @@ template const Poses<TurnedBox, TurnedBox>& any_poses();
 template const Poses<Pill, Pill>& any_poses();
 
 const Shots<Ball, Box>& wall_shots() { return thin_wall_shots(); }
+const Shots<Ball, Box>& plane_shots() {
+  static const auto set = shots<Ball, Box>(&any_shape<Ball>, &any_shape<Box>, {1, 1, 0});
+  return set;
+}
 
 }  // namespace thinwall::bench
 
@@ -61,18 +65,26 @@ bool add_thinwall() {
 // ---- What do others take for the same queries, and what do they get wrong?
 // Casts, rays, contacts and overlap tests of the libraries that the build found, on the queries of pairs.cpp, beside our own
 // front door; their objects are made beforehand. Counters as there: what is missed, what is hit in error, how far off.
-// A new peer is a file that defines add_NAME() and a line below.
+// A new peer is a file that defines add_NAME() and a line below; a package of npm, a script (experiments/engines/npm/serve.mjs) and its
+// lines here and in npm.cpp.
 
 namespace {
 
 using thinwall::bench::Peer;
 
-constexpr std::array<Peer, 5> peers = {{
+constexpr std::string_view by_npm = "`npm ci` in experiments/engines/npm";
+
+constexpr std::array<Peer, 10> peers = {{
     {"thinwall", "", &thinwall::bench::add_thinwall},
     {"Bullet", "libbullet-dev", &thinwall::bench::add_bullet},
     {"ODE", "libode-dev", &thinwall::bench::add_ode},
     {"FCL", "libfcl-dev", &thinwall::bench::add_fcl},
     {"libccd", "libccd-dev", &thinwall::bench::add_libccd},
+    {"Rapier", by_npm, [] { return thinwall::bench::add_npm("rapier"); }},
+    {"Jolt", by_npm, [] { return thinwall::bench::add_npm("jolt"); }},
+    {"PhysX", by_npm, [] { return thinwall::bench::add_npm("physx"); }},
+    {"Havok", by_npm, [] { return thinwall::bench::add_npm("havok"); }},
+    {"Box2D 3", by_npm, [] { return thinwall::bench::add_npm("box2d3"); }},
 }};
 
 }  // namespace
@@ -84,9 +96,9 @@ int main(int argc, char** argv) {
     if (there) continue;
     std::fprintf(
         stderr,
-        "peers: %s was not found when this was configured, and is left out; on Debian or Ubuntu, install %s and configure "
-        "again with -DTHINWALL_PEERS=ON\n",
-        peer.name.data(), peer.package.data());
+        "peers: %s was not found, and is left out: %s brings it; a package of Debian or Ubuntu is looked for when this is "
+        "configured with -DTHINWALL_PEERS=ON\n",
+        peer.name.data(), peer.remedy.data());
   }
   thinwall::bench::FloorReporter reporter;
   return thinwall::bench::run_benchmarks(argc, argv, reporter);

@@ -24,9 +24,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 10> kept_counters = {"missed",     "false",      "p99_error", "max_error",
+constexpr std::array<std::string_view, 11> kept_counters = {"missed",     "false",      "p99_error", "max_error",
                                                             "p99_length", "max_length", "p99_width", "max_width",
-                                                            "floor_ns",   "to_floor"};
+                                                            "floor_ns",   "to_floor",   "call_ns"};
 
 /// [ns] of one answer. A row that answers many at once says so, or how many items it answers a second.
 double nanoseconds_of(const Json& row) {
@@ -108,8 +108,16 @@ std::string how_to_build(const std::string& name) {
 }
 
 constexpr std::string_view peers_program = "peers";
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> peer_names = {
-    {{"bullet", "Bullet"}, {"ode", "ODE"}, {"fcl", "FCL"}, {"libccd", "libccd"}, {"thinwall", "thinwall"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> peer_names = {{{"bullet", "Bullet"},
+                                                                                       {"ode", "ODE"},
+                                                                                       {"fcl", "FCL"},
+                                                                                       {"libccd", "libccd"},
+                                                                                       {"rapier", "Rapier"},
+                                                                                       {"jolt", "Jolt"},
+                                                                                       {"physx", "PhysX"},
+                                                                                       {"havok", "Havok"},
+                                                                                       {"box2d3", "Box2D 3"},
+                                                                                       {"thinwall", "thinwall"}}};
 
 std::string spaced(std::string text) {
   std::ranges::replace(text, '_', ' ');
@@ -127,6 +135,8 @@ void add_round(TimedWay& timed, const BenchRow& row) {
       timed.floor_ns.push_back(counter.value);
     } else if (counter.name == "to_floor") {
       timed.to_floor.push_back(counter.value);
+    } else if (counter.name == "call_ns") {
+      timed.call_ns.push_back(counter.value);
     } else {
       errors.push_back(counter);
     }

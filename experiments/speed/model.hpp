@@ -78,8 +78,9 @@ struct TimedWay {
   std::string program, kind, subject, way;
   std::vector<double> nanoseconds = {};              ///< [ns] an answer, one of each round
   std::vector<double> floor_ns = {}, to_floor = {};  ///< of each round, where the program says them
-  std::vector<Counter> errors = {};                  ///< its other counters, in the first round
-  bool errors_agree = true;                          ///< the same in every round
+  std::vector<double> call_ns = {};  ///< [ns] what calling another language takes, not in the time; so, too
+  std::vector<Counter> errors = {};  ///< its other counters, in the first round
+  bool errors_agree = true;          ///< the same in every round
 
   Measured time() const { return median_of_rounds(nanoseconds); }
   std::optional<double> error(std::string_view counter) const;  ///< where the row has it

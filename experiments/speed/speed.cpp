@@ -102,7 +102,11 @@ Table timings_table(const std::vector<TimedWay>& all) {
       value("rounds", "1", "Rounds timed.", [](const TimedWay& c) { return c.nanoseconds.size(); }),
       median_column("floor_ns", "ns", "The least that the same work could take; median over rounds.",
                     &TimedWay::floor_ns),
-      to_floor_column());
+      to_floor_column(),
+      median_column(
+          "call_ns", "ns",
+          "What calling another language takes beside it, asked of nothing; not in the time; median over rounds.",
+          &TimedWay::call_ns));
   return timing(table("timings",
                       "Every row of every benchmark program: processor time of an answer, median over rounds, each a "
                       "process of its own.",

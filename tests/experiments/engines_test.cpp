@@ -374,6 +374,44 @@ TEST(Speakers, that_die_hang_or_talk_nonsense_are_named_errors) {
   }
 }
 
+/// A ball and boxes that meet after 1.7, 1.4 and 1.4 of 4 m, and a ball that stays in front.
+TEST(EngineCasts, of_npm_meet_what_they_fly_at_and_nothing_else) {
+  const auto shape = [](const char* kind, const nlohmann::json& size, double x) -> nlohmann::json {
+    return {{kind, size}, {"at", {x, 0, 0}}, {"turn", {0, 0, 0, 1}}, {"by", {4, 0, 0}}};
+  };
+  const nlohmann::json ball = shape("sphere", 0.1, -2), box = shape("box", {0.1, 0.1, 0.1}, -2),
+                       large = shape("sphere", 0.2, 0), wall = shape("box", {0.5, 0.3, 0.2}, 0);
+  const nlohmann::json pairs = {{ball, wall}, {shape("sphere", 0.1, -6), wall}, {ball, large}, {box, wall}};
+  std::string missing;
+  for (const Engine& engine : npm_engines()) {
+    if (!engine.is_there()) {
+      missing += " " + engine.called;
+      continue;
+    }
+    Speaker speaker(engine.called, {"node", "serve.mjs", engine.name}, THINWALL_SOURCE "/experiments/engines/npm");
+    const nlohmann::json offer = speaker.hear(60);
+    EXPECT_EQ(offer.at("casts").empty(), engine.name == "mujoco");
+    for (const nlohmann::json& cast : offer.at("casts")) {
+      nlohmann::json asked = pairs;
+      if (engine.name == "box2d3") asked.erase(3);  // its cast is built of a ball alone
+      const nlohmann::json answer = speaker.ask({{"id", 1}, {"cast", cast}, {"pairs", asked}}, 60);
+      const nlohmann::json& times = answer.at("times");
+      ASSERT_EQ(times.size(), asked.size()) << engine.called;
+      EXPECT_TRUE(times[1].is_null()) << engine.called;
+      constexpr double off = 0.005 / 4 * 1.01;  // Box2D's slop is 5 mm
+      EXPECT_NEAR(times[0].get<double>(), 1.4 / 4, off) << engine.called;
+      EXPECT_NEAR(times[2].get<double>(), 1.7 / 4, off) << engine.called;
+      if (asked.size() == 4) {
+        EXPECT_NEAR(times[3].get<double>(), 1.4 / 4, off) << engine.called;
+      }
+      EXPECT_GT(answer.at("seconds").get<double>(), 0);
+      EXPECT_GT(answer.at("call_seconds").get<double>(), 0);
+    }
+    EXPECT_TRUE(speaker.ask({{"id", 2}, {"cast", "nonsense"}, {"pairs", pairs}}, 60).contains("error"));
+  }
+  if (!missing.empty()) GTEST_SKIP() << "not in this build:" << missing << "; " << npm_engines().front().remedy;
+}
+
 /// In every engine of the build: no shot knows of another, on whatever thread.
 TEST(Engines, give_the_same_bits_on_four_threads_and_in_any_order) {
   const auto run = run_of(engines_experiment(), few_engine_shots, {.seed = 5, .trials = 30});

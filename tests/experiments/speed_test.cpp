@@ -83,6 +83,20 @@ TEST(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
   EXPECT_NE(text.find("take 20.0 to 20 times as long"), std::string::npos) << text;  // 880 ns to the 44 of the same run
 }
 
+TEST(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
+  const TemporaryFolder folder;
+  const std::string row = R"({"run_name": "time_of_impact/sphere_aabb/jolt_cast_shape/iterations:1/manual_time", )"
+                          R"("cpu_time": 5e8, "time_unit": "ns", "ns_row": 1400, "call_ns": 5$$, "missed": 0})";
+  write_script(folder.path(), "peers", "cat >\"$out\" <<END\n" + bench_json(row) + "\nEND");
+  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+  EXPECT_TRUE(outcome.self_test_passed);  // though it was another number in each round
+  const Table& timings = table_of(outcome, "timings");
+  ASSERT_EQ(timings.rows.size(), 1U);
+  EXPECT_EQ(value_of(timings, 0, "way"), Value(std::string("jolt_cast_shape")));
+  EXPECT_EQ(value_of(timings, 0, "nanoseconds"), Value(1400.0));
+  EXPECT_NE(value_of(timings, 0, "call_ns"), Value());
+}
+
 TEST(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_rest) {
   const TemporaryFolder folder;
   write_both(folder.path());

@@ -3,6 +3,7 @@ import initialize from 'box2d3-wasm';
 
 export const name = 'Box2D 3';
 export const modes = ['discrete', 'continuous', 'bullet'];
+export const casts = ['cast_shape'];
 
 let b2;
 
@@ -67,6 +68,23 @@ export function world(mode, { step, fixed, moving }) {
         const p = b2.b2Body_GetPosition(body), v = b2.b2Body_GetLinearVelocity(body);
         return [p.x, p.y, 0, v.x, v.y, 0, 0, 0, b2.b2Body_GetAngularVelocity(body)];
       });
+    },
+    free() { b2.b2DestroyWorld(it); },
+  };
+}
+
+/// b2World_CastShape of a circle, in a world of `b` alone; the package has neither b2ShapeCast nor b2TimeOfImpact.
+export function cast(_, a, b) {
+  const it = b2.b2CreateWorld(b2.b2DefaultWorldDef()), def = b2.b2DefaultBodyDef();
+  def.position.Set(b.at[0], b.at[1]);
+  addShape(b2.b2CreateBody(it, def), b);
+  const from = new b2.b2Vec2(a.at[0], a.at[1]), by = new b2.b2Vec2(a.by[0], a.by[1]);
+  const circle = b2.b2MakeProxy(from, 1, a.sphere), filter = b2.b2DefaultQueryFilter();
+  return {
+    ask() {
+      let first = null;
+      b2.b2World_CastShape(it, circle, by, filter, (found) => (first = found.fraction));
+      return first;
     },
     free() { b2.b2DestroyWorld(it); },
   };

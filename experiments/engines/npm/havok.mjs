@@ -7,6 +7,7 @@ const at = createRequire(import.meta.url).resolve('@babylonjs/havok');
 
 export const name = 'Havok';
 export const modes = ['default'];
+export const casts = ['shape_cast'];
 
 let hk;
 
@@ -85,6 +86,31 @@ export function world(mode, { step, fixed, moving }) {
         hk.HP_Body_Release(body);
         hk.HP_Shape_Release(form);
       }
+      hk.HP_World_Release(it);
+    },
+  };
+}
+
+/// HP_World_ShapeCastWithCollector, in a world of `b` alone.
+export function cast(_, a, b) {
+  const it = ok(hk.HP_World_Create()), body = ok(hk.HP_Body_Create()), form = shapeOf(b), moving = shapeOf(a);
+  hk.HP_Body_SetShape(body, form);
+  hk.HP_Body_SetMotionType(body, hk.MotionType.STATIC);
+  hk.HP_Body_SetQTransform(body, [b.at, b.turn]);
+  hk.HP_World_AddBody(it, body, false);
+  const collector = ok(hk.HP_QueryCollector_Create(1)), to = a.at.map((v, k) => v + a.by[k]);
+  return {
+    ask() {
+      hk.HP_World_ShapeCastWithCollector(it, collector, [moving, a.turn, a.at, to, false, [0n]]);
+      const [, hits] = hk.HP_QueryCollector_GetNumHits(collector);
+      return hits > 0 ? ok(hk.HP_QueryCollector_GetShapeCastResult(collector, 0))[0] : null;
+    },
+    free() {
+      hk.HP_QueryCollector_Release(collector);
+      hk.HP_World_RemoveBody(it, body);
+      hk.HP_Body_Release(body);
+      hk.HP_Shape_Release(form);
+      hk.HP_Shape_Release(moving);
       hk.HP_World_Release(it);
     },
   };

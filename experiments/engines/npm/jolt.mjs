@@ -3,6 +3,7 @@ import initialize from 'jolt-physics';
 
 export const name = 'Jolt';
 export const modes = ['discrete', 'linear_cast'];
+export const casts = ['cast_shape', 'cast_shape_sharp'];
 
 const still = 0, moves = 1; // layers: what moves meets all, what is still does not meet itself
 let Jolt;
@@ -11,9 +12,10 @@ export async function start() { Jolt = await initialize(); }
 
 const vec3 = ([x, y, z]) => new Jolt.Vec3(x, y, z);
 
-function shapeOf(shape) {
+/// Its boxes are round within `rounding` [m] of their edges when they are cast: 0.05 as they come.
+function shapeOf(shape, rounding = 0.05) {
   if (shape.sphere !== undefined) return new Jolt.SphereShape(shape.sphere);
-  if (shape.box) return new Jolt.BoxShape(vec3(shape.box), Math.min(0.05, ...shape.box));
+  if (shape.box) return new Jolt.BoxShape(vec3(shape.box), Math.min(rounding, ...shape.box));
   if (shape.capsule) return new Jolt.CapsuleShape(...shape.capsule);
   const triangles = new Jolt.TriangleList();
   for (const corners of shape.mesh.triangles) {
@@ -71,5 +73,38 @@ export function world(mode, { step, fixed, moving }) {
         .flatMap((v) => [v.GetX(), v.GetY(), v.GetZ()]));
     },
     free() { Jolt.destroy(it); },
+  };
+}
+
+let any; // without an interface nothing knows which shapes meet how
+
+/// TransformedShape.CastShape, of one pair; `sharp`: with boxes that are not rounded.
+export function cast(name, a, b) {
+  any ??= new Jolt.JoltInterface(settings());
+  const made = [], keep = (object) => { made.push(object); return object; };
+  const rounding = name === 'cast_shape_sharp' ? 0 : 0.05;
+  const place = ({ turn, at }) => [keep(new Jolt.Quat(...turn)), keep(new Jolt.RVec3(...at))];
+  const moving = shapeOf(a, rounding), fixed = shapeOf(b, rounding);
+  moving.AddRef();
+  fixed.AddRef();
+  const [turn, at] = place(b), target = keep(new Jolt.TransformedShape());
+  target.mShape = fixed;
+  target.mShapePositionCOM = at;
+  target.mShapeRotation = turn;
+  target.SetShapeScale(keep(vec3([1, 1, 1])));
+  const from = Jolt.RMat44.prototype.sRotationTranslation(...place(a));
+  const ray = keep(new Jolt.RShapeCast(moving, keep(vec3([1, 1, 1])), from, keep(vec3(a.by))));
+  const how = keep(new Jolt.ShapeCastSettings()), base = keep(new Jolt.RVec3(0, 0, 0));
+  const closest = keep(new Jolt.CastShapeClosestHitCollisionCollector()), all = keep(new Jolt.ShapeFilter());
+  return {
+    ask() {
+      target.CastShape(ray, how, base, closest, all);
+      return closest.HadHit() ? closest.mHit.mFraction : null;
+    },
+    free() {
+      for (const object of made.reverse()) Jolt.destroy(object);
+      moving.Release();
+      fixed.Release();
+    },
   };
 }

@@ -6,6 +6,7 @@ const at = createRequire(import.meta.url).resolve('physx-js-webidl');
 
 export const name = 'PhysX';
 export const modes = ['discrete', 'swept', 'speculative'];
+export const casts = ['sweep', 'sweep_precise'];
 
 let px, physics, material, dispatcher;
 
@@ -41,7 +42,9 @@ function geometryOf(shape) {
 }
 
 function pose(place, shape) {
-  const turn = shape.capsule ? new px.PxQuat(0, 0, Math.SQRT1_2, Math.SQRT1_2) : new px.PxQuat(0, 0, 0, 1);
+  const [x, y, z, w] = shape.turn ?? [0, 0, 0, 1], half = Math.SQRT1_2;
+  const turn = shape.capsule ? new px.PxQuat((x + y) * half, (y - x) * half, (w + z) * half, (w - z) * half)
+    : new px.PxQuat(x, y, z, w);
   return with3(place, (p) => {
     const made = new px.PxTransform(p, turn);
     px.destroy(turn);
@@ -112,5 +115,17 @@ export function world(mode, { step, fixed, moving }) {
       it.release();
       px.destroy(shader);
     },
+  };
+}
+
+/// PxGeometryQuery.sweep, of one pair; `precise`: with PxHitFlag::ePRECISE_SWEEP.
+export function cast(name, a, b) {
+  const length = Math.hypot(...a.by), { PxHitFlagEnum: flag } = px;
+  const made = [geometryOf(a), pose(a.at, a), geometryOf(b), pose(b.at, b)];
+  const along = new px.PxVec3(...a.by.map((v) => v / length)), hit = new px.PxSweepHit();
+  const flags = new px.PxHitFlags(flag.eDEFAULT | (name === 'sweep_precise' ? flag.ePRECISE_SWEEP : 0));
+  return {
+    ask: () => px.PxGeometryQuery.prototype.sweep(along, length, ...made, hit, flags) ? hit.distance / length : null,
+    free() { for (const object of [...made, along, hit, flags]) px.destroy(object); },
   };
 }

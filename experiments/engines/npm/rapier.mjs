@@ -4,6 +4,7 @@ import RAPIER from '@dimforge/rapier3d-compat';
 export const name = 'Rapier';
 // As it comes it already sweeps what is fast against what is fixed, once a step, though no body asks for it: World.maxCcdSubsteps is 1.
 export const modes = ['discrete', 'default', 'ccd', 'soft_ccd'];
+export const casts = ['cast_shape'];
 
 export async function start() {
   const quiet = console.warn;
@@ -51,5 +52,18 @@ export function world(mode, { step, fixed, moving }) {
       });
     },
     free() { it.free(); },
+  };
+}
+
+/// Shape.castShape, of one pair.
+export function cast(_, a, b) {
+  const { Ball, Cuboid, Capsule } = RAPIER, still = xyz([0, 0, 0]);
+  const form = (shape) => shape.sphere !== undefined ? new Ball(shape.sphere)
+    : shape.box ? new Cuboid(...shape.box) : new Capsule(...shape.capsule);
+  const place = ({ at, turn: [x, y, z, w] }) => [xyz(at), { x, y, z, w }];
+  const moving = form(a), fixed = form(b), from = place(a), to = place(b), by = xyz(a.by);
+  return {
+    ask: () => moving.castShape(...from, by, fixed, ...to, still, 0, 1, true)?.time_of_impact ?? null,
+    free() {},
   };
 }
