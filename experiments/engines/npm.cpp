@@ -252,14 +252,11 @@ std::vector<Engine> npm_engines(const fs::path& scripts) {
   std::vector<Engine> engines;
   for (const NpmEngine& one : list()) {
     const std::string version = scripts.empty() ? "" : installed_version(scripts, one.package);
-    Engine engine = {
-        .name = one.name,
-        .called = one.called,
-        .package = one.package,
-        .made_of = fmt::format("{} Version {} of {}.", one.made_of, version, one.package),
-        .remedy = fmt::format(
-            "configure with -DTHINWALL_PEERS=ON and run `npm ci` in experiments/engines/npm, which brings {}",
-            one.package)};
+    Engine engine = {.name = one.name,
+                     .called = one.called,
+                     .package = one.package,
+                     .made_of = fmt::format("{} Version {} of {}.", one.made_of, version, one.package),
+                     .remedy = "run `npm ci` in experiments/engines/npm, configure with -DTHINWALL_PEERS=ON"};
     if (!version.empty()) engine.modes = [&one, scripts](const EngineChoices&) { return modes_of(one, scripts); };
     engines.push_back(std::move(engine));
   }
