@@ -555,7 +555,7 @@ TEST(EnginesConfig, an_engine_asked_for_by_name_is_there_or_refused_with_what_br
     if (engine.is_there()) {
       EXPECT_EQ(said, "");
     } else {
-      EXPECT_NE(said.find(engine.package), std::string::npos) << said;
+      EXPECT_NE(said.find(engine.remedy), std::string::npos) << said;
     }
   }
 }
