@@ -33,10 +33,11 @@ class OwnWorld final : public EngineWorld {
       body.id = static_cast<std::uint32_t>(all.size());
       std::visit(
           [&]<class Shape>(const Shape& s) {
-            if constexpr (std::is_same_v<Shape, EngineMesh>)
+            if constexpr (std::is_same_v<Shape, EngineMesh>) {
               throw std::invalid_argument("a world has no meshes");
-            else
+            } else {
               body.shape = moved(s, state.position);
+            }
           },
           shape);
       body.velocity = state.velocity;

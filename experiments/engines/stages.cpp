@@ -66,7 +66,7 @@ EngineStage mesh(const StageSize& s) {
   EngineStage stage = {.step = s.step, .fixed = {}, .moving = {Sphere<double>{V::Zero(), s.radius}}};
   EngineMesh mesh;
   for (int i = 0; i <= pieces; ++i) {
-    for (const double z : {-1.75, 2.25}) mesh.points.push_back({front(s), i - pieces / 2.0, z});
+    for (const double z : {-1.75, 2.25}) mesh.points.emplace_back(front(s), i - pieces / 2.0, z);
   }
   for (int i = 0; i < pieces; ++i) {
     mesh.triangles.push_back({2 * i, 2 * i + 1, 2 * i + 2});
