@@ -52,6 +52,8 @@ std::vector<std::int64_t> offered_poses(const Wish& wish);
 
 std::vector<Candidate> candidates(const Wish& wish);
 
+Candidate certified_candidate();
+
 // ---- What a step costs on this machine, method by method.
 
 struct QueryTime {
@@ -134,7 +136,10 @@ nlohmann::ordered_json advice_json(const Advice& advice);
 inline constexpr const char* check_config_title = "# Puts an advice of `thinwall advise` to the test.";
 
 /// TOML with the wish's very cell and every candidate that the experiment can fire; what theory expects of each is a
-/// comment. Throws UsageError if the experiment refuses the cell.
+/// comment.
+std::string config_text(const Wish& wish, std::span<const Candidate> candidates);
+
+/// The same. Throws UsageError if the experiment refuses the cell.
 std::string check_config(const Wish& wish, std::span<const Candidate> candidates);
 
 }  // namespace thinwall

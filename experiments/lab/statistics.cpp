@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 
 namespace thinwall {
@@ -22,22 +20,9 @@ Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) 
   return {successes == 0 ? 0 : center - half, successes == trials ? 1 : center + half};
 }
 
-Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
-  using Binomial = bm::binomial_distribution<double>;
-  const double n = static_cast<double>(trials), k = static_cast<double>(successes), side = (1 - confidence) / 2;
-  return {successes == 0 ? 0 : Binomial::find_lower_bound_on_p(n, k, side),
-          successes == trials ? 1 : Binomial::find_upper_bound_on_p(n, k, side)};
-}
-
 double standard_residual(std::int64_t successes, std::int64_t trials, double probability) {
   const double n = static_cast<double>(trials);
   return (static_cast<double>(successes) - n * probability) / std::sqrt(n * probability * (1 - probability));
-}
-
-Interval binomial_range(std::int64_t trials, double probability, double coverage) {
-  const bm::binomial_distribution<double> counts(static_cast<double>(trials), probability);
-  const double side = (1 - coverage) / 2;
-  return {bm::quantile(counts, side), bm::quantile(bm::complement(counts, side))};  // both rounded outward
 }
 
 double median(std::span<const double> values) {
@@ -66,12 +51,6 @@ Interval bootstrap_median(std::span<const double> values, const RandomStream& st
   }
   const double side = (1 - confidence) / 2;
   return {quantile(medians, side), quantile(medians, 1 - side)};
-}
-
-Interval chi_square_range(std::int64_t count, double coverage) {
-  const bm::chi_squared sum(static_cast<double>(count));
-  const double side = (1 - coverage) / 2;
-  return {bm::quantile(sum, side), bm::quantile(bm::complement(sum, side))};
 }
 
 }  // namespace thinwall

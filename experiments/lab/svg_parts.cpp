@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/lab/method_looks.hpp>
 #include <thinwall/experiments/lab/svg.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
@@ -151,37 +152,6 @@ constexpr std::array line_grays = {"#000000", "#767676"};
 // Circle, square, triangle up, diamond, triangle down: open, because measurements lie on each other, then filled. Then a cross, a
 // plus and a star: more shapes than colors, so that entries differ in gray too.
 constexpr std::array point_types = {6, 4, 8, 12, 10, 7, 5, 9, 13, 11, 2, 1, 3};
-
-/// A method's own look, in every figure of every report: color and open mark, the filled one for its float. No two share both.
-struct MethodLook {
-  std::string_view name;
-  const char* color;
-  int point_type, filled;
-};
-constexpr std::array method_looks = {
-    MethodLook{"end_of_step", "#D55E00", 4, 5},
-    MethodLook{"substeps", "#E69F00", 8, 9},
-    MethodLook{"centre_ray", "#CC79A7", 12, 13},
-    MethodLook{"swept_volume_ray", "#56B4E9", 10, 11},
-    MethodLook{"sweep_then_confirm", "#CC79A7", 2, 2},
-    MethodLook{"speculative", "#009E73", 8, 9},
-    MethodLook{"conservative_advancement", "#009E73", 12, 13},
-    MethodLook{"bisection", "#E69F00", 1, 1},
-    MethodLook{"inclusion", "#56B4E9", 4, 5},
-    MethodLook{"closed_form", "#0072B2", 6, 7},
-};
-
-/// Of `closed_form`, `closed_form float` or `substeps_16`; of a label that is no method's, nothing.
-const MethodLook* look_of(std::string_view label) {
-  const std::string_view word = label.substr(0, label.find(' '));
-  const auto is_its = [&](const MethodLook& look) {
-    if (!word.starts_with(look.name)) return false;
-    const std::string_view rest = word.substr(look.name.size());
-    return rest.empty() || (rest[0] == '_' && rest.find_first_not_of("_0123456789") == std::string_view::npos);
-  };
-  const auto found = std::ranges::find_if(method_looks, is_its);
-  return found == method_looks.end() ? nullptr : &*found;
-}
 
 void set_look(std::vector<SeriesStyle>& styles) {
   std::size_t steps = 0;  // of substeps_2, substeps_8, ... in one figure: one color, other marks

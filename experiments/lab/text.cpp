@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ namespace thinwall {
 
 namespace {
 
-constexpr double two_to_53 = 9007199254740992.0;  // every whole number up to here is a double
+constexpr double two_to_53 = 0x1p53;  // every whole number up to here is a double
 
 template <class... Format> std::string to_text(double value, Format... format) {
   std::array<char, 64> buffer{};
@@ -31,9 +32,8 @@ std::string exact_text(double value) {
 
 std::string rounded_text(double value, int digits) {
   if (!std::isfinite(value) || value == 0) return exact_text(value);
-  std::string text = to_text(value, std::chars_format::scientific, digits - 1);
-  std::from_chars(text.data(), text.data() + text.size(), value);  // the rounded value itself
-  return exact_text(value);
+  const std::string text = to_text(value, std::chars_format::scientific, digits - 1);
+  return exact_text(std::strtod(text.c_str(), nullptr));  // the rounded value itself
 }
 
 std::string grouped_text(std::int64_t value) {
@@ -53,20 +53,6 @@ std::string duration_text(double seconds) {
   if (whole < 60) return std::to_string(whole) + " s";
   if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
-}
-
-std::optional<std::int64_t> parse_count(std::string_view text) {
-  const char* const end = text.data() + text.size();
-  std::int64_t count = 0;
-  if (const auto [stop, error] = std::from_chars(text.data(), end, count); error == std::errc{} && stop == end) {
-    return count;
-  }
-  double value = 0;
-  if (const auto [stop, error] = std::from_chars(text.data(), end, value); error != std::errc{} || stop != end) {
-    return std::nullopt;
-  }
-  if (!(std::abs(value) < two_to_53) || value != std::trunc(value)) return std::nullopt;
-  return static_cast<std::int64_t>(value);
 }
 
 namespace {

@@ -143,6 +143,10 @@ void append(std::string_view scalar, std::span<const std::string> names, std::sp
                          fire_at<S>(method, target, start, response, tally);
                        },
                        [method](const Cell& cell) { return theory_of(method, cell); },
+                       [method](const ShotStep& step) -> StepAnswer {
+                         const Toi<S> toi = time_of_impact(method, cast<S>(step.ball), cast<S>(step.wall));
+                         return {toi.status, static_cast<double>(toi.time)};
+                       },
                        [method](std::span<const ShotStep> steps) { ask_all<S>(method, steps); }});
       }
     }

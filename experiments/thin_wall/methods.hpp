@@ -16,6 +16,7 @@
 #include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/thin_wall/theory.hpp>
 #include <thinwall/swept/moving.hpp>
+#include <thinwall/swept/toi.hpp>
 
 namespace thinwall {
 
@@ -74,6 +75,11 @@ struct ShotStep {
   Moving<Aabb<double>> wall;
 };
 
+struct StepAnswer {
+  ToiStatus status;
+  double time;  ///< [1] of the step
+};
+
 struct ThinWallMethod {
   std::string name;    ///< the method's; with the number of poses for `substeps`: substeps_8
   std::string scalar;  ///< "float" or "double"
@@ -81,6 +87,7 @@ struct ThinWallMethod {
   double round_off;    ///< [1] machine epsilon of the scalar
   std::function<void(const Target&, const Vec3<double>& start, Tally&)> fire;
   std::function<Theory(const Cell&)> theory;
+  std::function<StepAnswer(const ShotStep&)> answer;
   std::function<void(std::span<const ShotStep>)> ask;  ///< to be timed: asks about each step and keeps no answer
 };
 

@@ -5,18 +5,31 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string_view>
 
 #include <fmt/format.h>
-
-#include <thinwall/experiments/lab/factors.hpp>
-#include <thinwall_embedded.hpp>
 
 namespace thinwall {
 
 namespace {
 
-double angle(const Cell& cell) { return cell.angle_deg * (std::numbers::pi / 180); }
+/// Of an angle in [0, 90] degrees, to an ulp or two: Taylor's series. The same bits wherever it is computed, so that the same shots are
+/// fired in a browser; a platform's own sine may differ in the last.
+struct SineCosine {
+  double sine, cosine;
+};
+SineCosine of_degrees(double angle) {
+  if (angle > 45) {
+    const SineCosine rest = of_degrees(90 - angle);
+    return {rest.cosine, rest.sine};
+  }
+  const double x = angle * (std::numbers::pi / 180);
+  double sine = 1, cosine = 1;
+  for (int k = 18; k > 1; k -= 2) {
+    cosine = 1 - x * x / (k * (k - 1)) * cosine;
+    sine = 1 - x * x / (k * (k + 1)) * sine;
+  }
+  return {x * sine, cosine};
+}
 
 /// A shot must end: no ball takes more steps than this to cross.
 constexpr double most_steps_across = 1e4;
@@ -24,38 +37,6 @@ constexpr double most_steps_across = 1e4;
 constexpr double thinnest = 1e-9;
 /// Poses lie on a grid that float holds: a step must not be longer than this many times what it crosses.
 constexpr double most_walls_a_step = 1e6;
-
-/// The list of the two that is not the default, to complain about: the other is hardly to blame.
-std::string_view step_or_speed(const Settings& settings) {
-  const Settings defaults("", "defaults", embedded_toml("thin_wall"));
-  return settings.numbers("step", {}) == defaults.numbers("step", {}) ? "speed" : "step";
-}
-
-void check(const Settings& settings, const Cell& cell) {
-  if (cell.radius == 0 && cell.thickness == 0) {
-    settings.complain("thickness", "not 0 where radius is 0 too: a point is never in a wall of no thickness");
-  }
-  const double step = step_length(cell), thick = cell.thickness + 2 * cell.radius;
-  if (thick < thinnest) {
-    settings.complain("thickness", fmt::format("such that thickness + 2 * radius is at least {} m; radius is {}",
-                                               thinnest, cell.radius));
-  }
-  const auto where = [&] {
-    return fmt::format("not so at speed {}, step {}, radius {}, thickness {}, angle_deg {}", cell.speed, cell.step,
-                       cell.radius, cell.thickness, cell.angle_deg);
-  };
-  if (slab_chord(cell) > most_steps_across * step) {
-    settings.complain(step_or_speed(settings),
-                      fmt::format("at most {} steps to cross the wall: {}", most_steps_across, where()));
-  }
-  if (step > most_walls_a_step * thick) {
-    settings.complain(step_or_speed(settings),
-                      fmt::format("a step of at most {} times thickness + 2 * radius: {}", most_walls_a_step, where()));
-  }
-  if (cell.wall == Wall::finite && cell.wall_size < thick) {
-    settings.complain("wall_size", fmt::format("at least thickness + 2 * radius: {}", where()));
-  }
-}
 
 /// The grid whose multiples up to `reach` float holds exactly: it has 24 bits.
 double grid_for(double reach) { return reach > 0 ? std::ldexp(1.0, std::ilogb(reach) + 1 - 24) : 1; }
@@ -93,36 +74,36 @@ Vec3<double> start_on_line(const Target& target, double across, double out, doub
 
 }  // namespace
 
-const Factors<Cell>& cell_factors() {
-  static constexpr std::array<std::string_view, 2> walls = {"infinite", "finite"};
-  static const Factors<Cell> all =
-      factors(numbers("speed", &Cell::speed, allowed_speed, "Speed of the ball."),
-              numbers("step", &Cell::step, allowed_step, "Time between two poses."),
-              numbers("radius", &Cell::radius, allowed_radius, "Radius of the ball."),
-              numbers("thickness", &Cell::thickness, allowed_thickness, "Thickness of the wall."),
-              numbers("angle_deg", &Cell::angle_deg, allowed_angle,
-                      "Angle of incidence, between the motion and the wall's normal."),
-              choices("wall", &Cell::wall, walls, "Infinite, or a finite square."))
-          .first_fastest();
-  return all;
-}
-
-std::vector<Cell> make_cells(const Settings& settings, std::size_t each) {
-  const double size = settings.number("wall_size", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"});
-  const auto other_than_bullet = [&](Cell& cell) {
-    cell.wall_size = cell.wall == Wall::finite ? size : 0;
-    check(settings, cell);
-    return cell != bullet;
-  };
-  std::vector<Cell> cells = cell_factors().cells(settings, each, {}, other_than_bullet);
-  cells.insert(cells.begin(), bullet);
-  return cells;
-}
-
 double step_length(const Cell& cell) { return cell.speed * cell.step; }
-double cosine(const Cell& cell) { return std::cos(angle(cell)); }
-Vec3<double> direction(const Cell& cell) { return {cosine(cell), std::sin(angle(cell)), 0}; }
+double cosine(const Cell& cell) { return of_degrees(cell.angle_deg).cosine; }
+Vec3<double> direction(const Cell& cell) {
+  const SineCosine of = of_degrees(cell.angle_deg);
+  return {of.cosine, of.sine, 0};
+}
 double slab_chord(const Cell& cell) { return slab_chord(cell.thickness, cell.radius, cosine(cell)); }
+
+std::optional<CellFault> fault_of(const Cell& cell) {
+  const double step = step_length(cell), thick = cell.thickness + 2 * cell.radius;
+  if (cell.radius == 0 && cell.thickness == 0)
+    return CellFault{"thickness", "not 0 where radius is 0 too: a point is never in a wall of no thickness"};
+  if (thick < thinnest) {
+    return CellFault{"thickness", fmt::format("such that thickness + 2 * radius is at least {} m; radius is {}",
+                                              thinnest, cell.radius)};
+  }
+  const auto where = [&] {
+    return fmt::format("not so at speed {}, step {}, radius {}, thickness {}, angle_deg {}", cell.speed, cell.step,
+                       cell.radius, cell.thickness, cell.angle_deg);
+  };
+  if (slab_chord(cell) > most_steps_across * step)
+    return CellFault{"speed", fmt::format("at most {} steps to cross the wall: {}", most_steps_across, where())};
+  if (step > most_walls_a_step * thick) {
+    return CellFault{"speed",
+                     fmt::format("a step of at most {} times thickness + 2 * radius: {}", most_walls_a_step, where())};
+  }
+  if (cell.wall == Wall::finite && cell.wall_size < thick)
+    return CellFault{"wall_size", fmt::format("at least thickness + 2 * radius: {}", where())};
+  return std::nullopt;
+}
 
 RoundedBox rounded_box(const Cell& cell) {
   return {{cell.thickness / 2, cell.wall_size / 2, cell.wall_size / 2}, cell.radius};

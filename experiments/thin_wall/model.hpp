@@ -6,6 +6,9 @@
 /// start + k s without rounding, and both scalars are asked the very same question: what differs is a method's own arithmetic.
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/lab/random.hpp>
@@ -45,6 +48,14 @@ inline constexpr Cell bullet = {.speed = 10,
                                 .angle_deg = 0,
                                 .wall = Wall::infinite,
                                 .wall_size = 0};
+
+/// What keeps a cell, each of whose numbers is in its range, from being fired: which of them, and what is expected of it. `speed` may be
+/// the fault of `step` as well.
+struct CellFault {
+  std::string_view key;
+  std::string expected;
+};
+std::optional<CellFault> fault_of(const Cell& cell);
 
 const Factors<Cell>& cell_factors();  ///< all but the wall's size, which is the same in every finite wall
 
