@@ -104,7 +104,8 @@ StepErrors errors_of(const ThinWallMethod& method, const std::vector<ShotStep>& 
 
 nlohmann::ordered_json described(const ThinWallMethod& method) {
   const MethodLook* look = look_of(method.name);
-  return {{"name", method.name}, {"color", look == nullptr ? "#767676" : look->color},
+  return {{"name", method.name},
+          {"color", look == nullptr ? "#767676" : look->color},
           {"mark", look == nullptr ? 6 : look->point_type}};
 }
 
@@ -214,7 +215,7 @@ int explorer_shot(double phase) {
 int explorer_race() {
   Explorer& explorer = here();
   explorer.costs =
-      measure_costs(explorer.cell, page_candidates(explorer), {.queries = 512, .rounds = 31, .round_ns = 4e5});
+      measure_costs(explorer.cell, page_candidates(explorer), {.queries = 1 << 14, .rounds = 15, .round_ns = 2e6});
   const std::vector<ShotStep> steps = steps_of(explorer, 4096);
   std::vector<CertifiedToi> truth;
   for (const ShotStep& step : steps) truth.push_back(certified_time_of_impact(step.ball, step.wall));
