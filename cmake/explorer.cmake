@@ -1,5 +1,10 @@
 # The page that `thinwall explore` writes: the library compiled to WebAssembly by Debian's clang-16 and wasi-libc, and the modules of
 # experiments/explorer/page/, in one file. Sets thinwall_explorer_page to it, or to nothing where it is not built.
+set(THINWALL_BUILD_EXPLORER AUTO CACHE STRING "Build the page to play with: AUTO (if it can be compiled), ON or OFF")
+set_property(CACHE THINWALL_BUILD_EXPLORER PROPERTY STRINGS AUTO ON OFF)
+if(NOT THINWALL_BUILD_EXPLORER MATCHES "^(AUTO|ON|OFF)$")
+  message(FATAL_ERROR "THINWALL_BUILD_EXPLORER is '${THINWALL_BUILD_EXPLORER}'; AUTO, ON or OFF")
+endif()
 set(thinwall_explorer_page "")
 if(THINWALL_BUILD_EXPLORER STREQUAL "OFF")
   return()

@@ -1,11 +1,8 @@
 #include <thinwall/experiments/program/command.hpp>
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <ostream>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -35,36 +32,6 @@ struct AdviseText {
   bool json = false;
 };
 
-/// An earlier one is replaced, anything else that lies there is not.
-void write_check(const std::filesystem::path& file, const std::string& text) {
-  const auto refuse = [&](const std::string& why) {
-    throw UsageError(fmt::format("--toml {}: {}", one_line(file.string()), why));
-  };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (std::filesystem::is_directory(status)) refuse("is a folder; a file is needed");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) refuse("is not a file");
-  if (std::filesystem::exists(status)) {
-    std::string first;
-    std::ifstream in(file);
-    std::getline(in, first);
-    if (first != check_config_title) refuse("is there already, and not from advise; another name is needed");
-  }
-  const std::filesystem::path fresh = file.string() + ".new";
-  if (std::filesystem::exists(fresh, error)) refuse("needs the name " + one_line(fresh.string()) + ", which is taken");
-  errno = 0;
-  std::ofstream out(fresh, std::ios::binary);
-  out << text;
-  out.close();
-  error.assign(errno, std::generic_category());
-  if (out) std::filesystem::rename(fresh, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(fresh, ignored);
-    refuse("cannot be written: " + error.message());
-  }
-}
-
 std::string next_step(const std::string& file) {
   const std::string out = "results/" + std::filesystem::path(file).stem().string();
   return "to put it to the test: " + shell_line({"thinwall", "run", file, "--out", out}) + "\n";
@@ -82,7 +49,7 @@ int print_advice(const AdviseText& text, const Call& call) {
       call.out << config;
       return exit_done;
     }
-    write_check(*text.toml, config);
+    write_own_file("--toml", *text.toml, config, "advise");
   }
   const Advice advice = advise(wish, methods, measure_costs(wish.cell, methods));
   if (text.json) {

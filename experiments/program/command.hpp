@@ -2,6 +2,7 @@
 /// What can be typed: the commands, their options, what they return, and how what they say is kept harmless.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <optional>
@@ -73,6 +74,11 @@ void add_benchmarks(CLI::App& command, OptionText& folder);
 void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,
                 const std::string& form);
 
+/// Writes `text`, whole or not at all. An earlier file of the same first line is replaced, anything else that lies there is not. Throws
+/// UsageError, which calls the file what `option` was given, and `command` what should have written an earlier one.
+void write_own_file(std::string_view option, const std::filesystem::path& file, std::string_view text,
+                    std::string_view command);
+
 // All throw UsageError, naming the option and what is allowed.
 std::uint64_t parse_seed(const OptionText& text);  ///< 0 if not given
 int parse_threads(const OptionText& text);         ///< every core if not given
@@ -124,6 +130,7 @@ Command advise_command();
 Command cite_command();
 Command compare_command();
 Command completion_command();
+Command explore_command();
 Command list_command();
 Command merge_command();
 Command plan_command();

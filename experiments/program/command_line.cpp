@@ -309,6 +309,7 @@ std::span<const Command> commands() {
       compare_command(),     //
       plan_command(),        //
       advise_command(),      //
+      explore_command(),     //
       validate_command(),    //
       merge_command(),       //
       report_command(),      //

@@ -3,7 +3,11 @@
 cmake_minimum_required(VERSION 3.25)
 
 file(STRINGS "${ROOT}/CMakeLists.txt" options REGEX "^option\\(THINWALL_")
-file(STRINGS "${ROOT}/cmake/mpi.cmake" cached REGEX "^set\\(THINWALL_.* CACHE ")
+set(cached "")
+foreach(module IN ITEMS mpi explorer)
+  file(STRINGS "${ROOT}/cmake/${module}.cmake" of_module REGEX "^set\\(THINWALL_.* CACHE ")
+  list(APPEND cached ${of_module})
+endforeach()
 list(TRANSFORM options REPLACE "^option\\(([A-Z_]+).*" "\\1")
 list(TRANSFORM cached REPLACE "^set\\(([A-Z_]+).*" "\\1")
 list(APPEND options ${cached})
