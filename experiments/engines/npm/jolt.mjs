@@ -79,10 +79,10 @@ export function world(mode, { step, fixed, moving }) {
 let any; // without an interface nothing knows which shapes meet how
 
 /// TransformedShape.CastShape, of one pair; `sharp`: with boxes that are not rounded.
-export function cast(name, a, b) {
+export function cast(which, a, b) {
   any ??= new Jolt.JoltInterface(settings());
   const made = [], keep = (object) => { made.push(object); return object; };
-  const rounding = name === 'cast_shape_sharp' ? 0 : 0.05;
+  const rounding = which === 'cast_shape_sharp' ? 0 : 0.05;
   const place = ({ turn, at }) => [keep(new Jolt.Quat(...turn)), keep(new Jolt.RVec3(...at))];
   const moving = shapeOf(a, rounding), fixed = shapeOf(b, rounding);
   moving.AddRef();

@@ -119,11 +119,11 @@ export function world(mode, { step, fixed, moving }) {
 }
 
 /// PxGeometryQuery.sweep, of one pair; `precise`: with PxHitFlag::ePRECISE_SWEEP.
-export function cast(name, a, b) {
+export function cast(which, a, b) {
   const length = Math.hypot(...a.by), { PxHitFlagEnum: flag } = px;
   const made = [geometryOf(a), pose(a.at, a), geometryOf(b), pose(b.at, b)];
   const along = new px.PxVec3(...a.by.map((v) => v / length)), hit = new px.PxSweepHit();
-  const flags = new px.PxHitFlags(flag.eDEFAULT | (name === 'sweep_precise' ? flag.ePRECISE_SWEEP : 0));
+  const flags = new px.PxHitFlags(flag.eDEFAULT | (which === 'sweep_precise' ? flag.ePRECISE_SWEEP : 0));
   return {
     ask: () => px.PxGeometryQuery.prototype.sweep(along, length, ...made, hit, flags) ? hit.distance / length : null,
     free() { for (const object of [...made, along, hit, flags]) px.destroy(object); },

@@ -96,9 +96,9 @@ async function page(code) {
     if (raced.length > 0) order({ miss: Math.min(1, Math.max(0, miss || 0)), late: late === '' ? -1 : Math.max(0, Number(late)) });
   };
 
-  /** Everything starts anew, if that can be fired at all. @param {Partial<typeof state>} change */
-  function change(change) {
-    const next = { ...state, ...change }, why = engine.set(next.setting);
+  /** Everything starts anew, if that can be fired at all. @param {Partial<typeof state>} what */
+  function change(what) {
+    const next = { ...state, ...what }, why = engine.set(next.setting);
     complain(why);
     if (why === '') {
       state = next;
