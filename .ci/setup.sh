@@ -9,6 +9,9 @@ program_packages=(
 )
 program_commands=(c++ cmake ninja git gnuplot)
 
+# To compile the page of `thinwall explore`, on a system that has them.
+page_packages=(clang-16 lld-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 libclang-rt-16-dev-wasm32 wasi-libc)
+
 # To build and run the tests and benchmarks as well.
 test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libhwy-dev libopenmpi-dev openmpi-bin)
 
@@ -67,6 +70,11 @@ install_packages() {
     cat "$log" >&2
     die "apt-get could not install: ${missing[*]}"
   }
+}
+
+# known_packages PACKAGE...: prints them if this system has all of them, as far as apt has been told.
+known_packages() {
+  apt-cache show "$@" >/dev/null 2>&1 && echo "$@"
 }
 
 # need_commands NAME...: on a system without apt, stops if a tool is missing. CMake itself names missing libraries.

@@ -65,6 +65,7 @@ add_custom_command(OUTPUT "${folder}/explorer.wasm"
 set(page "${PROJECT_SOURCE_DIR}/experiments/explorer/page")
 file(GLOB parts CONFIGURE_DEPENDS "${page}/*")
 set(thinwall_explorer_page "${folder}/explore.html")
+set_property(GLOBAL PROPERTY thinwall_explorer_page "${thinwall_explorer_page}")
 add_custom_command(OUTPUT "${thinwall_explorer_page}"
   COMMAND "${CMAKE_COMMAND}" "-DPAGE=${page}" "-DWASM=${folder}/explorer.wasm" "-DOUT=${thinwall_explorer_page}"
           "-DGZIP=${THINWALL_GZIP}" "-DBASE64=${THINWALL_BASE64}" -P "${PROJECT_SOURCE_DIR}/cmake/assemble_page.cmake"

@@ -1,0 +1,30 @@
+# The page of `thinwall explore`: in a browser, and its modules by a linter and a type checker, with what `npm ci` in tests/explorer brings.
+# Each is skipped, with the reason, where something is missing.
+set(explorer "${CMAKE_CURRENT_LIST_DIR}")
+find_program(THINWALL_NODE NAMES node nodejs)
+get_property(page GLOBAL PROPERTY thinwall_explorer_page)
+set(missing "")
+if(NOT THINWALL_NODE)
+  set(missing "node is not installed")
+elseif(NOT EXISTS "${explorer}/node_modules")
+  set(missing "`npm ci` was not run in tests/explorer")
+endif()
+
+# thinwall_explorer_test(NAME MISSING COMMAND...)
+function(thinwall_explorer_test name missing)
+  if(missing)
+    add_test(NAME explorer/${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped: ${missing}")
+  else()
+    add_test(NAME explorer/${name} COMMAND ${ARGN} WORKING_DIRECTORY "${explorer}")
+  endif()
+  set_tests_properties(explorer/${name} PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "^skipped: ")
+endfunction()
+
+thinwall_explorer_test(lint "${missing}" npm run --silent lint)
+if(NOT missing AND NOT page)
+  set(missing "the page was not built")
+elseif(NOT missing AND NOT THINWALL_CHROMIUM)
+  set(missing "Chromium is not installed")
+endif()
+thinwall_explorer_test(page "${missing}" "${CMAKE_COMMAND}" -E env "THINWALL_PROGRAM=$<TARGET_FILE:thinwall>"
+  "THINWALL_BROWSER=${THINWALL_CHROMIUM}" "THINWALL_PICTURES=${work}/explorer" "${THINWALL_NODE}" --test page.test.mjs)
