@@ -516,7 +516,22 @@ void add_bounce(const std::vector<Row>& rows, const std::vector<Row>& bullets, c
   outcome.self_test_passed &= all_passed(tests) && ends_agree(rows);
 }
 
-Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTest>& stratified, bool bounces) {
+/// Where the page of `thinwall explore` fires the first of the plan's own cells that has an infinite wall.
+std::string page_text(const ShotPlan& plan) {
+  const auto own = std::find_if(plan.cells.begin() + 1, plan.cells.end(),
+                                [](const Cell& cell) { return cell.wall == Wall::infinite; });
+  const Cell& cell = own == plan.cells.end() ? plan.cells.front() : *own;
+  const std::string page = fmt::format("explore.html#speed={}&step={}&radius={}&thickness={}&angle_deg={}&seed={}",
+                                       exact_text(cell.speed), exact_text(cell.step), exact_text(cell.radius),
+                                       exact_text(cell.thickness), exact_text(cell.angle_deg), plan.seed);
+  return fmt::format(
+      "`thinwall explore --out explore.html`, in this folder, puts a page beside this one on which such shots are "
+      "fired in the browser: [{0}]({0}).",
+      page);
+}
+
+Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTest>& stratified, const ShotPlan& plan) {
+  const bool bounces = plan.response == Response::bounce;
   const std::vector<Total> totals = totals_of(rows);
   const std::vector<SelfTest> counts = self_test(tunneled_counts(rows));
   const std::vector<LatenessTest> lateness = lateness_test(rows);
@@ -550,7 +565,7 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTes
                        bounces ? columns_of<Row>(row_columns(), bounce_columns()) : row_columns(), rows),
                  timings_table(rows)},
       .figures = figures_of(rows, bounces),
-      .sections = {{"Self-test", self_test_text(counts)}},
+      .sections = {{"Self-test", self_test_text(counts)}, {"To play with", page_text(plan)}},
       .self_test_passed = counts_pass && stratified_pass && lateness_pass};
   if (bounces) add_bounce(rows, bullets, totals, outcome);
   return outcome;
@@ -588,8 +603,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
       tallies[i / each] += done.results[i];
       seconds[i / each] += done.seconds[i];
     }
-    return outcome_of(make_rows(*plan, tallies, seconds), stratified_test(*even, counts.results),
-                      plan->response == Response::bounce);
+    return outcome_of(make_rows(*plan, tallies, seconds), stratified_test(*even, counts.results), *plan);
   };
   return make_run(finish, std::move(fired), std::move(spread));
 }
