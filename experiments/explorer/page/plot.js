@@ -35,15 +35,16 @@ export function short(value) {
   return size >= 1e-3 && size < 1e5 ? String(Number(value.toPrecision(3))) : value.toExponential(0).replace('e+', 'e');
 }
 
-/** Powers of ten, or about five round numbers. @param {Axis} axis */
-function ticsOf({ from, to, log }) {
+/** Powers of ten, or round numbers; about as many as have room. @param {Axis} axis @param {number} pixels */
+function ticsOf({ from, to, log }, pixels) {
+  const most = Math.max(2, Math.floor(pixels / 55));
   const tics = [];
   if (log) {
-    const low = Math.ceil(Math.log10(from) - 1e-9), high = Math.floor(Math.log10(to) + 1e-9), every = Math.ceil((high - low + 1) / 7);
+    const low = Math.ceil(Math.log10(from) - 1e-9), high = Math.floor(Math.log10(to) + 1e-9), every = Math.ceil((high - low + 1) / most);
     for (let power = low; power <= high; power += every) tics.push(10 ** power);
     return tics;
   }
-  const rough = (to - from) / 5, power = 10 ** Math.floor(Math.log10(rough)), step = ([1, 2, 5].find((f) => f * power >= rough) ?? 10) * power;
+  const rough = (to - from) / Math.min(most, 6), power = 10 ** Math.floor(Math.log10(rough)), step = ([1, 2, 5].find((f) => f * power >= rough) ?? 10) * power;
   for (let i = Math.ceil(from / step - 1e-9); i * step <= to * (1 + 1e-9); ++i) tics.push(i * step);
   return tics;
 }
@@ -58,10 +59,10 @@ export function draw(into, x, y, series, height = 300) {
   const px = (/** @type {number} */ v) => left + (right - left) * inside(share(x, v));
   const py = (/** @type {number} */ v) => bottom - (bottom - top) * inside(share(y, v));
   const parts = [svg('rect', { x: left, y: top, width: right - left, height: bottom - top, class: 'frame' })];
-  for (const tic of ticsOf(x)) {
+  for (const tic of ticsOf(x, right - left)) {
     parts.push(svg('path', { d: `M${px(tic)} ${top}V${bottom}`, class: 'grid' }), svg('text', { x: px(tic), y: bottom + 16, class: 'tic middle' }, short(tic)));
   }
-  for (const tic of ticsOf(y)) {
+  for (const tic of ticsOf(y, (bottom - top) * 1.5)) {
     parts.push(svg('path', { d: `M${left} ${py(tic)}H${right}`, class: 'grid' }), svg('text', { x: left - 6, y: py(tic) + 4, class: 'tic end' }, short(tic)));
   }
   parts.push(svg('text', { x: (left + right) / 2, y: height - 8, class: 'axis middle' }, x.label),
