@@ -40,7 +40,7 @@ async function open(fragment = '', options = {}) {
 const value = (page, id) => page.inputValue(`#${id}`);
 const rows = (page) => page.$$eval('#counts tbody tr', (all) => all.map((row) => ({
   name: row.cells[0].innerText.trim(), chosen: row.querySelector('input').checked, counts: JSON.parse(row.dataset.counts) })));
-const allFired = (page) => page.waitForFunction(() => document.getElementById('status').textContent.includes('all are fired'), null, { timeout: 120000 });
+const allFired = (page) => page.waitForFunction(() => document.getElementById('status').textContent.includes('all are fired'), null, { timeout: 60000 });
 const toml = async (page) => {
   await page.click('#copy-toml');
   return page.getAttribute('#copied', 'data-text');

@@ -63,9 +63,9 @@ async function page(code) {
   function speak() {
     const shots = tallies.reduce((sum, tally) => sum + tally.shots, 0), now = performance.now();
     byId('status').dataset.shots = String(shots);
-    if (now - spoken < 1000 && running) return;
-    spoken = now;
     const done = chosen().every(({ i }) => tallies[i]?.shots >= state.most);
+    if (now - spoken < 1000 && running && !done) return;
+    spoken = now;
     byId('status').textContent = `${shots.toLocaleString('en')} shots` +
       (done ? '; all are fired.' : running ? `, ${short(perSecond / 1e6)} million a second.` : '; paused.');
   }
