@@ -1,4 +1,4 @@
-/// `thinwall advise`, as the user calls it.
+/// `thinwall advise` and others, as the user calls them.
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,6 +14,7 @@
 #include <thinwall/experiments/program/completion.hpp>
 #include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/program/run.hpp>
+#include <thinwall_embedded.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
 #include "experiments/speed_run.hpp"
@@ -67,6 +68,28 @@ TEST_F(AdviseProgram, replaces_an_experiment_of_its_own_and_nothing_else) {
   write_text(file, advise({"--fps", "30", "--toml", "-"}).out);
   EXPECT_EQ(advise({"--fps", "60", "--json", "--toml", file}).status, 0);
   EXPECT_EQ(read_text(file), advise({"--fps", "60", "--toml", "-"}).out);
+}
+
+/// Where the page was not built, its command says what builds it.
+TEST(ExploreProgram, writes_the_page_over_its_own_alone_or_says_what_is_missing) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "wall.html";
+  const auto explore = [&](const std::string& out) { return ToyProgram::call({"explore", "--no-open", "--out", out}); };
+  if (embedded_explorer().empty()) {
+    AdviseProgram::expect_refusal(explore(file), "explore: this program was built without the page; install clang-16");
+    GTEST_SKIP() << "the page was not built";
+  }
+  EXPECT_EQ(explore(file).status, 0);
+  const std::string page = read_text(file);
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_NE(page.find("@software{"), std::string::npos);
+  EXPECT_EQ(explore(file).status, 0) << "its own, again";
+  write_text(file, "mine\n");
+  AdviseProgram::expect_refusal(explore(file), "--out " + file + ": is there already, and not from explore");
+  EXPECT_EQ(read_text(file), "mine\n");
+  AdviseProgram::expect_refusal(explore(folder.path().string()), "--out " + folder.path().string() + ": is a folder");
+  AdviseProgram::expect_refusal(explore(""), "--out: '' is not allowed");
+  AdviseProgram::expect_refusal(explore(folder / "none/x.html"), "--out");
 }
 
 TEST_F(AdviseProgram, names_what_is_wrong) {
