@@ -72,7 +72,8 @@ struct EngineMode {
   std::string what;        ///< the settings that differ from the engine's own, a clause
   int poses_per_step = 0;  ///< > 0: it looks at so many poses a step and nothing between, and theory knows its chance
   double skin = 0;         ///< [m] it lets contact begin so far before the surfaces meet
-  bool exact = false;      ///< it claims that no ball goes through: the self-test holds it to that
+  bool never_sweeps = false;  ///< so it does too, but what gives way follows no theory
+  bool exact = false;         ///< it claims that no ball goes through: the self-test holds it to that
   std::function<std::unique_ptr<EngineWorld>(const EngineScene&, const BodyState&)> make = nullptr;
   std::function<EngineFlights(const EngineStage&, std::span<const std::vector<BodyState>>, std::int64_t steps)> play =
       nullptr;

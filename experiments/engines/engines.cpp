@@ -26,7 +26,7 @@ using Rows = std::vector<EngineRow>;
 
 std::string label_of(const Row& row) { return row.setup->label(); }
 double wall_of(const Row& row) { return row.cell.wall_size; }
-bool looks_at_poses(const Row& row) { return row.setup->mode.poses_per_step > 0; }
+bool looks_at_poses(const Row& row) { return row.setup->mode.poses_per_step > 0 || row.setup->mode.never_sweeps; }
 
 Rows chosen(const Rows& rows, const std::function<bool(const Row&)>& is_it) {
   Rows some;
@@ -156,19 +156,13 @@ bool is_zero(const Series& series) {
   return std::ranges::all_of(series.y, [](double y) { return y == 0; });
 }
 
-/// Those that never let a ball through would hide each other on the zero line: they take turns on it.
-void take_turns(std::vector<Series>& all) {
-  const auto sharing = static_cast<std::size_t>(std::ranges::count_if(all, is_zero));
-  std::size_t turn = 0;
-  for (Series& series : all) {
-    if (!is_zero(series)) continue;
-    for (std::vector<double>* column : {&series.x, &series.y, &series.lower, &series.upper}) {
-      std::vector<double> kept;
-      for (std::size_t i = turn; i < column->size(); i += sharing) kept.push_back((*column)[i]);
-      if (!kept.empty() || column->empty()) *column = kept;
-    }
-    ++turn;
-  }
+/// Those that never let a ball through would hide each other on the zero line: where they are many, one series stands for all.
+void gather_zeros(std::vector<Series>& all) {
+  if (std::ranges::count_if(all, is_zero) < 3) return;
+  const Series first = *std::ranges::find_if(all, is_zero);
+  std::erase_if(all, is_zero);
+  all.push_back(first);
+  all.back().label = "all others";
 }
 
 /// A line and its points for each engine and mode, of a column against the path; those on the zero line have no line.
@@ -181,7 +175,7 @@ Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
                     .y(column, Axis::linear, std::move(y_label))
                     .by("label");
   if (!shares) return joined(std::move(panel));
-  take_turns(panel.series);
+  gather_zeros(panel.series);
   panel = joined(std::move(panel));
   std::erase_if(panel.series, [](const Series& s) { return s.mark == Mark::line && is_zero(s); });
   return panel;
@@ -217,16 +211,15 @@ void add_theory(Panel& panel, const Rows& rows) {
 
 Figure tunneling_figure(const Rows& rows) {
   const EngineCell& cell = rows.front().cell;
-  Figure figure = {
-      .name = "tunneling",
-      .title = "How often a ball goes through a thin wall in whole engines",
-      .caption =
-          fmt::format("A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
-                      "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
-                      "number of poses and for Box2D's skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
-                      "times the radius. Those that let none through take turns on the zero line.",
-                      cell.radius, cell.thickness, cell.angle_deg),
-      .panels = {}};
+  Figure figure = {.name = "tunneling",
+                   .title = "How often a ball goes through a thin wall in whole engines",
+                   .caption = fmt::format(
+                       "A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
+                       "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
+                       "number of poses and each skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
+                       "times the radius. All others let none through.",
+                       cell.radius, cell.thickness, cell.angle_deg),
+                   .panels = {}};
   const Rows poses = chosen(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
   if (!poses.empty()) {
     figure.panels.push_back(path_panel(poses, "tunneled_percent", "through, looking at poses [%]"));

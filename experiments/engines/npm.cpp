@@ -32,8 +32,9 @@ constexpr double seconds_to_start = 60, seconds_a_volley = 120;
 struct NpmMode {
   const char* name;
   const char* what;
-  int poses_per_step = 0;  ///< and skin [m], as of EngineMode
+  int poses_per_step = 0;  ///< and what follows, as of EngineMode; skin in meters
   double skin = 0;
+  bool never_sweeps = false;
 };
 
 struct NpmEngine {
@@ -86,7 +87,8 @@ const std::vector<NpmEngine>& list() {
        "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous detection. Its meshes are convex hulls, which a flat one is not.",
        false,
        {{"default", "solref and solimp as they come, which take the speed away", 1, 0},
-        {"elastic", "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps"}}},
+        {"elastic", "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps", 0, 0,
+         true}}},
       {"box2d3",
        "Box2D 3",
        "box2d3-wasm",
@@ -237,6 +239,7 @@ std::vector<EngineMode> modes_of(const NpmEngine& engine, const fs::path& script
                      .what = mode.what,
                      .poses_per_step = mode.poses_per_step,
                      .skin = mode.skin,
+                     .never_sweeps = mode.never_sweeps,
                      .play = play,
                      .has_meshes = engine.has_meshes,
                      .turns = true});

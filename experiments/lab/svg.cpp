@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -147,6 +148,12 @@ std::string legend_item(const SeriesStyle& style, std::size_t number) {
   return fmt::format("keyentry with {} linestyle {} title {}", with, number, spelled(style.label));
 }
 
+std::vector<std::string> legend_items(const std::vector<SeriesStyle>& styles) {
+  std::vector<std::string> items;
+  for (const SeriesStyle& style : styles) items.push_back(legend_item(style, items.size() + 1));
+  return items;
+}
+
 std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& styles, const PlotLayout& layout) {
   std::string out = fmt::format(
       "# {0}\n# Change what you like, then draw it again from inside this folder:\n"
@@ -174,15 +181,23 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
   const double left = layout.left / layout.width;
   out += fmt::format(
       "\nset style line 100 linecolor rgb '#e4e4e4' linewidth 0.7\nset style line 101 linecolor rgb '#404040' linewidth 1\n"
-      "set grid back linestyle 100\nset border 3 back linestyle 101\nset xzeroaxis linecolor rgb '#909090' linewidth 0.8\n"
-      "set errorbars 0\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
+      "set errorbars 0\n"
       "set key at screen {6:.5f}, screen {1:.5f} left top vertical maxrows {2} Left reverse noenhanced samplen 2 "
       "spacing 1 width 1 textcolor rgb '#202020'\n"
       "set label 1 {3} at screen {0:.5f}, screen {4:.5f} left noenhanced font sized(18)\n"
       "set lmargin at screen {0:.5f}; set rmargin at screen {5:.5f}\nset multiplot\n",
       left, 1 - layout.legend_y / layout.height, layout.legend_rows, spelled(figure.title),
       1 - layout.title_y / layout.height, layout.right / layout.width, layout.legend_x / layout.width);
-  return out;
+  if (layout.legend_x >
+      layout.right) {  // a legend takes more columns than asked where its plot is not as high as it is
+    out += fmt::format(
+        "\n# The legend\nset tmargin at screen 1; set bmargin at screen 0\nunset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
+        "plot NaN notitle, \\\n     {}\nunset key\nunset label\n",
+        fmt::join(legend_items(styles), ", \\\n     "));
+  }
+  return out +
+         "\nset grid back linestyle 100\nset border 3 back linestyle 101\nset xzeroaxis linecolor rgb '#909090' linewidth 0.8\n"
+         "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n";
 }
 
 }  // namespace
@@ -219,7 +234,7 @@ std::string plot_script(const Figure& figure) {
         items.push_back(std::move(item));
       ++block;
     }
-    for (std::size_t i = 0; p == 0 && i < styles.size(); ++i) items.push_back(legend_item(styles[i], i + 1));
+    if (p == 0 && layout.legend_x <= layout.right) std::ranges::copy(legend_items(styles), std::back_inserter(items));
     if (items.empty()) items.emplace_back("NaN notitle");
     out += fmt::format("plot {}\nunset key\nunset label\n", fmt::join(items, ", \\\n     "));
   }
