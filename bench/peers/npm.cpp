@@ -92,7 +92,7 @@ NpmAnswers ask_all(const std::string& engine, const std::string& cast, const Que
     answers.call_nanoseconds += answer.at("call_seconds").get<double>() * 1e9;
   }
   if (answers.times.size() != set.queries.size()) throw SpeakerError(engine + " answers another number of queries");
-  answers.nanoseconds /= static_cast<double>(answers.times.size());
+  answers.nanoseconds = std::max(0.0, answers.nanoseconds) / static_cast<double>(answers.times.size());
   answers.call_nanoseconds /= static_cast<double>(answers.times.size());
   return answers;
 }

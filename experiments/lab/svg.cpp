@@ -191,7 +191,7 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
   if (layout.legend_x >
       layout.right) {  // a legend takes more columns than asked where its plot is not as high as it is
     out += fmt::format(
-        "\n# The legend\nset tmargin at screen 1; set bmargin at screen 0\nunset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
+        "\n# The legend\nset tmargin at screen 1; set bmargin at screen 0\nset border 0; set tics nomirror scale 0; set format ''; set xrange [0:1]; set yrange [0:1]\n"
         "plot NaN notitle, \\\n     {}\nunset key\nunset label\n",
         fmt::join(legend_items(styles), ", \\\n     "));
   }

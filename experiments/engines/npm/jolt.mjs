@@ -6,22 +6,42 @@ export const modes = ['discrete', 'linear_cast'];
 export const casts = ['cast_shape', 'cast_shape_sharp'];
 
 const still = 0, moves = 1; // layers: what moves meets all, what is still does not meet itself
-let Jolt;
+let Jolt, upright, layer;
 
-export async function start() { Jolt = await initialize(); }
+export async function start() {
+  Jolt = await initialize();
+  upright = new Jolt.Quat(0, 0, 0, 1);
+  layer = [still, moves].map((number) => new Jolt.BroadPhaseLayer(number));
+}
 
 const vec3 = ([x, y, z]) => new Jolt.Vec3(x, y, z);
 
-/// Its boxes are round within `rounding` [m] of their edges when they are cast: 0.05 as they come.
+/// What `use` returns of a vector that lasts as long as that: what is made here is not collected.
+function with3(values, use) {
+  const vector = vec3(values), result = use(vector);
+  Jolt.destroy(vector);
+  return result;
+}
+
+/// Its boxes are round within `rounding` [m] of their edges when they are cast: 0.05 as they come. Whoever asks releases it.
 function shapeOf(shape, rounding = 0.05) {
-  if (shape.sphere !== undefined) return new Jolt.SphereShape(shape.sphere);
-  if (shape.box) return new Jolt.BoxShape(vec3(shape.box), Math.min(rounding, ...shape.box));
-  if (shape.capsule) return new Jolt.CapsuleShape(...shape.capsule);
-  const triangles = new Jolt.TriangleList();
+  const kept = (made) => {
+    made.AddRef();
+    return made;
+  };
+  if (shape.sphere !== undefined) return kept(new Jolt.SphereShape(shape.sphere));
+  if (shape.box) return with3(shape.box, (half) => kept(new Jolt.BoxShape(half, Math.min(rounding, ...shape.box))));
+  if (shape.capsule) return kept(new Jolt.CapsuleShape(...shape.capsule));
+  const triangles = new Jolt.TriangleList(), points = shape.mesh.points.map(vec3);
   for (const corners of shape.mesh.triangles) {
-    triangles.push_back(new Jolt.Triangle(...corners.map((k) => vec3(shape.mesh.points[k]))));
+    const triangle = new Jolt.Triangle(...corners.map((k) => points[k]));
+    triangles.push_back(triangle);
+    Jolt.destroy(triangle);
   }
-  return new Jolt.MeshShapeSettings(triangles).Create().Get();
+  const made = new Jolt.MeshShapeSettings(triangles), result = made.Create(), mesh = kept(result.Get());
+  result.Clear();
+  for (const object of [made, triangles, ...points]) Jolt.destroy(object);
+  return mesh;
 }
 
 function settings() {
@@ -30,8 +50,7 @@ function settings() {
   pairs.EnableCollision(still, moves);
   pairs.EnableCollision(moves, moves);
   const layers = new Jolt.BroadPhaseLayerInterfaceTable(2, 2);
-  layers.MapObjectToBroadPhaseLayer(still, new Jolt.BroadPhaseLayer(still));
-  layers.MapObjectToBroadPhaseLayer(moves, new Jolt.BroadPhaseLayer(moves));
+  for (const object of [still, moves]) layers.MapObjectToBroadPhaseLayer(object, layer[object]);
   all.mObjectLayerPairFilter = pairs;
   all.mBroadPhaseLayerInterface = layers;
   all.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
@@ -43,9 +62,10 @@ export function world(mode, { step, fixed, moving }) {
   const it = new Jolt.JoltInterface(all);
   Jolt.destroy(all);
   const system = it.GetPhysicsSystem(), bodies = system.GetBodyInterface();
-  system.SetGravity(new Jolt.Vec3(0, 0, 0));
-  const add = (shape, at, motion, layer, more) => {
-    const made = new Jolt.BodyCreationSettings(shapeOf(shape), new Jolt.RVec3(...at), new Jolt.Quat(0, 0, 0, 1), motion, layer);
+  with3([0, 0, 0], (none) => system.SetGravity(none));
+  const add = (shape, at, motion, where, more) => {
+    const form = shapeOf(shape);
+    const made = with3(at, (place) => new Jolt.BodyCreationSettings(form, place, upright, motion, where));
     made.mRestitution = 1;
     made.mFriction = made.mLinearDamping = made.mAngularDamping = 0;
     made.mAllowSleeping = false;
@@ -55,6 +75,7 @@ export function world(mode, { step, fixed, moving }) {
     const body = bodies.CreateBody(made);
     bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
     Jolt.destroy(made);
+    form.Release();
     return body;
   };
   for (const shape of fixed) add(shape, shape.at, Jolt.EMotionType_Static, still);
@@ -62,8 +83,8 @@ export function world(mode, { step, fixed, moving }) {
   return {
     place(states) {
       placed = moving.map((shape, i) => add(shape, states[i].slice(0, 3), Jolt.EMotionType_Dynamic, moves, (made) => {
-        made.mLinearVelocity = vec3(states[i].slice(3, 6));
-        made.mAngularVelocity = vec3([...states[i].slice(6, 9), 0, 0, 0]);
+        with3(states[i].slice(3, 6), (v) => { made.mLinearVelocity = v; });
+        with3([...states[i].slice(6, 9), 0, 0, 0], (w) => { made.mAngularVelocity = w; });
         if (mode === 'linear_cast') made.mMotionQuality = Jolt.EMotionQuality_LinearCast;
       }));
     },
@@ -85,8 +106,6 @@ export function cast(which, a, b) {
   const rounding = which === 'cast_shape_sharp' ? 0 : 0.05;
   const place = ({ turn, at }) => [keep(new Jolt.Quat(...turn)), keep(new Jolt.RVec3(...at))];
   const moving = shapeOf(a, rounding), fixed = shapeOf(b, rounding);
-  moving.AddRef();
-  fixed.AddRef();
   const [turn, at] = place(b), target = keep(new Jolt.TransformedShape());
   target.mShape = fixed;
   target.mShapePositionCOM = at;
