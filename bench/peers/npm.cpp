@@ -41,7 +41,7 @@ struct NpmCaster {
 const NpmCaster& caster(const std::string& name) {
   static const std::map<std::string, NpmCaster> all = {
       {"rapier", {"@dimforge/rapier3d-compat", {"cast_shape"}, false}},
-      {"jolt", {"jolt-physics", {"cast_shape", "cast_shape_sharp"}, false}},
+      {"jolt", {"jolt-physics", {"cast_shape", "cast_shape_back_faces"}, false}},
       {"physx", {"physx-js-webidl", {"sweep", "sweep_precise"}, false}},
       {"havok", {"@babylonjs/havok", {"shape_cast"}, false}},
       {"box2d3", {"box2d3-wasm", {"cast_shape"}, true}}};

@@ -3,7 +3,7 @@ import initialize from 'jolt-physics';
 
 export const name = 'Jolt';
 export const modes = ['discrete', 'linear_cast'];
-export const casts = ['cast_shape', 'cast_shape_sharp'];
+export const casts = ['cast_shape', 'cast_shape_back_faces'];
 
 const still = 0, moves = 1; // layers: what moves meets all, what is still does not meet itself
 let Jolt, upright, layer;
@@ -23,14 +23,14 @@ function with3(values, use) {
   return result;
 }
 
-/// Its boxes are round within `rounding` [m] of their edges when they are cast: 0.05 as they come. Whoever asks releases it.
-function shapeOf(shape, rounding = 0.05) {
+/// Whoever asks releases it.
+function shapeOf(shape) {
   const kept = (made) => {
     made.AddRef();
     return made;
   };
   if (shape.sphere !== undefined) return kept(new Jolt.SphereShape(shape.sphere));
-  if (shape.box) return with3(shape.box, (half) => kept(new Jolt.BoxShape(half, Math.min(rounding, ...shape.box))));
+  if (shape.box) return with3(shape.box, (half) => kept(new Jolt.BoxShape(half, Math.min(0.05, ...shape.box))));
   if (shape.capsule) return kept(new Jolt.CapsuleShape(...shape.capsule));
   const triangles = new Jolt.TriangleList(), points = shape.mesh.points.map(vec3);
   for (const corners of shape.mesh.triangles) {
@@ -99,13 +99,12 @@ export function world(mode, { step, fixed, moving }) {
 
 let any; // without an interface nothing knows which shapes meet how
 
-/// TransformedShape.CastShape, of one pair; `sharp`: with boxes that are not rounded.
+/// TransformedShape.CastShape, of one pair; `back_faces`: with hits whose normal seems to look ahead, which are left out as it comes.
 export function cast(which, a, b) {
   any ??= new Jolt.JoltInterface(settings());
   const made = [], keep = (object) => { made.push(object); return object; };
-  const rounding = which === 'cast_shape_sharp' ? 0 : 0.05;
   const place = ({ turn, at }) => [keep(new Jolt.Quat(...turn)), keep(new Jolt.RVec3(...at))];
-  const moving = shapeOf(a, rounding), fixed = shapeOf(b, rounding);
+  const moving = shapeOf(a), fixed = shapeOf(b);
   const [turn, at] = place(b), target = keep(new Jolt.TransformedShape());
   target.mShape = fixed;
   target.mShapePositionCOM = at;
@@ -114,6 +113,7 @@ export function cast(which, a, b) {
   const from = Jolt.RMat44.prototype.sRotationTranslation(...place(a));
   const ray = keep(new Jolt.RShapeCast(moving, keep(vec3([1, 1, 1])), from, keep(vec3(a.by))));
   const how = keep(new Jolt.ShapeCastSettings()), base = keep(new Jolt.RVec3(0, 0, 0));
+  if (which === 'cast_shape_back_faces') how.mBackFaceModeConvex = Jolt.EBackFaceMode_CollideWithBackFaces;
   const closest = keep(new Jolt.CastShapeClosestHitCollisionCollector()), all = keep(new Jolt.ShapeFilter());
   return {
     ask() {
