@@ -63,12 +63,12 @@ export function makeScene(into, drags) {
       }
       const first = on(shot.contact);
       parts.push(svg('circle', { cx: first.x, cy: first.y, r, class: 'contact' }));
-      const here = on(at * length), tip = on(length);
+      const here = on(at * length), tip = on(length), turn = (-Math.atan2(shot.dy, shot.dx) * 180) / Math.PI;
       parts.push(svg('circle', { cx: here.x, cy: here.y, r, class: 'ball' }));
       parts.push(svg('circle', { cx: start.x, cy: start.y, r: Math.max(r, 14), class: 'handle', 'data-held': 'ball' }),
-        svg('line', { x1: start.x, y1: start.y - r - 10, x2: tip.x, y2: start.y - r - 10, class: 'arrow' }),
-        svg('path', { d: `M${tip.x} ${start.y - r - 10}l-9-5v10Z`, class: 'tip' }),
-        svg('circle', { cx: tip.x, cy: start.y - r - 10, r: 14, class: 'handle', 'data-held': 'velocity' }));
+        svg('line', { x1: start.x, y1: start.y - r - 10, x2: tip.x, y2: tip.y - r - 10, class: 'arrow' }),
+        svg('path', { d: 'M0 0l-9-5v10Z', transform: `translate(${tip.x} ${tip.y - r - 10}) rotate(${turn})`, class: 'tip' }),
+        svg('circle', { cx: tip.x, cy: tip.y - r - 10, r: 14, class: 'handle', 'data-held': 'velocity' }));
       let row = 0;
       for (const { color, mark, seen: path } of seen) {
         if (!(path >= 0)) continue;
