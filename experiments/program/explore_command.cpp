@@ -23,7 +23,7 @@ constexpr const char* explore_examples =
 
 struct ExploreText {
   OptionText out;
-  bool no_open = false;
+  bool no_open = false, json = false;
 };
 
 /// The page with what there is to cite in it.
@@ -51,9 +51,15 @@ int explore(const ExploreText& text, const Call& call) {
   const std::string file = text.out.value_or("explore.html");
   const std::string page = page_of_this_program();
   write_own_file("--out", file, page, "explore");
-  call.out << one_line(file) << ": the thin wall, to play with\n";
+  const bool shown = !text.no_open && opened(file);
+  if (text.json) {
+    const nlohmann::ordered_json reply = {{"page", file}, {"opened", shown}};
+    call.out << reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+  } else {
+    call.out << one_line(file) << ": the thin wall, to play with\n";
+  }
   call.out.flush();
-  if (!text.no_open && !opened(file)) call.err << "open it in a browser; it needs nothing else\n";
+  if (!text.no_open && !shown) call.err << "open it in a browser; it needs nothing else\n";
   return exit_done;
 }
 
@@ -62,6 +68,7 @@ Action declare_explore(CLI::App& self) {
   self.footer("One file, which works from a disk and without a network. More: docs/explorer.md.\n");
   add_text(self, "--out", text->out, "Where the page goes (default: explore.html); an earlier one is replaced", "FILE");
   add_flag(self, "--no-open", text->no_open, "Open no browser");
+  add_json(self, text->json);
   return [text](const Call& call) { return explore(*text, call); };
 }
 

@@ -1,7 +1,9 @@
 /// What the page asks of the library, asked here: the same shots as the experiment's, and what is wrong answered with words.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,8 +20,9 @@ namespace {
 std::vector<double> numbers(int count) { return {explorer_numbers(), explorer_numbers() + count}; }
 
 std::vector<std::string> names() {
+  const auto offer = nlohmann::json::parse(explorer_describe());
   std::vector<std::string> all;
-  for (const auto& method : nlohmann::json::parse(explorer_describe()).at("methods")) all.push_back(method.at("name"));
+  for (const auto& method : offer.at("methods")) all.push_back(method.at("name"));
   return all;
 }
 
