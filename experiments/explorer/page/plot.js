@@ -52,7 +52,7 @@ function ticsOf({ from, to, log }, pixels) {
 /** Draws into `into`, which is as wide as it is; the table beside it says the same in numbers.
  *  @param {SVGElement} into @param {Axis} x @param {Axis} y @param {Series[]} series @param {number} [height] */
 export function draw(into, x, y, series, height = 300) {
-  const width = Math.max(280, into.getBoundingClientRect().width), left = 62, right = width - 10, top = 10, bottom = height - 44;
+  const width = Math.max(280, into.getBoundingClientRect().width), left = 62, right = width - 18, top = 10, bottom = height - 44;
   const share = (/** @type {Axis} */ { from, to, log }, /** @type {number} */ v) =>
     log ? Math.log(v / from) / Math.log(to / from) : (v - from) / (to - from);
   const inside = (/** @type {number} */ s) => Math.min(1.02, Math.max(-0.02, s));
