@@ -28,7 +28,8 @@ struct Unit {
 
 struct Section {
   std::string heading;
-  std::string text;  ///< plain paragraphs, separated by a blank line
+  std::string text;       ///< plain paragraphs, separated by a blank line
+  std::string link = {};  ///< what they lead to, seen from the result's folder; may be empty
 };
 
 /// A file that is neither table nor figure: a recording, for one.

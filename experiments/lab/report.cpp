@@ -244,6 +244,7 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
     if (part.heading == "Limits") continue;
     if (part.heading != "Method") method += fmt::format("<h3>{}</h3>\n", html_escaped(part.heading));
     method += paragraphs(part.text);
+    if (!part.link.empty()) method += fmt::format("<p><a href=\"{0}\">{0}</a></p>\n", html_escaped(part.link));
   }
   for (const Section& part : outcome.sections) limits += part.heading == "Limits" ? paragraphs(part.text) : "";
   return fmt::format(

@@ -517,17 +517,16 @@ void add_bounce(const std::vector<Row>& rows, const std::vector<Row>& bullets, c
 }
 
 /// Where the page of `thinwall explore` fires the first of the plan's own cells that has an infinite wall.
-std::string page_text(const ShotPlan& plan) {
+Section page_section(const ShotPlan& plan) {
   const auto own = std::find_if(plan.cells.begin() + 1, plan.cells.end(),
                                 [](const Cell& cell) { return cell.wall == Wall::infinite; });
   const Cell& cell = own == plan.cells.end() ? plan.cells.front() : *own;
-  const std::string page = fmt::format("explore.html#speed={}&step={}&radius={}&thickness={}&angle_deg={}&seed={}",
-                                       exact_text(cell.speed), exact_text(cell.step), exact_text(cell.radius),
-                                       exact_text(cell.thickness), exact_text(cell.angle_deg), plan.seed);
-  return fmt::format(
-      "`thinwall explore --out explore.html`, in this folder, puts a page beside this one on which such shots are "
-      "fired in the browser: [{0}]({0}).",
-      page);
+  return {
+      "To play with",
+      "A page beside this one, which `thinwall explore` in this folder puts there, fires such shots in the browser.",
+      fmt::format("explore.html#speed={}&step={}&radius={}&thickness={}&angle_deg={}&seed={}", exact_text(cell.speed),
+                  exact_text(cell.step), exact_text(cell.radius), exact_text(cell.thickness),
+                  exact_text(cell.angle_deg), plan.seed)};
 }
 
 Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTest>& stratified, const ShotPlan& plan) {
@@ -565,7 +564,7 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<StratifiedTes
                        bounces ? columns_of<Row>(row_columns(), bounce_columns()) : row_columns(), rows),
                  timings_table(rows)},
       .figures = figures_of(rows, bounces),
-      .sections = {{"Self-test", self_test_text(counts)}, {"To play with", page_text(plan)}},
+      .sections = {{"Self-test", self_test_text(counts)}, page_section(plan)},
       .self_test_passed = counts_pass && stratified_pass && lateness_pass};
   if (bounces) add_bounce(rows, bullets, totals, outcome);
   return outcome;
