@@ -195,13 +195,17 @@ struct AloneCheck {
   }
 
   /// A link within the page or the folder; for the page's icon, which is empty, also `data:`.
+  /// Which `thinwall explore` puts there, or not.
+  static constexpr std::string_view played_page = "explore.html";
+
   void check_link(const HtmlTag& tag, const std::string& value) {
     if (value.empty() || value.starts_with('#') || (tag.name == "link" && value == "data:,")) return;
     const std::string target = html_unescaped(value);
     if (tag.name != "a" || target.find(':') != std::string::npos || target.starts_with('/') ||
         target.find("..") != std::string::npos) {
       add(fmt::format("asks for '{}'", clipped(target, 60)));
-    } else if (!std::filesystem::exists(result.folder / target)) {
+    } else if (const std::string file = target.substr(0, target.find('#'));
+               file != played_page && !std::filesystem::exists(result.folder / file)) {
       add(fmt::format("links to '{}', which is not there", clipped(target, 60)));
     }
   }
