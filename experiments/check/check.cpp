@@ -79,7 +79,7 @@ bool is_drawn_again(const std::string& file, const std::set<std::string>& found)
 }
 
 void check_unknown_files(const KeptResult& result, const std::set<std::string>& found, Faults& faults) {
-  std::set<std::string> known = {"manifest.json", "report.html"};
+  std::set<std::string> known = {"manifest.json", "report.html", std::string(played_page)};
   for (const auto& [file, hash] : result.hashes) known.insert(file);
   known.insert(result.unhashed.begin(), result.unhashed.end());
   for (const std::string& file : found) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/lab/result_folder.hpp>
@@ -39,7 +40,10 @@ void check_page_figures(const KeptResult& result, const std::string& page, Fault
 /// Each table of tables/ stands in the page, cell for cell.
 void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults);
 
-/// Nothing in the page asks a host for anything, or runs; every link leads to something.
+/// What `thinwall explore` may put beside a report, which links to it.
+inline constexpr std::string_view played_page = "explore.html";
+
+/// Nothing in the page asks a host for anything, or runs; every link leads to something, or to `played_page`.
 void check_stands_alone(const KeptResult& result, const std::string& page, Faults& faults);
 
 /// resolved.toml and cite.bib.

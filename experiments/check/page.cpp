@@ -195,9 +195,6 @@ struct AloneCheck {
   }
 
   /// A link within the page or the folder; for the page's icon, which is empty, also `data:`.
-  /// Which `thinwall explore` puts there, or not.
-  static constexpr std::string_view played_page = "explore.html";
-
   void check_link(const HtmlTag& tag, const std::string& value) {
     if (value.empty() || value.starts_with('#') || (tag.name == "link" && value == "data:,")) return;
     const std::string target = html_unescaped(value);
