@@ -163,9 +163,10 @@ const char* explorer_set(double speed, double step, double radius, double thickn
 void explorer_fire(int method, int count) {
   Tally& tally = here().tallies.at(static_cast<std::size_t>(method));
   const RandomStream stream = random_stream(here().cell, here().seed);
-  for (int i = 0; i < count; ++i)
-    here().method(method).fire(here().aimed,
-                               random_start(here().aimed, stream, static_cast<std::uint64_t>(tally.shots)), tally);
+  for (int i = 0; i < count; ++i) {
+    const Vec3<double> start = random_start(here().aimed, stream, static_cast<std::uint64_t>(tally.shots));
+    here().method(method).fire(here().aimed, start, tally);
+  }
 }
 
 int explorer_tally(int method) {
