@@ -139,7 +139,8 @@ template <Shape A, Shape B>
       const int e = binary_exponent(size);
       const ClearContact answer = clear_contact_either_way(scaled(a, -e), scaled(b, -e));
       const auto near = answer.contact();
-      if (answer.clear) return near ? std::optional(scaled(*near, e)) : near;
+      if (answer.clear && divides_exactly(a, e) && divides_exactly(b, e))
+        return near ? std::optional(scaled(*near, e)) : near;
     }
   }
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {

@@ -20,6 +20,7 @@
 ///   core_gap(a, b)              how far apart, and where
 
 #include <concepts>
+#include <cstring>
 
 #include <thinwall/discrete/numbers/range.hpp>
 #include <thinwall/discrete/scalar.hpp>
@@ -30,6 +31,12 @@ template <class T>
 concept Shape = Scalar<typename T::Scalar> && std::same_as<decltype(T::rank), const int>;
 
 template <class T> bool has_valid_axes(const T&) { return true; }
+
+/// True if every length of a shape of doubles, divided by 2^e, is a double: nothing is lost below the range.
+template <class T> bool divides_exactly(const T& shape, int e) {
+  const T back = scaled(scaled(shape, -e), e);
+  return std::memcmp(&back, &shape, sizeof(T)) == 0;
+}
 
 /// Two cores seen from A. Points are relative to the shapes' centers, so that nothing far from the origin is lost.
 template <Scalar S> struct CoreGap {

@@ -489,6 +489,13 @@ TEST(LadderAtOneInstant, rays_agree) {
   EXPECT_GE(clear, 4 * cases);
 }
 
+// A size near 1 would be 0 for the gap between these plates, and let them touch.
+TEST(LadderAtOneInstant, sizes_far_apart_are_not_scaled) {
+  const Box wide{{0, 0x1p-714, 0}, {0x1p515, 0, 1}}, tiny{{0, 0, 0}, {0x1p-937, 0x1p-986, 1}};
+  EXPECT_FALSE(overlaps(wide, tiny));
+  EXPECT_FALSE(contact(wide, tiny));
+}
+
 TEST(LadderAtOneInstant, doubt_is_careful) {
   const Ball ball{{0, 0, 0}, 1};
   EXPECT_FALSE(clear_contact(ball, Ball{{2, 0, 0}, 1}).clear);
