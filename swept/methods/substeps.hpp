@@ -24,9 +24,9 @@ template <Scalar S> struct EndOfStep {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
-template <Scalar S, Shape A, Shape B>
-  requires ServedPair<A, B>
-Toi<typename A::Scalar> impact(const Substeps<S>& method, const Moving<A>& a, const Moving<B>& b) {
+/// Whatever the motion is: it has poses.
+template <Scalar S, template <class> class Motion, Shape A, Shape B>
+Toi<typename A::Scalar> first_touch_among_poses(const Substeps<S>& method, const Motion<A>& a, const Motion<B>& b) {
   using T = typename A::Scalar;
   if (method.n < 1) return invalid_option<T>();
   for (int k = 1; k <= method.n; ++k) {
@@ -38,6 +38,12 @@ Toi<typename A::Scalar> impact(const Substeps<S>& method, const Moving<A>& a, co
     return {ToiStatus::hit, k, time, deepest.normal, middle(deepest)};
   }
   return {ToiStatus::apart, method.n};
+}
+
+template <Scalar S, Shape A, Shape B>
+  requires ServedPair<A, B>
+Toi<typename A::Scalar> impact(const Substeps<S>& method, const Moving<A>& a, const Moving<B>& b) {
+  return first_touch_among_poses(method, a, b);
 }
 
 template <Scalar S, Shape A, Shape B>

@@ -1,0 +1,174 @@
+#pragma once
+/// Planes between two turning shapes, and what bounds their gap: one that stands still, one that turns with a shape, one that stays square to
+/// an edge of each. Against a resting contact the last two are exact, which is why so few of them are needed.
+///
+/// Nothing depends on the right choice: a poor plane proves less, never something wrong. Source: docs/turning.md derives every bound.
+
+#include <algorithm>
+#include <array>
+
+#include <thinwall/swept/turning/concave_bound.hpp>
+#include <thinwall/swept/turning/turning_pair.hpp>
+
+namespace thinwall {
+
+/// What a plane's normal turns with. `edges`: it is the product of an edge of A and one of B, not normalized.
+enum class Rides { world, a, b, edges };
+
+template <Scalar S> struct AttachedPlane {
+  Rides rides = Rides::world;
+  Vec3<S> normal = Vec3<S>::Zero();          ///< unit, from A to B, at the start of the step for what it rides
+  Vec3<S> edge_a = normal, edge_b = normal;  ///< `edges`: unit, at the start; their product points from A to B
+  CoreVectors<S> beyond_a, beyond_b;         ///< `edges`: what else there is of A, times its edge, and of B
+  S reach = 0;                               ///< [length] of the shape it rides, both radii, the minimal separation
+  S curvature = 0;                           ///< [length] per step squared: that of the cores,
+  S per_distance = 0, per_path = 0, per_sine = 0;  ///< of the centers, and of the radii of `edges` (curvature_at())
+};
+
+/// A bound on |(p . q)''| where p turns by `u` a step and q by `v`: p and q are their lengths, p_across and q_across what of them lies
+/// across their axes. Two bounds: differentiated twice; and seen from p, where q turns at v - u.
+template <Scalar S>
+S product_curvature(const Vec3<S>& u, const Vec3<S>& v, const S& p, const S& p_across, const S& q, const S& q_across) {
+  using std::sqrt;
+  const S uu = u.squaredNorm(), vv = v.squaredNorm();
+  if (uu == S(0)) return vv * p * q_across;
+  if (vv == S(0)) return uu * p_across * q;
+  const S apart = uu * p_across * q + S(2) * sqrt(uu * vv) * p_across * q_across + vv * p * q_across;
+  return std::min(apart, S(p * q * (norm<S>(cross(u, v)) + (u - v).squaredNorm())));
+}
+
+/// How far a core reaches from its center along n.
+template <Scalar S> S core_reach(const CoreVectors<S>& core, const Vec3<S>& n) {
+  S reach = 0;
+  if (core.corners) reach = std::max({n.dot(core.v[0]), n.dot(core.v[1]), n.dot(core.v[2])});
+  if (!core.corners)
+    for (const Vec3<S>& v : core) reach += largest(S(n.dot(v)));
+  return reach;
+}
+
+/// The plane across `normal`, a unit vector from A to B given at the start of the step for what it rides.
+template <Scalar S>
+AttachedPlane<S> plane_riding(const TurningPair<S>& pair, const TurningInstant<S>& now, Rides rides,
+                              const Vec3<S>& normal) {
+  AttachedPlane<S> plane;
+  plane.rides = rides;
+  plane.normal = normal;
+  plane.reach = pair.reach;
+  const TurningBody<S>* own = rides == Rides::a ? &pair.a : rides == Rides::b ? &pair.b : nullptr;
+  const bool turns = own != nullptr && own->angle > S(0);
+  const S off_axis = turns ? across(own->axis, normal) : S(0);
+  if (own != nullptr) {
+    plane.per_distance = own->angle * off_axis;
+    plane.reach += core_reach<S>(own->core, rides == Rides::a ? normal : Vec3<S>(-normal));
+  }
+  for (const TurningBody<S>* other : {&pair.a, &pair.b}) {
+    if (other == own || other->core.count == 0 || (other->angle == S(0) && !turns)) continue;
+    if (turns) {
+      plane.curvature +=
+          product_curvature<S>(own->rotation, other->rotation, S(1), off_axis, other->far, other->off_axis);
+    } else {
+      plane.curvature += other->angle * other->angle * across<S>(other->axis, normal) * other->off_axis;
+    }
+  }
+  return plane;
+}
+
+/// The plane square to an edge of each, both unit and given at the start of the step; their product now points from A to B.
+template <Scalar S>
+AttachedPlane<S> plane_of_edges(const TurningPair<S>& pair, const Vec3<S>& edge_a, const Vec3<S>& edge_b) {
+  AttachedPlane<S> plane;
+  plane.rides = Rides::edges;
+  plane.edge_a = edge_a;
+  plane.edge_b = edge_b;
+  const TurningBody<S>&a = pair.a, &b = pair.b;
+  plane.beyond_a = mapped(a.core, [&](const Vec3<S>& v) { return cross(v, edge_a); });
+  plane.beyond_b = mapped(b.core, [&](const Vec3<S>& v) { return cross(edge_b, v); });
+  const S a_across = across(a.axis, edge_a), b_across = across(b.axis, edge_b);
+  const S rate_a = a.angle * a_across, rate_b = b.angle * b_across;
+  plane.per_distance = a.angle * rate_a + S(2) * rate_a * rate_b + b.angle * rate_b;
+  plane.per_path = S(2) * (rate_a + rate_b);
+  const S far_a = farthest(plane.beyond_a), far_b = farthest(plane.beyond_b);
+  plane.curvature = product_curvature<S>(a.rotation, b.rotation, far_a, far_a, S(1), b_across) +
+                    product_curvature<S>(a.rotation, b.rotation, S(1), a_across, far_b, far_b);
+  plane.per_sine = pair.reach * product_curvature<S>(a.rotation, b.rotation, S(1), a_across, S(1), b_across);
+  return plane;
+}
+
+/// The part of the curvature that comes of the centers' motion until the end of the step: a norm of a vector that is linear in time is
+/// largest at one of the ends.
+template <Scalar S>
+S curvature_of_centers(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const TurningInstant<S>& now) {
+  using std::sqrt;
+  if (plane.per_distance == S(0) && plane.per_path == S(0)) return S(0);
+  const Vec3<S> last = pair.between + pair.path;
+  if (plane.rides == Rides::edges) {
+    const S most = std::max(S(now.between.squaredNorm()), S(last.squaredNorm()));
+    return plane.per_distance * sqrt(most) + plane.per_path * norm(pair.path);
+  }
+  const TurningBody<S>& own = plane.rides == Rides::a ? pair.a : pair.b;
+  const Vec3<S> twice = cross(pair.path, own.axis) * S(2);
+  const auto at = [&](const Vec3<S>& between) {
+    return S((cross(own.axis, cross(own.rotation, between)) + twice).squaredNorm());
+  };
+  return plane.per_distance * sqrt(std::max(at(now.between), at(last)));
+}
+
+/// What a core takes of the gap: `normal` now and how it changes, both as its body sees them; `side` 1 for A, -1 for B.
+template <Scalar S>
+void take_core(ConcaveBound<S>& bound, const CoreVectors<S>& core, const Vec3<S>& normal, const Vec3<S>& change,
+               const S& side) {
+  for (const Vec3<S>& v : core) {
+    const S value = normal.dot(v), slope = change.dot(v);
+    if (core.corners) {
+      bound.add_corner(side * value, side * slope);
+    } else {
+      bound.add_edge(value, slope);
+    }
+  }
+}
+
+/// The gap across the plane from now on, at most to the end of the step; `scale` is the length of its normal.
+template <Scalar S>
+ConcaveBound<S> bound_from(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const TurningInstant<S>& now,
+                           S& scale) {
+  ConcaveBound<S> bound;
+  const TurningBody<S>&a = pair.a, &b = pair.b;
+  bound.curvature = plane.curvature;
+  if (plane.rides == Rides::edges) {
+    const Vec3<S> edge_a = now.turn_a * plane.edge_a, edge_b = now.turn_b * plane.edge_b,
+                  rate = b.rotation - a.rotation;
+    const Vec3<S> n = cross(edge_a, edge_b);
+    const Vec3<S> change = cross<S>(cross(a.rotation, edge_a), edge_b) + cross<S>(edge_a, cross(b.rotation, edge_b));
+    scale = norm(n);
+    bound.gap = n.dot(now.between) - pair.reach * scale - pair.margin;
+    bound.slope = change.dot(now.between) + n.dot(pair.path) - (S(1) + pair.turn) * pair.margin;
+    if (pair.reach > S(0)) {
+      bound.slope -= (pair.reach * edge_a.dot(edge_b) * n.dot(rate) + pair.turn * pair.margin) / scale;
+      bound.curvature += plane.per_sine / scale;
+    }
+    take_core<S>(bound, plane.beyond_a, now.turn_a.transpose() * edge_b, now.turn_a.transpose() * cross(rate, edge_b),
+                 S(1));
+    take_core<S>(bound, plane.beyond_b, now.turn_b.transpose() * edge_a, now.turn_b.transpose() * cross(edge_a, rate),
+                 S(-1));
+  } else {
+    const bool with_a = plane.rides == Rides::a, with_b = plane.rides == Rides::b;
+    const Vec3<S> n = with_a   ? Vec3<S>(now.turn_a * plane.normal)
+                      : with_b ? Vec3<S>(now.turn_b * plane.normal)
+                               : plane.normal;
+    const Vec3<S> rate = with_a ? a.rotation : with_b ? b.rotation : Vec3<S>(Vec3<S>::Zero());
+    scale = S(1);
+    bound.gap = n.dot(now.between) - plane.reach - pair.margin;
+    bound.slope = cross(rate, n).dot(now.between) + n.dot(pair.path) - (S(1) + pair.turn) * pair.margin;
+    const auto take = [&](const TurningBody<S>& body, const Mat3<S>& turn, const S& side) {
+      take_core<S>(bound, body.core, turn.transpose() * n, turn.transpose() * cross<S>(rate - body.rotation, n), side);
+    };
+    if (!with_a && a.core.count > 0) take(a, now.turn_a, S(1));
+    if (!with_b && b.core.count > 0) take(b, now.turn_b, S(-1));
+  }
+  constexpr S slack = 32 * std::numeric_limits<S>::epsilon();
+  bound.curvature =
+      (bound.curvature + curvature_of_centers(pair, plane, now)) * (S(1) + slack) + pair.turn * pair.turn * pair.margin;
+  return bound;
+}
+
+}  // namespace thinwall
