@@ -37,15 +37,6 @@ S product_curvature(const Vec3<S>& u, const Vec3<S>& v, const S& p, const S& p_a
   return std::min(apart, S(p * q * (norm<S>(cross(u, v)) + (u - v).squaredNorm())));
 }
 
-/// How far a core reaches from its center along n.
-template <Scalar S> S core_reach(const CoreVectors<S>& core, const Vec3<S>& n) {
-  S reach = 0;
-  if (core.corners) reach = std::max({n.dot(core.v[0]), n.dot(core.v[1]), n.dot(core.v[2])});
-  if (!core.corners)
-    for (const Vec3<S>& v : core) reach += largest(S(n.dot(v)));
-  return reach;
-}
-
 /// The plane across `normal`, a unit vector from A to B given at the start of the step for what it rides.
 template <Scalar S>
 AttachedPlane<S> plane_riding(const TurningPair<S>& pair, const TurningInstant<S>& now, Rides rides,

@@ -51,6 +51,15 @@ template <Scalar S> S farthest(const CoreVectors<S>& core) {
   return sqrt(most);
 }
 
+/// How far a core reaches from its center along n.
+template <Scalar S> S core_reach(const CoreVectors<S>& core, const Vec3<S>& n) {
+  S reach = 0;
+  if (core.corners) reach = std::max({n.dot(core.v[0]), n.dot(core.v[1]), n.dot(core.v[2])});
+  if (!core.corners)
+    for (const Vec3<S>& v : core) reach += largest(S(n.dot(v)));
+  return reach;
+}
+
 template <Scalar S> CoreVectors<S> core_vectors(const Sphere<S>&) { return {}; }
 template <Scalar S> CoreVectors<S> core_vectors(const Capsule<S>& capsule) {
   CoreVectors<S> core;
