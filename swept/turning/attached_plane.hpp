@@ -25,16 +25,16 @@ template <Scalar S> struct AttachedPlane {
   S per_distance = 0, per_path = 0, per_sine = 0;  ///< of the centers, and of the radii of `edges` (curvature_at())
 };
 
-/// A bound on |(p . q)''| where p turns by `u` a step and q by `v`: p and q are their lengths, p_across and q_across what of them lies
-/// across their axes. Two bounds: differentiated twice; and seen from p, where q turns at v - u.
+/// A bound on |(p . q)''| where p and q turn with one body each, by those angles a step: p and q are their lengths, p_across and q_across what of
+/// them lies across their axes. Two bounds: differentiated twice; and seen from p, where q turns at the difference of the rotations.
 template <Scalar S>
-S product_curvature(const Vec3<S>& u, const Vec3<S>& v, const S& p, const S& p_across, const S& q, const S& q_across) {
-  using std::sqrt;
-  const S uu = u.squaredNorm(), vv = v.squaredNorm();
-  if (uu == S(0)) return vv * p * q_across;
-  if (vv == S(0)) return uu * p_across * q;
-  const S apart = uu * p_across * q + S(2) * sqrt(uu * vv) * p_across * q_across + vv * p * q_across;
-  return std::min(apart, S(p * q * (norm<S>(cross(u, v)) + (u - v).squaredNorm())));
+S product_curvature(const TurningPair<S>& pair, const S& angle_p, const S& angle_q, const S& p, const S& p_across,
+                    const S& q, const S& q_across) {
+  if (angle_p == S(0)) return angle_q * angle_q * p * q_across;
+  if (angle_q == S(0)) return angle_p * angle_p * p_across * q;
+  const S apart = angle_p * angle_p * p_across * q + S(2) * angle_p * angle_q * p_across * q_across +
+                  angle_q * angle_q * p * q_across;
+  return std::min(apart, S(p * q * pair.cross_rate));
 }
 
 /// The plane across `normal`, a unit vector from A to B given at the start of the step for what it rides.
@@ -56,7 +56,7 @@ AttachedPlane<S> plane_riding(const TurningPair<S>& pair, const TurningInstant<S
     if (other == own || other->core.count == 0 || (other->angle == S(0) && !turns)) continue;
     if (turns) {
       plane.curvature +=
-          product_curvature<S>(own->rotation, other->rotation, S(1), off_axis, other->far, other->off_axis);
+          product_curvature<S>(pair, own->angle, other->angle, S(1), off_axis, other->far, other->off_axis);
     } else {
       plane.curvature += other->angle * other->angle * across<S>(other->axis, normal) * other->off_axis;
     }
@@ -79,9 +79,9 @@ AttachedPlane<S> plane_of_edges(const TurningPair<S>& pair, const Vec3<S>& edge_
   plane.per_distance = a.angle * rate_a + S(2) * rate_a * rate_b + b.angle * rate_b;
   plane.per_path = S(2) * (rate_a + rate_b);
   const S far_a = farthest(plane.beyond_a), far_b = farthest(plane.beyond_b);
-  plane.curvature = product_curvature<S>(a.rotation, b.rotation, far_a, far_a, S(1), b_across) +
-                    product_curvature<S>(a.rotation, b.rotation, S(1), a_across, far_b, far_b);
-  plane.per_sine = pair.reach * product_curvature<S>(a.rotation, b.rotation, S(1), a_across, S(1), b_across);
+  plane.curvature = product_curvature<S>(pair, a.angle, b.angle, far_a, far_a, S(1), b_across) +
+                    product_curvature<S>(pair, a.angle, b.angle, S(1), a_across, far_b, far_b);
+  plane.per_sine = pair.reach * product_curvature<S>(pair, a.angle, b.angle, S(1), a_across, S(1), b_across);
   return plane;
 }
 
@@ -104,12 +104,14 @@ S curvature_of_centers(const TurningPair<S>& pair, const AttachedPlane<S>& plane
   return plane.per_distance * sqrt(std::max(at(now.between), at(last)));
 }
 
-/// What a core takes of the gap: `normal` now and how it changes, both as its body sees them; `side` 1 for A, -1 for B.
+/// What a core takes of the gap: `normal` now and how it changes, in the world; `side` 1 for A, -1 for B.
 template <Scalar S>
-void take_core(ConcaveBound<S>& bound, const CoreVectors<S>& core, const Vec3<S>& normal, const Vec3<S>& change,
-               const S& side) {
+void take_core(ConcaveBound<S>& bound, const TurningBody<S>& body, const CoreVectors<S>& core, const Mat3<S>& turn,
+               const Vec3<S>& normal, const Vec3<S>& change, const S& side) {
+  if (core.count == 0) return;
+  const Vec3<S> seen = body.seen(turn, normal), seen_change = body.seen(turn, change);
   for (const Vec3<S>& v : core) {
-    const S value = normal.dot(v), slope = change.dot(v);
+    const S value = seen.dot(v), slope = seen_change.dot(v);
     if (core.corners) {
       bound.add_corner(side * value, side * slope);
     } else {
@@ -118,48 +120,47 @@ void take_core(ConcaveBound<S>& bound, const CoreVectors<S>& core, const Vec3<S>
   }
 }
 
-/// The gap across the plane from now on, at most to the end of the step; `scale` is the length of its normal.
-template <Scalar S>
-ConcaveBound<S> bound_from(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const TurningInstant<S>& now,
-                           S& scale) {
+/// A gap from now on, and the length of the normal it is counted along.
+template <Scalar S> struct GapAhead {
   ConcaveBound<S> bound;
+  S scale = 1;
+};
+
+/// The gap across the plane from now on, at most to the end of the step; `of_centers` is its curvature_of_centers() until then.
+template <Scalar S>
+THINWALL_HOT GapAhead<S> gap_ahead(const TurningPair<S>& pair, const AttachedPlane<S>& plane,
+                                   const TurningInstant<S>& now, const S& of_centers) {
+  GapAhead<S> ahead;
+  ConcaveBound<S>& bound = ahead.bound;
   const TurningBody<S>&a = pair.a, &b = pair.b;
   bound.curvature = plane.curvature;
   if (plane.rides == Rides::edges) {
-    const Vec3<S> edge_a = now.turn_a * plane.edge_a, edge_b = now.turn_b * plane.edge_b,
-                  rate = b.rotation - a.rotation;
-    const Vec3<S> n = cross(edge_a, edge_b);
+    const Vec3<S> edge_a = a.in_world(now.turn_a, plane.edge_a), edge_b = b.in_world(now.turn_b, plane.edge_b);
+    const Vec3<S> n = cross(edge_a, edge_b), rate = b.rotation - a.rotation;
     const Vec3<S> change = cross<S>(cross(a.rotation, edge_a), edge_b) + cross<S>(edge_a, cross(b.rotation, edge_b));
-    scale = norm(n);
-    bound.gap = n.dot(now.between) - pair.reach * scale - pair.margin;
+    ahead.scale = norm(n);
+    bound.gap = n.dot(now.between) - pair.reach * ahead.scale - pair.margin;
     bound.slope = change.dot(now.between) + n.dot(pair.path) - (S(1) + pair.turn) * pair.margin;
     if (pair.reach > S(0)) {
-      bound.slope -= (pair.reach * edge_a.dot(edge_b) * n.dot(rate) + pair.turn * pair.margin) / scale;
-      bound.curvature += plane.per_sine / scale;
+      bound.slope -= (pair.reach * edge_a.dot(edge_b) * n.dot(rate) + pair.turn * pair.margin) / ahead.scale;
+      bound.curvature += plane.per_sine / ahead.scale;
     }
-    take_core<S>(bound, plane.beyond_a, now.turn_a.transpose() * edge_b, now.turn_a.transpose() * cross(rate, edge_b),
-                 S(1));
-    take_core<S>(bound, plane.beyond_b, now.turn_b.transpose() * edge_a, now.turn_b.transpose() * cross(edge_a, rate),
-                 S(-1));
+    take_core<S>(bound, a, plane.beyond_a, now.turn_a, edge_b, cross(rate, edge_b), S(1));
+    take_core<S>(bound, b, plane.beyond_b, now.turn_b, edge_a, cross(edge_a, rate), S(-1));
   } else {
     const bool with_a = plane.rides == Rides::a, with_b = plane.rides == Rides::b;
-    const Vec3<S> n = with_a   ? Vec3<S>(now.turn_a * plane.normal)
-                      : with_b ? Vec3<S>(now.turn_b * plane.normal)
+    const Vec3<S> n = with_a   ? a.in_world(now.turn_a, plane.normal)
+                      : with_b ? b.in_world(now.turn_b, plane.normal)
                                : plane.normal;
     const Vec3<S> rate = with_a ? a.rotation : with_b ? b.rotation : Vec3<S>(Vec3<S>::Zero());
-    scale = S(1);
     bound.gap = n.dot(now.between) - plane.reach - pair.margin;
     bound.slope = cross(rate, n).dot(now.between) + n.dot(pair.path) - (S(1) + pair.turn) * pair.margin;
-    const auto take = [&](const TurningBody<S>& body, const Mat3<S>& turn, const S& side) {
-      take_core<S>(bound, body.core, turn.transpose() * n, turn.transpose() * cross<S>(rate - body.rotation, n), side);
-    };
-    if (!with_a && a.core.count > 0) take(a, now.turn_a, S(1));
-    if (!with_b && b.core.count > 0) take(b, now.turn_b, S(-1));
+    if (!with_a) take_core<S>(bound, a, a.core, now.turn_a, n, cross<S>(rate - a.rotation, n), S(1));
+    if (!with_b) take_core<S>(bound, b, b.core, now.turn_b, n, cross<S>(rate - b.rotation, n), S(-1));
   }
   constexpr S slack = 32 * std::numeric_limits<S>::epsilon();
-  bound.curvature =
-      (bound.curvature + curvature_of_centers(pair, plane, now)) * (S(1) + slack) + pair.turn * pair.turn * pair.margin;
-  return bound;
+  bound.curvature = (bound.curvature + of_centers) * (S(1) + slack) + pair.turn * pair.turn * pair.margin;
+  return ahead;
 }
 
 }  // namespace thinwall

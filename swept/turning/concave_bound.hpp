@@ -38,20 +38,27 @@ template <Scalar S> struct FirstRoot {
   S tau;    ///< [1] >= 0: positive before; 0 where it is not at the start, and no more than what was asked for
 };
 
-/// The first root of one of the maximum's lines, from the parabola that is active at the start: where the signs of the absolute values
-/// are others at its root, the parabola there lies below, and its root is nearer. Roots only come nearer, and there are
-/// no more than edges + 1 of them.
-template <Scalar S> FirstRoot<S> first_root_of_line(const ConcaveBound<S>& bound, S value, S slope, const S& end) {
+/// The first root of one of the maximum's lines. If it is positive at the end as well it has none, being concave. If not: the root of the
+/// parabola that is active at the start; where the signs of the absolute values are others there, the parabola with those lies below, and its
+/// root is nearer. Roots only come nearer, and there are no more than edges + 1 of them.
+template <Scalar S>
+THINWALL_HOT FirstRoot<S> first_root_of_line(const ConcaveBound<S>& bound, S value, S slope, const S& end) {
   using std::sqrt;
-  std::array<S, 6> sign;
   const auto count = static_cast<std::size_t>(bound.edges);
+  S at_end = value + end * (slope - end * bound.curvature / S(2));
+  for (std::size_t k = 0; k < count; ++k) at_end -= largest(S(bound.edge[k] + bound.edge_slope[k] * end));
+  std::array<bool, 6> negative;
   for (std::size_t k = 0; k < count; ++k) {
-    sign[k] = bound.edge[k] >= S(0) ? S(1) : S(-1);
-    value -= sign[k] * bound.edge[k];
-    slope -= sign[k] * bound.edge_slope[k];
+    negative[k] = bound.edge[k] < S(0);
+    value -= largest(bound.edge[k]);
+    slope -= negative[k] ? -bound.edge_slope[k] : bound.edge_slope[k];
   }
   FirstRoot<S> first{value, slope, S(0)};
   if (!(value > S(0))) return first;
+  if (at_end > S(0)) {
+    first.tau = end;
+    return first;
+  }
   for (std::size_t round = 0; round <= count + 1; ++round) {
     const S root = sqrt(slope * slope + S(2) * bound.curvature * value);
     const S tau = slope < S(0)             ? S(2) * value / (root - slope)
@@ -60,12 +67,12 @@ template <Scalar S> FirstRoot<S> first_root_of_line(const ConcaveBound<S>& bound
     first.tau = std::min(end, tau);
     bool same = true;
     for (std::size_t k = 0; k < count; ++k) {
-      const S& p = bound.edge[k];
-      const S& q = bound.edge_slope[k];
-      if (!(sign[k] * (p + q * first.tau) < S(0))) continue;
-      value += S(2) * sign[k] * p;
-      slope += S(2) * sign[k] * q;
-      sign[k] = -sign[k];
+      const S then = bound.edge[k] + bound.edge_slope[k] * first.tau;
+      if (negative[k] ? !(then > S(0)) : !(then < S(0))) continue;
+      const S twice = negative[k] ? S(-2) : S(2);
+      value += twice * bound.edge[k];
+      slope += twice * bound.edge_slope[k];
+      negative[k] = !negative[k];
       same = false;
     }
     if (same) return first;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/swept/methods/conservative_advancement.hpp>
@@ -40,10 +41,11 @@ template <Scalar S>
 Ride<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const TurningInstant<S>& from,
              const S& enough) {
   Ride<S> ridden{from};
+  const S of_centers = curvature_of_centers(pair, plane, from);
   for (int step = 0; step < 16; ++step) {
-    S scale = 1;
     const S left = S(1) - ridden.end.time;
-    const FirstRoot<S> root = first_root(bound_from(pair, plane, ridden.end, scale), left);
+    const GapAhead<S> ahead = gap_ahead(pair, plane, ridden.end, of_centers);
+    const FirstRoot<S> root = first_root(ahead.bound, left);
     if (step == 0) ridden.opening = root.slope > S(0);
     if (!(root.tau > S(0))) break;
     if (root.tau >= left) {
@@ -53,7 +55,7 @@ Ride<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const Tu
     const S next = ridden.end.time + root.tau * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
     if (!(next > ridden.end.time)) break;
     ridden.end = instant(pair, next);
-    if (root.tau < (next - from.time) / S(10) || root.value < enough * scale) break;
+    if (root.tau < (next - from.time) / S(10) || root.value < enough * ahead.scale) break;
   }
   return ridden;
 }
@@ -72,11 +74,26 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
   const T near = std::max(T(T(method.tolerance) * pair.speed), T(T(4) * pair.margin));
   const T many_turns = 3;  // [rad] from here on whole orbits are worth a look
   TurningInstant<T> now = instant(pair, T(0));
-  if (overlaps_unchecked(a.shape, b.shape, T(method.min_separation))) return overlapping_at_start(a, b, 1);
-  if (pair.speed == T(0)) return {ToiStatus::apart, 1};
   for (int k = 1; k <= method.max_evaluations; ++k) {
-    const Separation<T> closest = separation_unchecked(posed(a, now.turn_a, now.time), posed(b, now.turn_b, now.time));
+    const A a_now = posed(a, now.turn_a, now.time);
+    const B b_now = posed(b, now.turn_b, now.time);
+    if constexpr (std::is_same_v<A, Obb<T>> && std::is_same_v<B, Obb<T>>) {
+      const LeastOverlap<T> axis = least_overlap(box_pair(a_now, b_now));
+      if (-axis.overlap - T(method.min_separation) > near) {
+        const AttachedPlane<T> plane = plane_across<T>(pair, now, a.shape, b.shape, axis, a_now.axes * axis.normal);
+        const TurningInstant<T> next = ride(pair, plane, now, T(near / T(4))).end;
+        if (next.time >= T(1)) return {ToiStatus::apart, k};
+        if (next.time > now.time) {
+          now = next;
+          continue;
+        }
+      }
+    }
+    const Separation<T> closest = separation_unchecked(a_now, b_now);
     const T gap = closest.distance - T(method.min_separation);
+    if (now.time == T(0) && gap <= near && overlaps_unchecked(a.shape, b.shape, T(method.min_separation)))
+      return overlapping_at_start(a, b, 1);
+    if (pair.speed == T(0)) return {ToiStatus::apart, k};
     const AttachedPlane<T> plane = plane_from(pair, now, closest.normal);
     Ride<T> next = ride(pair, plane, now, T(near / T(4)));
     if (!(next.end.time > now.time) && plane.rides != Rides::world) {
@@ -88,13 +105,13 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
       const T until = orbits_apart_until(pair, now, closest.normal);
       if (until > next.end.time) next.end = instant(pair, std::min(until, T(1)));
     }
-    if (next.end.time >= T(1)) return {ToiStatus::apart, k + 1};
+    if (next.end.time >= T(1)) return {ToiStatus::apart, k};
     const T gained = next.end.time - now.time;
     if (!(gained > T(0)) || (gap <= near && (!next.opening || gained <= T(method.tolerance))))
-      return {ToiStatus::hit, k + 1, rounded_down_to<S>(now.time), closest.normal, middle(closest)};
+      return {ToiStatus::hit, k, rounded_down_to<S>(now.time), closest.normal, middle(closest)};
     now = next.end;
   }
-  return {ToiStatus::gave_up, method.max_evaluations + 1, rounded_down_to<S>(now.time)};
+  return {ToiStatus::gave_up, method.max_evaluations, rounded_down_to<S>(now.time)};
 }
 
 }  // namespace thinwall

@@ -112,9 +112,17 @@ template <Scalar S> struct TurningBody {
     axis = safe_unit(rotation);
     off_axis = farthest(mapped(core, [this](const Vec3<S>& v) { return cross(axis, v); }));
   }
+  bool turns() const { return angle > S(0); }
+  /// A vector of the world as the body sees it, and one of its own in the world.
+  Vec3<S> seen(const Mat3<S>& turn, const Vec3<S>& v) const {
+    return turns() ? Vec3<S>(turn.col(0).dot(v), turn.col(1).dot(v), turn.col(2).dot(v)) : v;
+  }
+  Vec3<S> in_world(const Mat3<S>& turn, const Vec3<S>& v) const {
+    return turns() ? Vec3<S>(turn.col(0) * v[0] + turn.col(1) * v[1] + turn.col(2) * v[2]) : v;
+  }
   /// The rotation since the start.
   Mat3<S> turn_at(const S& time) const {
-    return angle == S(0) ? Mat3<S>(Mat3<S>::Identity()) : rotation_about<S>(axis, angle * time);
+    return turns() ? rotation_about<S>(axis, angle * time) : Mat3<S>(Mat3<S>::Identity());
   }
 };
 
@@ -124,6 +132,7 @@ template <Scalar S> struct TurningPair {
   Vec3<S> between, path;  ///< [length] from the center of A to that of B at the start, and how that changes
   S reach;                ///< [length] both radii and the minimal separation
   S turn;                 ///< [rad] both angles
+  S cross_rate = 0;       ///< [rad^2] |u x v| + |u - v|^2 of the rotations u and v, where both are any
   S speed;                ///< [length] per step: no two points near each other faster
   S margin;               ///< [length] what rounding may take from a gap (docs/turning.md, "Rounding")
 
@@ -141,6 +150,8 @@ template <Scalar S> struct TurningPair {
       size += body->center.cwiseAbs().sum() + body->path.cwiseAbs().sum();
       for (const Vec3<S>& v : body->core) size += v.cwiseAbs().sum();
     }
+    if (a.turns() && b.turns())
+      cross_rate = norm<S>(cross(a.rotation, b.rotation)) + (a.rotation - b.rotation).squaredNorm();
     constexpr S u = std::numeric_limits<S>::epsilon() / 2;
     margin = S(64) * u * (S(1) + turn / S(4)) * size;
   }
