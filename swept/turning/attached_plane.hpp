@@ -38,9 +38,7 @@ S product_curvature(const TurningPair<S>& pair, const S& angle_p, const S& angle
 }
 
 /// The plane across `normal`, a unit vector from A to B given at the start of the step for what it rides.
-template <Scalar S>
-AttachedPlane<S> plane_riding(const TurningPair<S>& pair, const TurningInstant<S>& now, Rides rides,
-                              const Vec3<S>& normal) {
+template <Scalar S> AttachedPlane<S> plane_riding(const TurningPair<S>& pair, Rides rides, const Vec3<S>& normal) {
   AttachedPlane<S> plane;
   plane.rides = rides;
   plane.normal = normal;

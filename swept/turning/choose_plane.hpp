@@ -44,9 +44,9 @@ AttachedPlane<S> plane_from(const TurningPair<S>& pair, const TurningInstant<S>&
     if (product.squaredNorm() > least_sine * least_sine)
       return plane_of_edges<S>(pair, a, product.dot(normal) < S(0) ? Vec3<S>(-b) : b);
   }
-  if (of_a.count > 0 && of_a.count >= of_b.count) return plane_riding(pair, now, Rides::a, of_a.snapped(seen_by_a));
-  if (of_b.count > 0) return plane_riding(pair, now, Rides::b, of_b.snapped(seen_by_b));
-  return plane_riding(pair, now, Rides::world, normal);
+  if (of_a.count > 0 && of_a.count >= of_b.count) return plane_riding(pair, Rides::a, of_a.snapped(seen_by_a));
+  if (of_b.count > 0) return plane_riding(pair, Rides::b, of_b.snapped(seen_by_b));
+  return plane_riding(pair, Rides::world, normal);
 }
 
 /// The plane of the axis along which two boxes are farthest apart: it names a face of either, or an edge of each. A third of the price of closest
@@ -60,11 +60,11 @@ AttachedPlane<S> plane_across(const TurningPair<S>& pair, const TurningInstant<S
   };
   if (axis.axis_b < 0) {
     const Vec3<S> face = edge(a, axis.axis_a);
-    return plane_riding(pair, now, Rides::a, from_a_to_b(face, pair.a.in_world(now.turn_a, face)));
+    return plane_riding(pair, Rides::a, from_a_to_b(face, pair.a.in_world(now.turn_a, face)));
   }
   if (axis.axis_a < 0) {
     const Vec3<S> face = edge(b, axis.axis_b);
-    return plane_riding(pair, now, Rides::b, from_a_to_b(face, pair.b.in_world(now.turn_b, face)));
+    return plane_riding(pair, Rides::b, from_a_to_b(face, pair.b.in_world(now.turn_b, face)));
   }
   const Vec3<S> of_a = edge(a, axis.axis_a), of_b = edge(b, axis.axis_b);
   const Vec3<S> product = cross<S>(pair.a.in_world(now.turn_a, of_a), pair.b.in_world(now.turn_b, of_b));

@@ -98,7 +98,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
     Ride<T> next = ride(pair, plane, now, T(near / T(4)));
     if (!(next.end.time > now.time) && plane.rides != Rides::world) {
       const bool opening = next.opening;
-      next = ride(pair, plane_riding(pair, now, Rides::world, closest.normal), now, T(near / T(4)));
+      next = ride(pair, plane_riding(pair, Rides::world, closest.normal), now, T(near / T(4)));
       next.opening = opening;
     }
     if (next.end.time < T(1) && pair.turn > many_turns) {

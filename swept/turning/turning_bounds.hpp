@@ -33,7 +33,7 @@ void contain(const CoreVectors<S>& core, const Mat3<S>& turn, const Vec3<S>& cen
 /// A box that contains the shape at every time of the step, rounded outward: around as many poses as lie a sixteenth of a turn apart at most, and
 /// what bulges out between two of them. A point at a distance p from the axis swings p |e across the axis| cos(phase) along e, which
 /// leaves the chord of an arc of h to either side by 1 - cos(h) at most. Cut to the box around the whole orbit.
-/// Error: each side lies at most 0.02 times the farthest point's distance from the axis too far out; volumes are 1.03 to 1.06 times the
+/// Error: each side lies at most 0.02 times the farthest point's distance from the axis too far out; volumes are 1.03 to 1.1 times the
 /// tightest box's, up to a full turn.
 /// Degenerate: no spin is the box of straight motion; from a full turn on it is that around the orbit.
 /// Source: derived in docs/turning.md.

@@ -84,7 +84,8 @@ template <Shape A, Shape B> CertifiedToi certified_in_range(const Turning<A>& a,
 /// When A and B, turning, first touch during the step: `lower` <= first contact <= `upper`, proven.
 ///   hit: no contact before `lower`, contact by `upper`.   overlapping: in contact at the start, both 0.
 ///   apart: no contact in the step, both 1.                invalid: as time_of_impact(), both NaN.
-///   gave_up: not proven; no contact before `lower`, and `upper` is 1. A graze shallower than rounding, plates that touch, very many turns.
+///   gave_up: not proven; no contact before `lower`, and `upper` is 1. A graze shallower than rounding, rods without a radius that
+///            meet each other, a triangle or a plate, very many turns.
 /// Contact is closed. The shapes are the numbers as given; what rounding could take from a proof is paid for (docs/turning.md).
 /// Source: derived in docs/turning.md.
 template <Shape A, Shape B> CertifiedToi certified_time_of_impact(const Turning<A>& a, const Turning<B>& b) {

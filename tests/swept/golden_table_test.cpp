@@ -9,6 +9,8 @@
 #include <thinwall/capsule/capsule_manifold.hpp>
 #include <thinwall/swept/shapes.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -19,25 +21,33 @@ constexpr std::string_view postponed = "postponed";
 
 struct Row {
   std::string_view first, second;  ///< the shapes, the one of lower rank first
-  std::string_view overlaps, contact, manifold, time_of_impact;
+  std::string_view overlaps, contact, manifold, time_of_impact, turning;
 };
 constexpr std::array table{
     Row{"Sphere", "Sphere", "distance of the centers", "distance of the centers", "one point",
-        "perpendicular quadratic"},
-    Row{"Sphere", "Aabb", "clamp", "clamp; nearest face", "one point", "walk over slabs"},
-    Row{"Sphere", "Obb", "clamp", "clamp; nearest face", "one point", "walk over slabs"},
-    Row{"Sphere", "Triangle", "nearest part", "nearest part", "one point", "walk over parts; exact signs"},
-    Row{"Sphere", "Capsule", "point and segment", "point and segment", "one point", "rounded segment"},
-    Row{"Aabb", "Aabb", "slabs", "slabs", "shared rectangle", "walk over slabs"},
-    Row{"Aabb", "Obb", "15 axes", "15 axes; nearest features", "clipped face; two edges", "15 axes in time"},
-    Row{"Aabb", "Triangle", postponed, postponed, postponed, postponed},
-    Row{"Aabb", "Capsule", "segment and box", "segment and box; 6 axes", "clipped core", "walk over parts"},
-    Row{"Obb", "Obb", "15 axes", "15 axes; nearest features", "clipped face; two edges", "15 axes in time"},
-    Row{"Obb", "Triangle", postponed, postponed, postponed, postponed},
-    Row{"Obb", "Capsule", "segment and box", "segment and box; 6 axes", "clipped core", "walk over parts"},
-    Row{"Triangle", "Triangle", postponed, postponed, postponed, postponed},
-    Row{"Triangle", "Capsule", "segment and triangle", "segment and triangle", "clipped core", "walk over parts"},
-    Row{"Capsule", "Capsule", "two segments", "two segments", "shared stretch", "walk over parts; exact signs"},
+        "perpendicular quadratic", "attached planes"},
+    Row{"Sphere", "Aabb", "clamp", "clamp; nearest face", "one point", "walk over slabs", "attached planes"},
+    Row{"Sphere", "Obb", "clamp", "clamp; nearest face", "one point", "walk over slabs", "attached planes"},
+    Row{"Sphere", "Triangle", "nearest part", "nearest part", "one point", "walk over parts; exact signs",
+        "attached planes"},
+    Row{"Sphere", "Capsule", "point and segment", "point and segment", "one point", "rounded segment",
+        "attached planes"},
+    Row{"Aabb", "Aabb", "slabs", "slabs", "shared rectangle", "walk over slabs", "attached planes; 15 axes"},
+    Row{"Aabb", "Obb", "15 axes", "15 axes; nearest features", "clipped face; two edges", "15 axes in time",
+        "attached planes; 15 axes"},
+    Row{"Aabb", "Triangle", postponed, postponed, postponed, postponed, postponed},
+    Row{"Aabb", "Capsule", "segment and box", "segment and box; 6 axes", "clipped core", "walk over parts",
+        "attached planes"},
+    Row{"Obb", "Obb", "15 axes", "15 axes; nearest features", "clipped face; two edges", "15 axes in time",
+        "attached planes; 15 axes"},
+    Row{"Obb", "Triangle", postponed, postponed, postponed, postponed, postponed},
+    Row{"Obb", "Capsule", "segment and box", "segment and box; 6 axes", "clipped core", "walk over parts",
+        "attached planes"},
+    Row{"Triangle", "Triangle", postponed, postponed, postponed, postponed, postponed},
+    Row{"Triangle", "Capsule", "segment and triangle", "segment and triangle", "clipped core", "walk over parts",
+        "attached planes"},
+    Row{"Capsule", "Capsule", "two segments", "two segments", "shared stretch", "walk over parts; exact signs",
+        "attached planes"},
 };
 
 struct RayRow {
@@ -76,6 +86,9 @@ template <class A, class B> constexpr const Row& row_of() {
 template <class A>
 concept CanBeHitByRays = requires(const Ray<typename A::Scalar>& ray, const A& shape) { ray_entry(ray, shape); };
 
+/// What turns of a shape: a box along the axes is an oriented one then.
+template <class A> using WhatTurns = std::conditional_t<stays_along_the_axes<A>, Obb<double>, A>;
+
 template <class A, class B> constexpr bool check_pair() {
   if constexpr (A::rank <= B::rank) {
     static_assert(has_rows<A, B>(), "a pair of shapes has no row in the golden table, or two");
@@ -86,6 +99,8 @@ template <class A, class B> constexpr bool check_pair() {
     static_assert(serves_manifold<B, A> == (row.manifold != postponed));
     static_assert(serves<ClosedForm<double>, A, B> == (row.time_of_impact != postponed));
     static_assert(serves<ClosedForm<double>, B, A> == (row.time_of_impact != postponed));
+    static_assert(serves_turning<ConservativeAdvancement<double>, WhatTurns<A>, WhatTurns<B>> ==
+                  (row.turning != postponed));
   }
   return true;
 }
@@ -121,9 +136,10 @@ TEST(GoldenTable, is_the_one_on_the_page) {
   std::ostringstream rows;
   for (const Row& row : table) {
     rows << "| " << row.first << ", " << row.second << " | " << row.overlaps << " | " << row.contact << " | "
-         << row.manifold << " | " << row.time_of_impact << " |\n";
+         << row.manifold << " | " << row.time_of_impact << " | " << row.turning << " |\n";
   }
-  EXPECT_EQ(rows_after("| pair | overlaps | contact, separation | manifold | time_of_impact |"), rows.str());
+  EXPECT_EQ(rows_after("| pair | overlaps | contact, separation | manifold | time_of_impact | the same, turning |"),
+            rows.str());
 }
 
 TEST(GoldenTable, of_rays_is_the_one_on_the_page) {

@@ -1,0 +1,287 @@
+// The bounds below the gap across a plane, held against that gap in long double: no bound may lie above it, whatever the plane, the motion and
+// the time. Boxes around motions and certificates are held against poses of the motion.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <thinwall/swept/turning/turning_bounds.hpp>
+#include <thinwall/swept/turning/turning_certified.hpp>
+
+#include <gtest/gtest.h>
+
+#include "support/thorough.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+using V = Vec3<double>;
+using Wide = long double;
+using W = Vec3<Wide>;
+constexpr double pi = 3.14159265358979323846;
+
+class Draw {
+ public:
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  bool one_in(int n) { return engine_() % static_cast<unsigned>(n) == 0; }
+  V direction() {
+    V v;
+    do {
+      v = {between(-1, 1), between(-1, 1), between(-1, 1)};
+    } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
+    return v / std::sqrt(v.squaredNorm());
+  }
+  V point(double size) { return direction() * between(0, size); }
+
+ private:
+  std::mt19937_64 engine_{7};
+};
+
+Sphere<double> shape_at(Draw& draw, const V& at, TypeTag<Sphere<double>>) { return {at, draw.between(0.01, 0.5)}; }
+Capsule<double> shape_at(Draw& draw, const V& at, TypeTag<Capsule<double>>) {
+  const V half = draw.point(1);
+  return {at - half, at + half, draw.one_in(3) ? 0 : draw.between(0, 0.2)};
+}
+Obb<double> shape_at(Draw& draw, const V& at, TypeTag<Obb<double>>) {
+  return {at,
+          {draw.between(0.01, 1), draw.between(0.01, 1), draw.between(0.01, 1)},
+          rotation_about<double>(draw.direction(), draw.between(0, pi))};
+}
+Triangle<double> shape_at(Draw& draw, const V& at, TypeTag<Triangle<double>>) {
+  return {at + draw.point(1), at + draw.point(1), at + draw.point(1)};
+}
+
+/// Up to `most` [rad]: at times the same turn as another, about the same axis, or none.
+template <class A> Turning<A> motion(Draw& draw, double most, double far) {
+  const V at = draw.point(far);
+  const A shape = shape_at(draw, at, TypeTag<A>{});
+  return {shape, draw.point(2), draw.one_in(5) ? V(V::Zero()) : draw.point(most)};
+}
+
+/// Rodrigues' formula by itself, on a vector.
+W turned_wide(const W& rotation, Wide time, const W& v) {
+  const Wide angle = std::sqrt(rotation.squaredNorm());
+  if (angle == 0) return v;
+  const W axis = rotation / angle;
+  const Wide c = std::cos(angle * time), s = std::sin(angle * time);
+  return v * c + cross<Wide>(axis, v) * s + axis * (axis.dot(v) * (1 - c));
+}
+
+/// The gap across the plane at a time, in long double, less what rounding may take.
+Wide true_gap(const TurningPair<double>& pair, const AttachedPlane<double>& plane, Wide time) {
+  const auto wide = [](const V& v) { return W(v.cast<Wide>()); };
+  const W x = wide(pair.b.center) - wide(pair.a.center) + (wide(pair.b.path) - wide(pair.a.path)) * time;
+  const auto at = [&](const TurningBody<double>& body, const V& v) {
+    return turned_wide(wide(body.rotation), time, wide(v));
+  };
+  W n = wide(plane.normal);
+  if (plane.rides == Rides::a) n = at(pair.a, plane.normal);
+  if (plane.rides == Rides::b) n = at(pair.b, plane.normal);
+  if (plane.rides == Rides::edges) n = cross<Wide>(at(pair.a, plane.edge_a), at(pair.b, plane.edge_b));
+  const auto reach = [&](const TurningBody<double>& body, Wide side) {
+    Wide most = 0;
+    for (int k = 0; k < body.core.count; ++k) {
+      const Wide along = side * n.dot(at(body, body.core.v[static_cast<std::size_t>(k)]));
+      if (body.core.corners) {
+        most = k == 0 ? along : std::max(most, along);
+      } else {
+        most += std::abs(along);
+      }
+    }
+    return most;
+  };
+  return n.dot(x) - reach(pair.a, 1) - reach(pair.b, -1) - static_cast<Wide>(pair.reach) * std::sqrt(n.squaredNorm());
+}
+
+Wide bound_at(const ConcaveBound<double>& bound, Wide tau) {
+  Wide value = bound.gap + bound.slope * tau - bound.curvature * tau * tau / 2;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(bound.edges); ++k) {
+    value -= std::abs(bound.edge[k] + bound.edge_slope[k] * tau);
+  }
+  Wide most = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(bound.corners); ++k) {
+    const Wide line = bound.corner[k] + bound.corner_slope[k] * tau;
+    most = k == 0 ? line : std::max(most, line);
+  }
+  return value - most;
+}
+
+struct Tightness {
+  double worst = 0;  ///< [margin] how far the true gap came below the bound with the margin given back
+};
+
+/// Checks one plane from one time on.
+void check_plane(const TurningPair<double>& pair, const AttachedPlane<double>& plane, double time,
+                 Tightness& tightness) {
+  const TurningInstant<double> now = instant(pair, time);
+  const GapAhead<double> ahead = gap_ahead(pair, plane, now, curvature_of_centers(pair, plane, now));
+  const Wide allowed = static_cast<Wide>(pair.margin);
+  for (int step = 0; step <= 8; ++step) {
+    const Wide tau = static_cast<Wide>(1 - time) * step * step / 64;
+    const Wide gap = true_gap(pair, plane, static_cast<Wide>(time) + tau), bound = bound_at(ahead.bound, tau);
+    ASSERT_GE(gap, bound) << "plane " << static_cast<int>(plane.rides) << ", from " << time << " by "
+                          << static_cast<double>(tau) << ", angles " << pair.a.angle << " " << pair.b.angle;
+    if (step == 0) tightness.worst = std::max(tightness.worst, static_cast<double>((bound + allowed - gap) / allowed));
+  }
+}
+
+template <class A, class B> void check_pair(unsigned count) {
+  Draw draw;
+  Tightness tightness;
+  for (unsigned i = 0; i < count; ++i) {
+    const double most = draw.one_in(3) ? 20 : pi, far = draw.one_in(8) ? 1e4 : 2;
+    const Turning<A> a = motion<A>(draw, most, far);
+    Turning<B> b = motion<B>(draw, most, far);
+    if (draw.one_in(6)) b.rotation = a.rotation;
+    if (draw.one_in(6)) b.rotation = -a.rotation * draw.between(0, 1);
+    const TurningPair<double> pair(a, b, draw.one_in(3) ? 0.1 : 0);
+    const double time = draw.one_in(3) ? 0 : draw.between(0, 1);
+    check_plane(pair, plane_riding(pair, Rides::world, draw.direction()), time, tightness);
+    check_plane(pair, plane_riding(pair, Rides::a, draw.direction()), time, tightness);
+    check_plane(pair, plane_riding(pair, Rides::b, draw.direction()), time, tightness);
+    if (pair.a.core.count > 0 && pair.b.core.count > 0) {
+      check_plane(pair, plane_of_edges<double>(pair, draw.direction(), draw.direction()), time, tightness);
+    }
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_LT(tightness.worst, 0.5) << "of the margin is used up";
+}
+
+TEST(AttachedPlanes, are_below_the_gap) {
+  const auto count = static_cast<unsigned>(thorough(slow_build ? 300 : 5'000));
+  check_pair<Capsule<double>, Sphere<double>>(count);
+  check_pair<Obb<double>, Sphere<double>>(count);
+  check_pair<Triangle<double>, Sphere<double>>(count);
+  check_pair<Capsule<double>, Capsule<double>>(count);
+  check_pair<Capsule<double>, Obb<double>>(count);
+  check_pair<Capsule<double>, Triangle<double>>(count);
+  check_pair<Obb<double>, Obb<double>>(count);
+}
+
+// The margin takes a sine and a cosine to be right to 2 units in the last place.
+TEST(AttachedPlanes, have_the_sines_they_ask_for) {
+  Draw draw;
+  for (int i = 0; i < 100'000; ++i) {
+    const double x = draw.between(0, i % 2 == 0 ? pi : 1e6);
+    const auto wide = static_cast<Wide>(x);
+    EXPECT_LE(std::abs(static_cast<Wide>(std::sin(x)) - std::sin(wide)), 0x1p-52L) << x;
+    EXPECT_LE(std::abs(static_cast<Wide>(std::cos(x)) - std::cos(wide)), 0x1p-52L) << x;
+  }
+}
+
+template <class A> void check_bounds(double most) {
+  Draw draw;
+  double log_volumes = 0;
+  constexpr int count = 300;
+  for (int i = 0; i < count; ++i) {
+    Turning<A> m = motion<A>(draw, most, 2);
+    if (draw.one_in(4)) m.displacement = V::Zero();
+    const Aabb<double> box = swept_bounds(m);
+    const V low = box.center - box.half_extents, high = box.center + box.half_extents;
+    V least = V::Constant(std::numeric_limits<double>::infinity()), largest_seen = -least;
+    for (int k = 0; k <= 200; ++k) {
+      const Aabb<double> pose = swept_bounds(at_rest(pose_at(m, k / 200.0)));
+      if constexpr (!std::is_same_v<A, Triangle<double>>) {
+        least = least.cwiseMin(pose.center - pose.half_extents);
+        largest_seen = largest_seen.cwiseMax(pose.center + pose.half_extents);
+      } else {
+        const A t = pose_at(m, k / 200.0);
+        least = least.cwiseMin(t.a).cwiseMin(t.b).cwiseMin(t.c);
+        largest_seen = largest_seen.cwiseMax(t.a).cwiseMax(t.b).cwiseMax(t.c);
+      }
+    }
+    constexpr double rounding = 1e-14;  // of the poses
+    EXPECT_LE((low - least).maxCoeff(), rounding);
+    EXPECT_LE((largest_seen - high).maxCoeff(), rounding);
+    const V size = V::Constant(1e-3), mine = high - low + size, tightest = largest_seen - least + size;
+    log_volumes += std::log((mine[0] * mine[1] * mine[2]) / (tightest[0] * tightest[1] * tightest[2]));
+  }
+  const double ratio = std::exp(log_volumes / count);
+  EXPECT_LT(ratio, most < 6 ? 1.1 : 2.0);
+}
+
+TEST(TurningBounds, contain_every_pose_and_little_more) {
+  for (const double most : {0.4, 1.6, 3.2, 5.9, 20.0, 1e6}) {
+    check_bounds<Sphere<double>>(most);
+    check_bounds<Capsule<double>>(most);
+    check_bounds<Obb<double>>(most);
+    check_bounds<Triangle<double>>(most);
+  }
+}
+
+TEST(TurningBounds, hold_at_any_scale) {
+  Draw draw;
+  for (const int e : {-1060, -700, -200, 200, 700, 1000}) {
+    Turning<Capsule<double>> m = motion<Capsule<double>>(draw, 2, 2);
+    const Aabb<double> near = swept_bounds(m), there = swept_bounds(scaled(m, e));
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_GE(there.half_extents[i], std::ldexp(near.half_extents[i], e) * (1 - 1e-12)) << e;
+      EXPECT_LE(there.half_extents[i], std::ldexp(near.half_extents[i], e) * (1 + 1e-12) + 1e-321) << e;
+    }
+  }
+}
+
+template <class A, class B> void check_certified(int& proven, int& asked) {
+  Draw draw;
+  const auto count = static_cast<unsigned>(thorough(slow_build ? 100 : 1'000));
+  for (unsigned i = 0; i < count; ++i) {
+    const Turning<A> a = motion<A>(draw, 2 * pi, 1.5);
+    const Turning<B> b = motion<B>(draw, 2 * pi, 1.5);
+    const CertifiedToi answer = certified_time_of_impact(a, b);
+    const CertifiedToi other_way = certified_time_of_impact(b, a);
+    if constexpr (!std::is_same_v<A, B>) {
+      EXPECT_EQ(answer.verdict, other_way.verdict);
+    }
+    constexpr bool solid = std::is_same_v<A, Obb<double>> && std::is_same_v<B, Obb<double>>;
+    const bool thick = solid || skin_radius(a.shape) + skin_radius(b.shape) > 0;  // or nothing lies beyond rounding
+    asked += thick ? 1 : 0;
+    proven += thick && answer.verdict != ToiStatus::gave_up ? 1 : 0;
+    const double free = answer.verdict == ToiStatus::overlapping ? 0 : answer.lower;
+    for (int k = 0; k < 40 && free > 0; ++k) {  // nothing touches before `lower`
+      const double time = free * k / 40;
+      EXPECT_GT(separation(pose_at(a, time), pose_at(b, time)).distance, -1e-13) << time;
+    }
+    if (answer.verdict != ToiStatus::hit) continue;
+    EXPECT_LE(answer.lower, answer.upper);
+    EXPECT_LE(separation(pose_at(a, answer.upper), pose_at(b, answer.upper)).distance, 1e-13);
+    const Toi<double> toi = time_of_impact(a, b);
+    EXPECT_EQ(toi.status, ToiStatus::hit);
+    EXPECT_LE(toi.time, answer.upper);
+  }
+}
+
+TEST(CertifiedTurning, brackets_the_first_contact) {
+  int proven = 0, asked = 0;
+  check_certified<Capsule<double>, Sphere<double>>(proven, asked);
+  check_certified<Obb<double>, Sphere<double>>(proven, asked);
+  check_certified<Triangle<double>, Sphere<double>>(proven, asked);
+  check_certified<Capsule<double>, Capsule<double>>(proven, asked);
+  check_certified<Capsule<double>, Obb<double>>(proven, asked);
+  check_certified<Capsule<double>, Triangle<double>>(proven, asked);
+  check_certified<Obb<double>, Obb<double>>(proven, asked);
+  EXPECT_GE(proven, asked * 999 / 1000);
+}
+
+TEST(CertifiedTurning, gives_up_on_a_graze_and_refuses_no_question) {
+  const Turning<Capsule<double>> rod{{{-1, 0, 0}, {1, 0, 0}, 0}, {0, 0, 0}, {0, 0, pi}};
+  const Sphere<double> graze{{0, 1.5, 0}, 0.5};  // the tip passes at the distance of its radius
+  const CertifiedToi touch = certified_time_of_impact(rod, at_rest(graze));
+  EXPECT_EQ(touch.verdict, ToiStatus::gave_up);
+  EXPECT_NEAR(touch.lower, 0.5, 1e-6);
+  EXPECT_EQ(touch.upper, 1);
+  Turning<Capsule<double>> bad = rod;
+  bad.rotation[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(certified_time_of_impact(bad, at_rest(graze)).verdict, ToiStatus::invalid);
+  const CertifiedToi apart = certified_time_of_impact(rod, at_rest(Sphere<double>{{0, 1.51, 0}, 0.5}));
+  EXPECT_EQ(apart.verdict, ToiStatus::apart);
+  EXPECT_EQ(apart.lower, 1);
+  const CertifiedToi hit = certified_time_of_impact(rod, at_rest(Sphere<double>{{0, 1.4, 0}, 0.5}));
+  EXPECT_EQ(hit.verdict, ToiStatus::hit);
+}
+
+}  // namespace
+}  // namespace thinwall::testing
