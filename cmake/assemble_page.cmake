@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(code "")
-foreach(module IN ITEMS engine worker plot controls state scene tables main)
+foreach(module IN ITEMS engine worker plot controls state scene tables rod main)
   file(READ "${PAGE}/${module}.js" text)
   string(REGEX REPLACE "(^|\n)import [^\n]*" "\\1" text "${text}")
   string(REGEX REPLACE "(^|\n)export " "\\1" text "${text}")

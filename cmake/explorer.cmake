@@ -25,7 +25,7 @@ if(NOT (THINWALL_WASM_CXX AND THINWALL_WASM_LD AND THINWALL_GZIP AND THINWALL_BA
 endif()
 
 # Without exceptions and threads; every source is a part of one file, so that the headers are read once.
-set(explorer_sources explorer/one_thread explorer/explorer thin_wall/methods thin_wall/model thin_wall/theory tunneling_theory advise/advice
+set(explorer_sources explorer/one_thread explorer/explorer explorer/rod spinning_rod/methods spinning_rod/model thin_wall/methods thin_wall/model thin_wall/theory tunneling_theory advise/advice
   advise/advice_text advise/costs lab/statistics lab/text)
 set(folder "${PROJECT_BINARY_DIR}/explorer")
 file(MAKE_DIRECTORY "${folder}/include")

@@ -2,6 +2,7 @@
 
 #include "fuzz/pairs_of.hpp"
 #include "fuzz/checks.hpp"
+#include "fuzz/turning_checks.hpp"
 
 namespace thinwall::fuzz {
 namespace {
@@ -18,6 +19,7 @@ template <class A, class B> void check_pair(Bytes& bytes, Reading reading) {
     check_raycast(scene);
     check_methods(scene, choice % 10);
     check_certified(scene, toi);
+    check_turning(scene, numbers);
     return;
   }
   check_discrete(scene);
@@ -26,8 +28,8 @@ template <class A, class B> void check_pair(Bytes& bytes, Reading reading) {
     case 1: check_raycast(scene); break;
     case 2: check_scale(scene, choice); break;
     case 3: check_methods(scene, choice % 10); break;
-    case 4:
-    case 5: check_certified(scene, toi); break;
+    case 4: check_certified(scene, toi); break;
+    case 5: check_turning(scene, numbers); break;
     default: judge_closed_form(scene, toi); break;
   }
 }

@@ -20,3 +20,8 @@ foreach(way IN ITEMS ONE_BY_ONE GROUPED)
     message(SEND_ERROR "${way}: the error does not name the pair:\n${said}")
   endif()
 endforeach()
+
+compile(status said -DTURNING)
+if(status EQUAL 0 OR NOT said MATCHES "an Aabb that turns is an Obb")
+  message(SEND_ERROR "TURNING: the error does not say what a box that turns is:\n${said}")
+endif()

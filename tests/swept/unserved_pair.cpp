@@ -2,6 +2,7 @@
 // one by one (ONE_BY_ONE) or in groups (GROUPED) it must not compile, and the error must name the pair.
 
 #include <thinwall/swept/dispatch.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
 
 using namespace thinwall;
 
@@ -19,4 +20,10 @@ std::vector<bool> ask(const std::vector<Body>& a, const std::vector<Wall>& b, co
   return answers(group_pairs(a, b, pairs), a, b, pairs, false,
                  [](const auto& x, const auto& y) { return overlaps(x, y); });
 }
+#endif
+
+// A box along the axes that turns: the error must say what to write instead.
+#ifdef TURNING
+double ask(const Turning<Aabb<double>>& a, const Moving<Sphere<double>>& b);
+double ask(const Turning<Aabb<double>>& a, const Moving<Sphere<double>>& b) { return time_of_impact(a, b).time; }
 #endif

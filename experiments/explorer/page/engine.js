@@ -9,6 +9,10 @@
  * @typedef {{ chance: number, late: number, latest: number }} Theory
  * @typedef {{ x: number, y: number, dx: number, dy: number, half: number, radius: number, contact: number, seen: number[] }} Shot
  * @typedef {{ ns: number, lower: number, upper: number, wrong: number, p99: number, largest: number }} Raced
+ * @typedef {{ shots: number, tunneled: number, undecided: number, falseHits: number, share: number, lower: number, upper: number,
+ *   chance: number, late: number }} RodTally
+ * @typedef {{ halfLength: number, radius: number, half: number, x: number, dx: number, angle: number, spin: number, contact: number,
+ *   steps: number, seen: number[] }} RodShot
  */
 
 /** All that the module asks of its host is the time, and where to end. @param {() => WebAssembly.Memory} memory */
@@ -40,10 +44,35 @@ export async function startEngine(module) {
     const bytes = new Uint8Array(c.memory.buffer, at);
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
   };
+  const rodNumbers = (/** @type {number} */ count) => [...new Float64Array(c.memory.buffer, c.explorer_rod_numbers(), count)];
+  /** @type {{ methods: Method[], factors: Factor[] }} */
+  const rodOffer = JSON.parse(text(c.explorer_rod_describe()));
+  const rod = {
+    ...rodOffer,
+    /** Why not, or an empty text. @param {Setting} s @param {number} length @param {number} spin */
+    set: (s, length, spin) => text(c.explorer_rod_set(s.speed, s.step, s.radius, s.thickness, length, spin, s.seed)),
+    fire: (/** @type {number} */ method, /** @type {number} */ count) => { c.explorer_rod_fire(method, count); },
+    /** @param {number} method @returns {RodTally} */
+    tally(method) {
+      const [shots, tunneled, undecided, falseHits, share, lower, upper, chance, late] = rodNumbers(c.explorer_rod_tally(method));
+      return { shots, tunneled, undecided, falseHits, share, lower, upper, chance, late };
+    },
+    /** @param {number} method @param {number} from @param {number} to @param {number} count */
+    curve(method, from, to, count) {
+      const [ratio, ...chances] = rodNumbers(c.explorer_rod_curve(method, from, to, count));
+      return { ratio, chances };
+    },
+    /** @param {number} flight @returns {RodShot} */
+    shot(flight) {
+      const [halfLength, radius, half, x, dx, angle, spin, contact, steps, ...seen] = rodNumbers(c.explorer_rod_shot(flight));
+      return { halfLength, radius, half, x, dx, angle, spin, contact, steps, seen };
+    },
+  };
   /** @type {{ methods: Method[], factors: Factor[] }} */
   const offer = JSON.parse(text(c.explorer_describe()));
   return {
     ...offer,
+    rod,
     /** Why not, or an empty text. @param {Setting} s */
     set: (s) => text(c.explorer_set(s.speed, s.step, s.radius, s.thickness, s.angle_deg, s.seed)),
     fire: (/** @type {number} */ method, /** @type {number} */ count) => { c.explorer_fire(method, count); },

@@ -2,8 +2,9 @@
 
 import { makeControls } from './controls.js';
 import { startEngine } from './engine.js';
-import { draw, short } from './plot.js';
+import { byId, draw, short } from './plot.js';
 import { makeScene } from './scene.js';
+import { makeRod } from './rod.js';
 import { read, textbook, write } from './state.js';
 import { showCounts, showRace, showScene } from './tables.js';
 import { serve } from './worker.js';
@@ -11,8 +12,6 @@ import { serve } from './worker.js';
 /** @typedef {import('./worker.js').Order} Order
  *  @typedef {import('./worker.js').Report} Report */
 
-/** @param {string} id @returns {any} */
-const byId = (id) => document.getElementById(id);
 const still = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 async function library() {
@@ -104,6 +103,7 @@ async function page(code) {
       state = next;
       tallies = [];
       order({ setting: state.setting, chosen: chosen().map(({ i }) => i), most: state.most, running });
+      rod.change(state.setting);
       ask();
     }
     show();
@@ -140,6 +140,7 @@ async function page(code) {
     byId('run').textContent = now ? 'Pause' : 'Go on';
     byId('run').setAttribute('aria-pressed', String(now));
     order({ running });
+    rod.go();
     speak();
   };
 
@@ -163,6 +164,8 @@ async function page(code) {
     onSpeed: (factor) => change({ setting: { ...state.setting, speed: Number((state.setting.speed * factor).toPrecision(3)) } }),
     onThickness: (half) => change({ setting: { ...state.setting, thickness: Number((2 * half).toPrecision(3)) } }),
   });
+
+  const rod = makeRod(engine.rod, () => running);
 
   /** @param {string} id @param {string} event @param {() => void} then */
   const on = (id, event, then) => byId(id).addEventListener(event, then);
@@ -225,7 +228,7 @@ async function page(code) {
     complain(said);
   };
   addEventListener('hashchange', () => { if (location.hash !== write(state)) follow(); });
-  addEventListener('resize', () => { showShot(); showShots(); if (raced.length > 0) showTimes(); });
+  addEventListener('resize', () => { showShot(); showShots(); rod.show(); if (raced.length > 0) showTimes(); });
   order({ module });
   follow();
   order({ race: true });

@@ -4,6 +4,9 @@
  *  a point is x, y and the two ends of its interval along y
  *  @typedef {{ label: string, from: number, to: number, log?: boolean }} Axis */
 
+/** @param {string} id @returns {any} */
+export const byId = (id) => document.getElementById(id);
+
 /** @param {string} name @param {Record<string, string | number>} attributes @param {(SVGElement | string)[]} children */
 export function svg(name, attributes, ...children) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', name);

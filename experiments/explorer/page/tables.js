@@ -73,3 +73,13 @@ export function showRace(table, raced) {
     raced.map((one) => [named(one.method), `${short(one.ns)} ns [${short(one.lower)}, ${short(one.upper)}]`, String(one.wrong),
       meters(one.p99), meters(one.largest)]));
 }
+
+/** @param {HTMLTableElement} table @param {import('./engine.js').Method[]} methods @param {import('./engine.js').RodTally[]} tallies */
+export function showRods(table, methods, tallies) {
+  fill(table, ['Method', 'Flights', 'Tunneled', 'Share [95 %]', 'Theory', 'False hits'], methods.map((method, i) => {
+    const tally = tallies[i];
+    if (!tally || tally.shots === 0) return [named(method), '0', '', '', tally ? percent(tally.chance) : '', ''];
+    return [named(method), tally.shots.toLocaleString('en'), tally.tunneled.toLocaleString('en'),
+      `${percent(tally.share)} [${short(100 * tally.lower)}, ${short(100 * tally.upper)}]`, percent(tally.chance), tally.falseHits.toLocaleString('en')];
+  }));
+}
