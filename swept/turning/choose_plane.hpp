@@ -9,7 +9,7 @@ namespace thinwall {
 
 /// The edges of a core that lie square to a normal, to 1e-6: two of them span a face. One without length bounds nothing.
 template <Scalar S> struct SquareEdges {
-  std::array<Vec3<S>, 3> edge;  ///< [length] in the body's frame at the start of the step
+  std::array<Vec3<S>, 3> edge;  ///< [length] as it is now
   int count = 0;
 
   SquareEdges(const CoreVectors<S>& core, const Vec3<S>& normal) {
@@ -32,43 +32,33 @@ template <Scalar S> struct SquareEdges {
   }
 };
 
-/// The plane for closest points with this normal, a unit vector from A to B in the world.
+/// The plane for closest points with this normal, a unit vector from A to B.
 template <Scalar S>
 AttachedPlane<S> plane_from(const TurningPair<S>& pair, const TurningInstant<S>& now, const Vec3<S>& normal) {
-  const Vec3<S> seen_by_a = pair.a.seen(now.turn_a, normal), seen_by_b = pair.b.seen(now.turn_b, normal);
-  const SquareEdges<S> of_a(pair.a.core, seen_by_a), of_b(pair.b.core, seen_by_b);
+  const SquareEdges<S> of_a(now.core_a, normal), of_b(now.core_b, normal);
   if (of_a.count == 1 && of_b.count == 1) {
-    const Vec3<S> a = safe_unit(of_a.edge[0]), b = safe_unit(of_b.edge[0]);
-    const Vec3<S> product = cross<S>(pair.a.in_world(now.turn_a, a), pair.b.in_world(now.turn_b, b));
+    const Vec3<S> a = safe_unit(of_a.edge[0]), b = safe_unit(of_b.edge[0]), product = cross(a, b);
     constexpr S least_sine = S(1) / S(20);
     if (product.squaredNorm() > least_sine * least_sine)
-      return plane_of_edges<S>(pair, a, product.dot(normal) < S(0) ? Vec3<S>(-b) : b);
+      return plane_of_edges<S>(pair, now, a, product.dot(normal) < S(0) ? Vec3<S>(-b) : b);
   }
-  if (of_a.count > 0 && of_a.count >= of_b.count) return plane_riding(pair, Rides::a, of_a.snapped(seen_by_a));
-  if (of_b.count > 0) return plane_riding(pair, Rides::b, of_b.snapped(seen_by_b));
-  return plane_riding(pair, Rides::world, normal);
+  if (of_a.count > 0 && of_a.count >= of_b.count) return plane_riding(pair, now, Rides::a, of_a.snapped(normal));
+  if (of_b.count > 0) return plane_riding(pair, now, Rides::b, of_b.snapped(normal));
+  return plane_riding(pair, now, Rides::world, normal);
 }
 
 /// The plane of the axis along which two boxes are farthest apart: it names a face of either, or an edge of each. A third of the price of closest
-/// points, and where the gap between the shadows is what there is, as good.
+/// points, and where the gap between the shadows is what there is, as good. The boxes as they are now.
 template <Scalar S>
 AttachedPlane<S> plane_across(const TurningPair<S>& pair, const TurningInstant<S>& now, const Obb<S>& a,
-                              const Obb<S>& b, const LeastOverlap<S>& axis, const Vec3<S>& normal) {
+                              const Obb<S>& b, const LeastOverlap<S>& axis) {
+  const Vec3<S> normal = a.axes * axis.normal;
   const auto edge = [](const Obb<S>& box, int k) { return safe_unit(Vec3<S>(box.axes.col(k))); };
-  const auto from_a_to_b = [&](const Vec3<S>& v, const Vec3<S>& in_world) {
-    return in_world.dot(normal) < S(0) ? Vec3<S>(-v) : v;
-  };
-  if (axis.axis_b < 0) {
-    const Vec3<S> face = edge(a, axis.axis_a);
-    return plane_riding(pair, Rides::a, from_a_to_b(face, pair.a.in_world(now.turn_a, face)));
-  }
-  if (axis.axis_a < 0) {
-    const Vec3<S> face = edge(b, axis.axis_b);
-    return plane_riding(pair, Rides::b, from_a_to_b(face, pair.b.in_world(now.turn_b, face)));
-  }
+  const auto towards_b = [&](const Vec3<S>& v) { return v.dot(normal) < S(0) ? Vec3<S>(-v) : v; };
+  if (axis.axis_b < 0) return plane_riding(pair, now, Rides::a, towards_b(edge(a, axis.axis_a)));
+  if (axis.axis_a < 0) return plane_riding(pair, now, Rides::b, towards_b(edge(b, axis.axis_b)));
   const Vec3<S> of_a = edge(a, axis.axis_a), of_b = edge(b, axis.axis_b);
-  const Vec3<S> product = cross<S>(pair.a.in_world(now.turn_a, of_a), pair.b.in_world(now.turn_b, of_b));
-  return plane_of_edges<S>(pair, of_a, from_a_to_b(of_b, product));
+  return plane_of_edges<S>(pair, now, of_a, cross(of_a, of_b).dot(normal) < S(0) ? Vec3<S>(-of_b) : of_b);
 }
 
 }  // namespace thinwall

@@ -29,35 +29,33 @@ template <Scalar S> S orbits_apart_until(const TurningPair<S>& pair, const Turni
   return now.time + gap / -opening * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
 }
 
-/// How far a plane was ridden.
-template <Scalar S> struct Ride {
-  TurningInstant<S> end;  ///< nothing touches before, if nothing did at its start; time 1 is the end of the step
-  bool opening = false;   ///< the gap grew at the start
-};
+/// True if the gap across the plane is growing.
+template <Scalar S>
+bool opens(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const TurningInstant<S>& now) {
+  return first_root(gap_ahead(pair, plane, now, S(0)).bound, S(0)).slope > S(0);
+}
 
 /// Rides the plane until it no longer parts the shapes, a step of it gains a tenth of the way only, the gap is less than `enough`, or the
-/// step is over.
+/// step is over: nothing touches from `now` until then, if nothing does now.
 template <Scalar S>
-Ride<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane, const TurningInstant<S>& from,
-             const S& enough) {
-  Ride<S> ridden{from};
-  const S of_centers = curvature_of_centers(pair, plane, from);
+TurningInstant<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane, TurningInstant<S> now,
+                       const S& enough) {
+  const S start = now.time, of_centers = curvature_of_centers(pair, plane, now);
   for (int step = 0; step < 16; ++step) {
-    const S left = S(1) - ridden.end.time;
-    const GapAhead<S> ahead = gap_ahead(pair, plane, ridden.end, of_centers);
+    const S left = pair.last - now.time;
+    const GapAhead<S> ahead = gap_ahead(pair, plane, now, of_centers);
     const FirstRoot<S> root = first_root(ahead.bound, left);
-    if (step == 0) ridden.opening = root.slope > S(0);
     if (!(root.tau > S(0))) break;
     if (root.tau >= left) {
-      ridden.end.time = S(1);
+      now.time = S(1);  // and free ever after
       break;
     }
-    const S next = ridden.end.time + root.tau * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
-    if (!(next > ridden.end.time)) break;
-    ridden.end = instant(pair, next);
-    if (root.tau < (next - from.time) / S(10) || root.value < enough * ahead.scale) break;
+    const S next = now.time + root.tau * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+    if (!(next > now.time)) break;
+    now = instant(pair, next);
+    if (root.tau < (next - start) / S(10) || root.value < enough * ahead.scale) break;
   }
-  return ridden;
+  return now;
 }
 
 /// Claims: never late, never misses, rounding included (docs/turning.md), whatever the angles.
@@ -73,15 +71,16 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
   const TurningPair<T> pair(a, b, T(method.min_separation));
   const T near = std::max(T(T(method.tolerance) * pair.speed), T(T(4) * pair.margin));
   const T many_turns = 3;  // [rad] from here on whole orbits are worth a look
-  TurningInstant<T> now = instant(pair, T(0));
+  if (pair.first > pair.last) return {ToiStatus::apart, 1};
+  TurningInstant<T> now = instant(pair, pair.first);
   for (int k = 1; k <= method.max_evaluations; ++k) {
-    const A a_now = posed(a, now.turn_a, now.time);
-    const B b_now = posed(b, now.turn_b, now.time);
+    const A a_now = pose_of(a.shape, pair.a, now.phase_a, now.core_a, Vec3<T>(pair.a.center + pair.a.path * now.time));
+    const B b_now = pose_of(b.shape, pair.b, now.phase_b, now.core_b, Vec3<T>(pair.b.center + pair.b.path * now.time));
     if constexpr (std::is_same_v<A, Obb<T>> && std::is_same_v<B, Obb<T>>) {
       const LeastOverlap<T> axis = least_overlap(box_pair(a_now, b_now));
       if (-axis.overlap - T(method.min_separation) > near) {
-        const AttachedPlane<T> plane = plane_across<T>(pair, now, a.shape, b.shape, axis, a_now.axes * axis.normal);
-        const TurningInstant<T> next = ride(pair, plane, now, T(near / T(4))).end;
+        const AttachedPlane<T> plane = plane_across(pair, now, a_now, b_now, axis);
+        const TurningInstant<T> next = ride(pair, plane, now, T(near / T(4)));
         if (next.time >= T(1)) return {ToiStatus::apart, k};
         if (next.time > now.time) {
           now = next;
@@ -95,21 +94,20 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
       return overlapping_at_start(a, b, 1);
     if (pair.speed == T(0)) return {ToiStatus::apart, k};
     const AttachedPlane<T> plane = plane_from(pair, now, closest.normal);
-    Ride<T> next = ride(pair, plane, now, T(near / T(4)));
-    if (!(next.end.time > now.time) && plane.rides != Rides::world) {
-      const bool opening = next.opening;
-      next = ride(pair, plane_riding(pair, Rides::world, closest.normal), now, T(near / T(4)));
-      next.opening = opening;
+    const Toi<T> hit{ToiStatus::hit, k, rounded_down_to<S>(now.time), closest.normal, middle(closest)};
+    if (gap <= near && !opens(pair, plane, now)) return hit;
+    TurningInstant<T> next = ride(pair, plane, now, T(near / T(4)));
+    if (!(next.time > now.time) && plane.rides != Rides::world) {
+      next = ride(pair, plane_riding(pair, now, Rides::world, closest.normal), now, T(near / T(4)));
     }
-    if (next.end.time < T(1) && pair.turn > many_turns) {
+    if (next.time < T(1) && pair.turn > many_turns) {
       const T until = orbits_apart_until(pair, now, closest.normal);
-      if (until > next.end.time) next.end = instant(pair, std::min(until, T(1)));
+      if (until > next.time) next = instant(pair, std::min(until, T(1)));
     }
-    if (next.end.time >= T(1)) return {ToiStatus::apart, k};
-    const T gained = next.end.time - now.time;
-    if (!(gained > T(0)) || (gap <= near && (!next.opening || gained <= T(method.tolerance))))
-      return {ToiStatus::hit, k, rounded_down_to<S>(now.time), closest.normal, middle(closest)};
-    now = next.end;
+    if (next.time >= T(1)) return {ToiStatus::apart, k};
+    const T gained = next.time - now.time;
+    if (!(gained > T(0)) || (gap <= near && gained <= T(method.tolerance))) return hit;
+    now = next;
   }
   return {ToiStatus::gave_up, method.max_evaluations, rounded_down_to<S>(now.time)};
 }

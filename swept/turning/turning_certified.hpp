@@ -38,17 +38,13 @@ inline PointInCore point_in_core(const CoreVectors<double>& core, const Vec3<dou
 template <Shape A, Shape B>
 bool touches_for_certain(const TurningPair<double>& pair, const Turning<A>& a, const Turning<B>& b, double time) {
   const TurningInstant<double> now = instant(pair, time);
-  const A posed_a = posed(a, now.turn_a, time);
-  const Separation<double> deepest = separation_unchecked(posed_a, posed(b, now.turn_b, time));
-  const CoreVectors<double> core_a =
-      mapped(pair.a.core, [&](const Vec3<double>& v) { return Vec3<double>(now.turn_a * v); });
-  const CoreVectors<double> core_b =
-      mapped(pair.b.core, [&](const Vec3<double>& v) { return Vec3<double>(now.turn_b * v); });
+  const A posed_a = pose_at(a, time);
+  const Separation<double> deepest = separation_unchecked(posed_a, pose_at(b, time));
   const double inside = pair.reach > 0 ? 0 : std::max(0.0, -deepest.distance / 4);
   Vec3<double> wanted = middle(deepest) - center(posed_a);
   for (int round = 0; round < 64; ++round) {
-    const PointInCore of_a = point_in_core(core_a, wanted, inside);
-    const PointInCore of_b = point_in_core(core_b, of_a.point - now.between, inside);
+    const PointInCore of_a = point_in_core(now.core_a, wanted, inside);
+    const PointInCore of_b = point_in_core(now.core_b, of_a.point - now.between, inside);
     wanted = now.between + of_b.point;
     if (norm<double>(of_a.point - wanted) + pair.margin <= pair.reach + of_a.slack + of_b.slack) return true;
   }

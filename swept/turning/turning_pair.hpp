@@ -89,6 +89,18 @@ template <Scalar S> S norm(const Vec3<S>& v) {
 /// How much of x is across a unit vector.
 template <Scalar S> S across(const Vec3<S>& axis, const Vec3<S>& x) { return norm<S>(cross(axis, x)); }
 
+/// The cosine and the sine of an angle that a body has turned by.
+template <Scalar S> struct Phase {
+  S cosine = 1, sine = 0;
+  Phase back() const { return {cosine, -sine}; }
+};
+
+/// A vector that turns about an axis: its part along the axis, and where the rest is at the start and a quarter turn on.
+template <Scalar S> struct Swing {
+  Vec3<S> along, across, ahead;
+  Vec3<S> at(const Phase<S>& phase) const { return along + (across * phase.cosine + ahead * phase.sine); }
+};
+
 template <Scalar S> struct TurningBody {
   Vec3<S> center, path;                ///< [length] at the start, and what it flies
   CoreVectors<S> core;                 ///< [length] at the start, around the center
@@ -97,6 +109,7 @@ template <Scalar S> struct TurningBody {
   Vec3<S> axis = axis_vector<S>(0);    ///< unit, of the rotation
   S angle = 0;                         ///< [rad] >= 0
   S far = 0, off_axis = 0;             ///< [length] the farthest point of the core from the center, and from the axis
+  std::array<Swing<S>, 3> swings;      ///< [length] of the core's vectors, where it turns
 
   template <Shape A>
   explicit TurningBody(const Turning<A>& m)
@@ -109,20 +122,31 @@ template <Scalar S> struct TurningBody {
     if (m.rotation == Vec3<S>::Zero()) return;
     rotation = m.rotation;
     angle = safe_norm(rotation);
-    axis = safe_unit(rotation);
-    off_axis = farthest(mapped(core, [this](const Vec3<S>& v) { return cross(axis, v); }));
+    axis = rotation / angle;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k) swings[k] = swing(core.v[k]);
+    CoreVectors<S> ahead = core;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k) ahead.v[k] = swings[k].ahead;
+    off_axis = farthest(ahead);
   }
   bool turns() const { return angle > S(0); }
-  /// A vector of the world as the body sees it, and one of its own in the world.
-  Vec3<S> seen(const Mat3<S>& turn, const Vec3<S>& v) const {
-    return turns() ? Vec3<S>(turn.col(0).dot(v), turn.col(1).dot(v), turn.col(2).dot(v)) : v;
+  Swing<S> swing(const Vec3<S>& v) const {
+    const Vec3<S> along = axis * axis.dot(v);
+    return {along, v - along, cross(axis, v)};
   }
-  Vec3<S> in_world(const Mat3<S>& turn, const Vec3<S>& v) const {
-    return turns() ? Vec3<S>(turn.col(0) * v[0] + turn.col(1) * v[1] + turn.col(2) * v[2]) : v;
+  /// How far it has turned by `time`.
+  Phase<S> phase_at(const S& time) const {
+    using std::cos, std::sin;
+    if (!turns()) return {};
+    const S so_far = angle * time;
+    return {cos(so_far), sin(so_far)};
   }
-  /// The rotation since the start.
-  Mat3<S> turn_at(const S& time) const {
-    return turns() ? rotation_about<S>(axis, angle * time) : Mat3<S>(Mat3<S>::Identity());
+  /// What a vector of the start is then.
+  Vec3<S> turned(const Phase<S>& phase, const Vec3<S>& v) const { return turns() ? swing(v).at(phase) : v; }
+  CoreVectors<S> turned_core(const Phase<S>& phase) const {
+    CoreVectors<S> now = core;
+    if (turns())
+      for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k) now.v[k] = swings[k].at(phase);
+    return now;
   }
 };
 
@@ -135,6 +159,7 @@ template <Scalar S> struct TurningPair {
   S cross_rate = 0;       ///< [rad^2] |u x v| + |u - v|^2 of the rotations u and v, where both are any
   S speed;                ///< [length] per step: no two points near each other faster
   S margin;               ///< [length] what rounding may take from a gap (docs/turning.md, "Rounding")
+  S first = 0, last = 1;  ///< [1] only between them do the balls meet within which the shapes turn; first > last: never
 
   template <Shape A, Shape B>
   TurningPair(const Turning<A>& of_a, const Turning<B>& of_b, const S& min_separation)
@@ -154,17 +179,68 @@ template <Scalar S> struct TurningPair {
       cross_rate = norm<S>(cross(a.rotation, b.rotation)) + (a.rotation - b.rotation).squaredNorm();
     constexpr S u = std::numeric_limits<S>::epsilon() / 2;
     margin = S(64) * u * (S(1) + turn / S(4)) * size;
+    when_balls_meet();
+  }
+
+ private:
+  /// |between + path t| <= R, with R so much larger than it is that no rounding of the squares matters; not asked where it would.
+  void when_balls_meet() {
+    using std::sqrt;
+    const S radius = (a.far + b.far + reach) * (S(1) + constant_power_of_two<S, -16>()) + S(16) * margin;
+    const S apart = between.squaredNorm() - radius * radius, speed_square = path.squaredNorm();
+    constexpr S far_away = 4096;
+    if (!(between.squaredNorm() + speed_square < far_away * far_away * radius * radius)) return;
+    const S approach = -between.dot(path), under_root = approach * approach - speed_square * apart;
+    if (apart > S(0) && (approach <= S(0) || under_root < S(0))) {
+      first = S(2);
+      return;
+    }
+    if (speed_square == S(0)) return;
+    const S root = sqrt(std::max(S(0), under_root));
+    if (apart > S(0)) first = apart / (approach + root);
+    last = std::min(S(1), S((approach + root) / speed_square));
   }
 };
 
-/// The two at one time: their rotations since the start, and the way between the centers.
+/// The two at one time: how far they have turned, their cores then, and the way between the centers.
 template <Scalar S> struct TurningInstant {
   S time;
-  Mat3<S> turn_a, turn_b;
+  Phase<S> phase_a, phase_b;
+  CoreVectors<S> core_a, core_b;
   Vec3<S> between;
 };
 template <Scalar S> TurningInstant<S> instant(const TurningPair<S>& pair, const S& time) {
-  return {time, pair.a.turn_at(time), pair.b.turn_at(time), pair.between + pair.path * time};
+  const Phase<S> phase_a = pair.a.phase_at(time), phase_b = pair.b.phase_at(time);
+  return {time,
+          phase_a,
+          phase_b,
+          pair.a.turned_core(phase_a),
+          pair.b.turned_core(phase_b),
+          pair.between + pair.path * time};
+}
+
+/// The shape with its center elsewhere, its core turned by `phase` into `core`.
+template <Scalar S>
+Sphere<S> pose_of(const Sphere<S>& ball, const TurningBody<S>&, const Phase<S>&, const CoreVectors<S>&,
+                  const Vec3<S>& center) {
+  return {center, ball.radius};
+}
+template <Scalar S>
+Capsule<S> pose_of(const Capsule<S>& capsule, const TurningBody<S>&, const Phase<S>&, const CoreVectors<S>& core,
+                   const Vec3<S>& center) {
+  return {center - core.v[0], center + core.v[0], capsule.radius};
+}
+template <Scalar S>
+Triangle<S> pose_of(const Triangle<S>&, const TurningBody<S>&, const Phase<S>&, const CoreVectors<S>& core,
+                    const Vec3<S>& center) {
+  return {center + core.v[0], center + core.v[1], center + core.v[2]};
+}
+template <Scalar S>
+Obb<S> pose_of(const Obb<S>& box, const TurningBody<S>& body, const Phase<S>& phase, const CoreVectors<S>&,
+               const Vec3<S>& center) {
+  Obb<S> pose{center, box.half_extents, box.axes};
+  for (int k = 0; k < 3; ++k) pose.axes.col(k) = body.turned(phase, box.axes.col(k));
+  return pose;
 }
 
 }  // namespace thinwall

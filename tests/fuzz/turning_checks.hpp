@@ -52,7 +52,7 @@ template <class A, class B> void check_turning(const Scene<A, B>& scene, Numbers
   for (int k = 0; k < 8 && moved; ++k) {
     check(gap_at(free * k / 8) >= -slack, "turning: contact before the time of impact", show);
   }
-  if (toi.status == ToiStatus::hit) {
+  if (toi.status == ToiStatus::hit && is_moderate(scene, 16)) {  // of slivers the closest points are known less well
     const double near = double{half_digits<S>()} * pair.speed, rounded = std::numeric_limits<S>::epsilon() * pair.speed;
     check(gap_at(free) <= near + rounded + slack, "turning: a hit, and a gap", show);
   }

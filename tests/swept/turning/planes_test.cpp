@@ -71,21 +71,28 @@ W turned_wide(const W& rotation, Wide time, const W& v) {
   return v * c + cross<Wide>(axis, v) * s + axis * (axis.dot(v) * (1 - c));
 }
 
-/// The gap across the plane at a time, in long double, less what rounding may take.
-Wide true_gap(const TurningPair<double>& pair, const AttachedPlane<double>& plane, Wide time) {
+/// A plane as a test has it: what it rides, and the unit vectors it is made of at the time when it is attached.
+struct Attached {
+  Rides rides;
+  V first, second;  ///< the normal; or the edges of A and B
+};
+
+/// The gap across the plane at a time, in long double.
+Wide true_gap(const TurningPair<double>& pair, const Attached& plane, Wide attached_at, Wide time) {
   const auto wide = [](const V& v) { return W(v.cast<Wide>()); };
   const W x = wide(pair.b.center) - wide(pair.a.center) + (wide(pair.b.path) - wide(pair.a.path)) * time;
-  const auto at = [&](const TurningBody<double>& body, const V& v) {
-    return turned_wide(wide(body.rotation), time, wide(v));
+  const auto since = [&](const TurningBody<double>& body, Wide from, const V& v) {
+    return turned_wide(wide(body.rotation), time - from, wide(v));
   };
-  W n = wide(plane.normal);
-  if (plane.rides == Rides::a) n = at(pair.a, plane.normal);
-  if (plane.rides == Rides::b) n = at(pair.b, plane.normal);
-  if (plane.rides == Rides::edges) n = cross<Wide>(at(pair.a, plane.edge_a), at(pair.b, plane.edge_b));
+  W n = wide(plane.first);
+  if (plane.rides == Rides::a) n = since(pair.a, attached_at, plane.first);
+  if (plane.rides == Rides::b) n = since(pair.b, attached_at, plane.first);
+  if (plane.rides == Rides::edges)
+    n = cross<Wide>(since(pair.a, attached_at, plane.first), since(pair.b, attached_at, plane.second));
   const auto reach = [&](const TurningBody<double>& body, Wide side) {
     Wide most = 0;
     for (int k = 0; k < body.core.count; ++k) {
-      const Wide along = side * n.dot(at(body, body.core.v[static_cast<std::size_t>(k)]));
+      const Wide along = side * n.dot(since(body, 0, body.core.v[static_cast<std::size_t>(k)]));
       if (body.core.corners) {
         most = k == 0 ? along : std::max(most, along);
       } else {
@@ -115,17 +122,23 @@ struct Tightness {
 };
 
 /// Checks one plane from one time on.
-void check_plane(const TurningPair<double>& pair, const AttachedPlane<double>& plane, double time,
-                 Tightness& tightness) {
+void check_plane(const TurningPair<double>& pair, const Attached& attached, double time, Tightness& tightness) {
   const TurningInstant<double> now = instant(pair, time);
-  const GapAhead<double> ahead = gap_ahead(pair, plane, now, curvature_of_centers(pair, plane, now));
-  const Wide allowed = static_cast<Wide>(pair.margin);
-  for (int step = 0; step <= 8; ++step) {
-    const Wide tau = static_cast<Wide>(1 - time) * step * step / 64;
-    const Wide gap = true_gap(pair, plane, static_cast<Wide>(time) + tau), bound = bound_at(ahead.bound, tau);
-    ASSERT_GE(gap, bound) << "plane " << static_cast<int>(plane.rides) << ", from " << time << " by "
-                          << static_cast<double>(tau) << ", angles " << pair.a.angle << " " << pair.b.angle;
-    if (step == 0) tightness.worst = std::max(tightness.worst, static_cast<double>((bound + allowed - gap) / allowed));
+  const AttachedPlane<double> plane = attached.rides == Rides::edges
+                                          ? plane_of_edges<double>(pair, now, attached.first, attached.second)
+                                          : plane_riding(pair, now, attached.rides, attached.first);
+  const TurningInstant<double> later = instant(pair, time + (1 - time) / 3);
+  const auto allowed = static_cast<Wide>(pair.margin), attached_at = static_cast<Wide>(time);
+  for (const TurningInstant<double>* from : {&now, &later}) {
+    const ConcaveBound<double> bound = gap_ahead(pair, plane, *from, curvature_of_centers(pair, plane, now)).bound;
+    for (int step = 0; step <= 8; ++step) {
+      const Wide start = static_cast<Wide>(from->time), tau = (1 - start) * step * step / 64;
+      const Wide gap = true_gap(pair, attached, attached_at, start + tau), below = bound_at(bound, tau);
+      ASSERT_GE(gap, below) << "plane " << static_cast<int>(attached.rides) << ", from " << from->time << " by "
+                            << static_cast<double>(tau) << ", angles " << pair.a.angle << " " << pair.b.angle;
+      if (step == 0)
+        tightness.worst = std::max(tightness.worst, static_cast<double>((below + allowed - gap) / allowed));
+    }
   }
 }
 
@@ -138,13 +151,13 @@ template <class A, class B> void check_pair(unsigned count) {
     Turning<B> b = motion<B>(draw, most, far);
     if (draw.one_in(6)) b.rotation = a.rotation;
     if (draw.one_in(6)) b.rotation = -a.rotation * draw.between(0, 1);
-    const TurningPair<double> pair(a, b, draw.one_in(3) ? 0.1 : 0);
+    TurningPair<double> pair(a, b, draw.one_in(3) ? 0.1 : 0);
+    pair.last = 1;  // whether they can meet or not
     const double time = draw.one_in(3) ? 0 : draw.between(0, 1);
-    check_plane(pair, plane_riding(pair, Rides::world, draw.direction()), time, tightness);
-    check_plane(pair, plane_riding(pair, Rides::a, draw.direction()), time, tightness);
-    check_plane(pair, plane_riding(pair, Rides::b, draw.direction()), time, tightness);
-    if (pair.a.core.count > 0 && pair.b.core.count > 0) {
-      check_plane(pair, plane_of_edges<double>(pair, draw.direction(), draw.direction()), time, tightness);
+    for (const Rides rides : {Rides::world, Rides::a, Rides::b, Rides::edges}) {
+      const V first = draw.direction(), second = draw.direction();
+      const bool has_edges = pair.a.core.count > 0 && pair.b.core.count > 0;
+      if (has_edges || rides != Rides::edges) check_plane(pair, {rides, first, second}, time, tightness);
     }
     if (::testing::Test::HasFatalFailure()) return;
   }
