@@ -12,6 +12,7 @@
   X(work_precision)             \
   X(swept_bounds)               \
   X(crossing_bullets)           \
+  X(spinning_rod)               \
   X(hitscan)                    \
   X(stiff_contact)              \
   X(bouncing)                   \

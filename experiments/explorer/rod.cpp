@@ -118,6 +118,8 @@ const char* explorer_rod_set(double speed, double step, double radius, double th
   return rod().say("");
 }
 
+int explorer_rod_cell() { return say({rod().flight.step_ratio, rod().flight.spin_deg}); }
+
 void explorer_rod_fire(int method, int count) {
   RodTally& tally = rod().tallies.at(static_cast<std::size_t>(method));
   tally += fly(rod().flight, rod().methods.at(static_cast<std::size_t>(method)), count, rod().seed, tally.trials);
@@ -146,7 +148,7 @@ int explorer_rod_curve(int method, double from, double to, int count) {
 
 int explorer_rod_shot(int flight) {
   const RodFlight& c = rod().flight;
-  const RodMotion motion = random_motion(c, rod_factors().stream(c, rod().seed), static_cast<std::uint64_t>(flight));
+  const RodMotion motion = random_motion(c, random_stream(c, rod().seed), static_cast<std::uint64_t>(flight));
   std::vector<double> numbers{motion.half_length,
                               motion.radius,
                               c.thickness / 2,

@@ -17,6 +17,9 @@ const char* THINWALL_EXPORT(explorer_rod_describe)();
 const char* THINWALL_EXPORT(explorer_rod_set)(double speed, double step, double radius, double thickness, double length,
                                               double spin, double seed);
 
+/// What makes it a cell of the experiment: the step, as a multiple of wall, radii and length together, and the turn [deg] a step.
+int THINWALL_EXPORT(explorer_rod_cell)();
+
 /// Fires the next `count` rods at a method: the same as the experiment spinning_rod fires.
 void THINWALL_EXPORT(explorer_rod_fire)(int method, int count);
 
@@ -24,7 +27,7 @@ void THINWALL_EXPORT(explorer_rod_fire)(int method, int count);
 /// lateness [steps]: the mean. NaN is what there is none of.
 int THINWALL_EXPORT(explorer_rod_tally)(int method);
 
-/// The step, as a multiple of wall, radii and length together; and the chance of tunneling by theory at `count` >= 2 such ratios from `from` to `to`,
+/// That multiple, and the chance of tunneling by theory at `count` >= 2 such ratios from `from` to `to`,
 /// evenly on a logarithmic scale, the rod turning as far a step.
 int THINWALL_EXPORT(explorer_rod_curve)(int method, double from, double to, int count);
 

@@ -14,15 +14,11 @@ struct MethodLook {
   int point_type, filled;  ///< gnuplot's numbers
 };
 inline constexpr std::array method_looks = {
-    MethodLook{"end_of_step", "#D55E00", 4, 5},
-    MethodLook{"substeps", "#E69F00", 8, 9},
-    MethodLook{"centre_ray", "#CC79A7", 12, 13},
-    MethodLook{"swept_volume_ray", "#56B4E9", 10, 11},
-    MethodLook{"sweep_then_confirm", "#CC79A7", 2, 2},
-    MethodLook{"speculative", "#009E73", 8, 9},
-    MethodLook{"conservative_advancement", "#009E73", 12, 13},
-    MethodLook{"bisection", "#E69F00", 1, 1},
-    MethodLook{"inclusion", "#56B4E9", 4, 5},
+    MethodLook{"end_of_step", "#D55E00", 4, 5},        MethodLook{"substeps", "#E69F00", 8, 9},
+    MethodLook{"centre_ray", "#CC79A7", 12, 13},       MethodLook{"swept_volume_ray", "#56B4E9", 10, 11},
+    MethodLook{"sweep_then_confirm", "#CC79A7", 2, 2}, MethodLook{"linear_sweep", "#CC79A7", 6, 7},
+    MethodLook{"speculative", "#009E73", 8, 9},        MethodLook{"conservative_advancement", "#009E73", 12, 13},
+    MethodLook{"bisection", "#E69F00", 1, 1},          MethodLook{"inclusion", "#56B4E9", 4, 5},
     MethodLook{"closed_form", "#0072B2", 6, 7},
 };
 

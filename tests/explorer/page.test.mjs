@@ -151,6 +151,39 @@ test('a link leads back to the same state, and a broken one to the textbook with
   }
 });
 
+test('rods that spin pass as theory has it, and are counted as the program counts them', async () => {
+  const { page, done } = await open('#speed=37.5&step=0.01&radius=0.03&thickness=0.002&seed=7');
+  await page.fill('#rod-length', '0.25');
+  await page.keyboard.press('Tab');
+  await page.fill('#rod-spin', '70');
+  await page.keyboard.press('Tab');
+  const cells = () => page.$$eval('#rod-counts tbody tr', (all) => all.map((row) => [...row.cells].map((cell) => cell.innerText.trim())));
+  await page.waitForFunction(() => [...document.querySelectorAll('#rod-counts tbody tr')].every((row) => row.cells[1].innerText === '20,000'), null,
+    { timeout: 60000 });
+  const all = await cells(), numbers = (text) => text.replaceAll(',', '').match(/-?[\d.]+(e-?\d+)?/g).map(Number);
+  for (const [name, , , share, theory] of all) {
+    if (theory === '') continue;
+    const [, low, high] = numbers(share), width = (high - low) / 2;
+    assert.ok(numbers(theory)[0] >= low - width && numbers(theory)[0] <= high + width, `${name}: ${share}, theory ${theory}`);
+  }
+  const config = join(folder, 'rods.toml'), out = join(folder, 'rods'), [ratio, spin] = await page.evaluate(() => JSON.parse(document.getElementById('rod-counts').dataset.cell));
+  writeFileSync(config, `experiment = "spinning_rod"\nhalf_length = 0.125\nradius = 0.03\nthickness = 0.002\ntilt_deg = [90]\n` +
+    `spin_deg = [${spin}]\nstep_ratio = [${ratio}]\npost_distance = 0.1\npost_spin_deg = [10]\nsubsteps = [2, 8]\n`);
+  run('run', config, '--seed', '7', '--trials', '20000', '--out', out);
+  const [head, ...lines] = readFileSync(join(out, 'data', 'flights.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+  const at = (name) => head.indexOf(name), theirs = lines.map((line) => `${line[at('method')]}: ${Number(line[at('tunneled')])}`);
+  const mine = all.filter(([name]) => theirs.some((line) => line.startsWith(`${name}: `))).map(([name, , tunneled]) => `${name}: ${numbers(tunneled)[0]}`);
+  assert.ok(mine.length >= 4);
+  for (const line of mine) assert.ok(theirs.includes(line), line);
+  const said = await page.innerText('#rod-said');
+  await page.click('#rod-next');
+  assert.notEqual(await page.innerText('#rod-said'), said);
+  await page.fill('#rod-length', '-1');
+  await page.keyboard.press('Tab');
+  assert.match(await page.innerText('#rod-complaint'), /^length: a number > 0/);
+  await done();
+});
+
 test('it cites, and links to what is set', async () => {
   const { page, done } = await open('#speed=20');
   await page.click('#copy-citation');

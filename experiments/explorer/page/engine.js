@@ -51,6 +51,8 @@ export async function startEngine(module) {
     ...rodOffer,
     /** Why not, or an empty text. @param {Setting} s @param {number} length @param {number} spin */
     set: (s, length, spin) => text(c.explorer_rod_set(s.speed, s.step, s.radius, s.thickness, length, spin, s.seed)),
+    /** The step ratio, and the degrees a step. */
+    cell: () => rodNumbers(c.explorer_rod_cell()),
     fire: (/** @type {number} */ method, /** @type {number} */ count) => { c.explorer_rod_fire(method, count); },
     /** @param {number} method @returns {RodTally} */
     tally(method) {

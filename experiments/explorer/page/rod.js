@@ -57,6 +57,7 @@ export function makeRod(library, running) {
     const counted = possible ? tallies() : [], count = 121, from = 0.1, to = 20;
     showRods(byId('rod-counts'), library.methods, counted);
     if (!possible) return;
+    byId('rod-counts').dataset.cell = JSON.stringify(library.cell());
     const x = Array.from({ length: count }, (_, i) => from * (to / from) ** (i / (count - 1)));
     const series = library.methods.map((method, i) => {
       const { ratio, chances } = library.curve(i, from, to, count), { shots, share, lower, upper } = counted[i];

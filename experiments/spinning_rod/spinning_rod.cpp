@@ -1,0 +1,455 @@
+/// A rod that spins flies at a thin wall: how often does it get through unseen, for each way of detecting the hit? See
+/// docs/spinning_rod.md.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
+#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/spinning_rod/methods.hpp>
+#include <thinwall_embedded.hpp>
+
+namespace thinwall {
+
+namespace {
+
+using Tally = RodTally;
+
+/// A cell at a method.
+template <class Cell> struct RowOf {
+  Cell cell;
+  std::string method;
+  RodClaims claims;
+  std::optional<double> theory;  ///< [1] chance of tunneling
+  Tally tally = {};
+};
+using FlightRow = RowOf<RodFlight>;
+using PassRow = RowOf<BladePass>;
+
+double expected(const auto& row) { return row.theory.value_or(0) * static_cast<double>(row.tally.trials); }
+
+/// [m] How well double holds a pose of the cell: a few coordinates as large as what the rod flies through.
+double resolution(double size) { return 64 * std::numeric_limits<double>::epsilon() * size; }
+double resolution(const RodFlight& c) {
+  return resolution(widest(c) + 4 * step_length(c) + radians(c.spin_deg) * (reach(c) + c.radius));
+}
+double resolution(const BladePass& c) { return resolution(c.half_length + c.post_distance); }
+
+/// [m] The most that a point of the rod moves in a step.
+double path_of(const RodFlight& c) { return step_length(c) + radians(c.spin_deg) * (c.half_length + c.radius); }
+double path_of(const BladePass& c) { return radians(c.post_spin_deg) * (c.half_length + c.radius); }
+
+// What the tables show.
+
+template <class Row> Columns<Row> tunneled_columns() {
+  return columns_of<Row>(
+      fields(&Row::tally, {"trials", "tunneled"}),
+      share(
+          "probability", "tunneled / trials.", [](const Row& r) { return r.tally.tunneled; },
+          [](const Row& r) { return r.tally.trials; }),
+      value("theory", "1", "The same by theory; missing where there is none.", &Row::theory),
+      value("residual", "1", "Standard errors between the two, where at least five are expected of either.",
+            [](const Row& r) -> std::optional<double> {
+              if (!r.theory || !can_be_judged(r.tally.trials, *r.theory)) return std::nullopt;
+              return standard_residual(r.tally.tunneled, r.tally.trials, *r.theory);
+            }));
+}
+
+template <class Row> Columns<Row> timing_columns() {
+  return columns_of<Row>(
+      share(
+          "late_share", "late over the trials with a hit.", [](const Row& r) { return r.tally.late; },
+          [](const Row& r) { return r.tally.detected(); }, "late_"),
+      value("lateness_mean", "step", "Mean time from first contact to the hit.",
+            [](const Row& r) { return r.tally.lateness.mean(); }),
+      fields(&Row::tally, {"lateness_max", "lateness_min", "gap_max", "gap_min", "false_hits", "undecided", "steps",
+                           "evaluations"}));
+}
+
+Table flights_table(const std::vector<FlightRow>& rows) {
+  const auto columns = columns_of<FlightRow>(
+      text("method", "Way of detecting the hit.", &FlightRow::method), rod_factors().columns(&FlightRow::cell),
+      value("step", "m", "How far the rod flies in a step.", [](const FlightRow& r) { return step_length(r.cell); }),
+      tunneled_columns<FlightRow>(), timing_columns<FlightRow>());
+  return table("flights", "Every cell of a spinning rod's flight at the wall, at every method.", columns, rows);
+}
+
+Table passes_table(const std::vector<PassRow>& rows) {
+  const auto columns = columns_of<PassRow>(
+      text("method", "Way of detecting the hit.", &PassRow::method), blade_factors().columns(&PassRow::cell),
+      value("window_deg", "deg", "How far the blade turns while it touches the post.",
+            [](const PassRow& r) { return 2 * half_window(r.cell) / radians(1); }),
+      tunneled_columns<PassRow>(), timing_columns<PassRow>());
+  return table("passes", "Every cell of a blade that turns past the post, at every method.", columns, rows);
+}
+
+/// A method over all of its cells, or over those of one spin.
+struct Total {
+  std::string obstacle, method;
+  double spin_deg = 0;
+  Tally tally;
+  double expected = 0;  ///< tunneled, by theory
+  bool has_theory = true;
+
+  std::optional<double> tunneled_theory() const { return has_theory ? std::optional(expected) : std::nullopt; }
+};
+
+template <class Row, class Key>
+void add_totals(const char* obstacle, const std::vector<Row>& rows, const Key& key, std::vector<Total>& totals) {
+  for (const Group<Row>& group : group_by(rows, key)) {
+    Total& total = totals.emplace_back();
+    total.obstacle = obstacle;
+    total.method = group[0]->method;
+    total.tally = total_of(group, &Row::tally);
+    for (const Row* row : group) {
+      total.expected += expected(*row);
+      total.has_theory &= row->theory.has_value();
+    }
+  }
+}
+
+Table methods_table(const std::vector<Total>& totals) {
+  const auto columns = columns_of<Total>(
+      text("obstacle", "What is in the way.", &Total::obstacle),
+      text("method", "Way of detecting the hit.", &Total::method), fields(&Total::tally, {"trials", "tunneled"}),
+      value("expected", "1", "Tunneled by theory; missing where it has none.", &Total::tunneled_theory),
+      share(
+          "late_share", "First hits later than first contact, by more than a millionth of a step.",
+          [](const Total& t) { return t.tally.late; }, [](const Total& t) { return t.tally.detected(); }, "late_"),
+      fields(&Total::tally, {"false_hits", "lateness_max", "gap_min", "gap_max"}),
+      value("looks", "1", "Looks at a pose and closed forms a step.", [](const Total& t) {
+        return static_cast<double>(t.tally.evaluations) / static_cast<double>(t.tally.steps);
+      }));
+  return in_report(table("methods", "Each method over all of its cells, every cell with the same number of trials.",
+                         columns, totals));
+}
+
+/// What a linear sweep finds too late, by spin.
+std::vector<Total> spins_of(const std::vector<FlightRow>& rows) {
+  std::vector<FlightRow> swept;
+  std::ranges::copy_if(rows, std::back_inserter(swept), [](const FlightRow& r) { return r.method == "linear_sweep"; });
+  std::vector<Total> totals;
+  const auto spin = [](const FlightRow& r) { return r.cell.spin_deg; };
+  add_totals("wall", swept, spin, totals);
+  const auto groups = group_by(swept, spin);
+  for (std::size_t i = 0; i < totals.size(); ++i) totals[i].spin_deg = groups[i][0]->cell.spin_deg;
+  return totals;
+}
+
+Table spins_table(const std::vector<Total>& totals) {
+  const auto columns = columns_of<Total>(
+      value("spin_deg", "deg", "How far the rod turns in a step.", &Total::spin_deg),
+      fields(&Total::tally, {"trials", "tunneled"}),
+      share(
+          "late_share", "First hits later than first contact, by more than a millionth of a step.",
+          [](const Total& t) { return t.tally.late; }, [](const Total& t) { return t.tally.detected(); }, "late_"),
+      share(
+          "false_share", "Hits reported in a step by whose end nothing has touched yet.",
+          [](const Total& t) { return t.tally.false_hits; }, [](const Total& t) { return t.tally.detected(); },
+          "false_"),
+      fields(&Total::tally, {"lateness_max", "gap_min", "gap_max"}));
+  return in_report(table("linear_sweep",
+                         "A linear sweep at the wall, which leaves the spin out, over all cells of a spin.", columns,
+                         totals));
+}
+
+// The self-test: counts against theory, and hits against what each method claims.
+
+template <class Row>
+void add_counts(const char* obstacle, const std::vector<Row>& rows, std::vector<CellCount>& counts) {
+  for (const Row& r : rows) {
+    if (r.theory) counts.push_back({r.method, obstacle, r.tally.trials, r.tally.tunneled, *r.theory});
+  }
+}
+
+Table counts_table(const std::vector<SelfTest>& tests) {
+  Table table = self_test_table(tests);
+  table.description = "Tunneled trials against theory, over all cells of a method at an obstacle at once.";
+  for (Column& column : table.columns) {
+    if (column.name == "scalar") column = {"obstacle", ColumnType::text, "", "What is in the way."};
+  }
+  return table;
+}
+
+struct ClaimTest {
+  std::string method;
+  std::int64_t cells = 0;      ///< in which anything was detected
+  std::int64_t late = 0;       ///< ... with a hit after first contact, of a method that is never late
+  std::int64_t apart = 0;      ///< ... with a hit at a gap wider than the method says, and rounding explains
+  std::int64_t undecided = 0;  ///< ... with a trial that it gave up on
+  bool passed() const { return late == 0 && apart == 0 && undecided == 0; }
+};
+
+template <class Row> void add_claims(const std::vector<Row>& rows, std::vector<ClaimTest>& tests) {
+  for (const Row& r : rows) {
+    auto found = std::ranges::find(tests, r.method, &ClaimTest::method);
+    if (found == tests.end()) {
+      tests.emplace_back();
+      found = tests.end() - 1;
+      found->method = r.method;
+    }
+    found->undecided += r.tally.undecided > 0 ? 1 : 0;
+    if (r.tally.detected() == 0) continue;
+    ++found->cells;
+    if (r.claims.never_late && r.tally.latest > 0) ++found->late;
+    if (!r.claims.most_gap) continue;
+    if (r.tally.widest > *r.claims.most_gap * path_of(r.cell) + resolution(r.cell)) ++found->apart;
+  }
+}
+
+Table claims_table(const std::vector<ClaimTest>& tests) {
+  using T = ClaimTest;
+  const auto columns = columns_of<T>(
+      text("method", "Way of detecting the hit.", &T::method),
+      value("cells", "1", "Cells in which it reported a hit.", &T::cells),
+      value("late", "1", "Cells with a hit after first contact, of a method that is never late; must be 0.", &T::late),
+      value("apart", "1", "Cells with a hit at a gap wider than its tolerance and rounding; must be 0.", &T::apart),
+      value("undecided", "1", "Cells with a trial that it gave up on; must be 0.", &T::undecided),
+      value("passed", "", "All of the above hold.", &T::passed));
+  return in_report(table("claims", "Reported hits against what each method claims.", columns, tests));
+}
+
+// What the pictures show.
+
+double nearest(const std::vector<FlightRow>& rows, double RodFlight::*factor, double wanted) {
+  const auto distance = [=](const FlightRow& r) { return std::abs(r.cell.*factor - wanted); };
+  return std::ranges::min_element(rows, {}, distance)->cell.*factor;
+}
+
+std::vector<FlightRow> chosen(const std::vector<FlightRow>& rows, const auto& choice) {
+  std::vector<FlightRow> result;
+  std::ranges::copy_if(rows, std::back_inserter(result), choice);
+  return result;
+}
+
+/// The theory of a method along the step ratio, one curve for each distinct cell but for that, as one series with gaps.
+Series theory_curves(const std::vector<FlightRow>& rows, const std::vector<RodMethod>& methods) {
+  constexpr int points = 200;
+  Series series = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  const auto [least, most] = std::ranges::minmax(rows, {}, [](const FlightRow& r) { return r.cell.step_ratio; });
+  const double from = least.cell.step_ratio, factor = most.cell.step_ratio / from;
+  for (const Group<FlightRow>& group : group_by(
+           rows, [](const FlightRow& r) { return std::pair(r.method, std::pair(r.cell.spin_deg, r.cell.tilt_deg)); })) {
+    const auto method = std::ranges::find(methods, group[0]->method, &RodMethod::name);
+    for (int i = 0; i <= points; ++i) {
+      RodFlight c = group[0]->cell;
+      c.step_ratio = from * std::pow(factor, static_cast<double>(i) / points);
+      series.x.push_back(c.step_ratio);
+      series.y.push_back(method->wall_theory(c).value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    series.x.push_back(most.cell.step_ratio);
+    series.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  return series;
+}
+
+/// The flights with the spin in words.
+Table drawn_table(const std::vector<FlightRow>& rows) {
+  const auto columns = columns_of<FlightRow>(
+      text("method", "", &FlightRow::method), rod_factors().columns(&FlightRow::cell),
+      text("spin", "", [](const FlightRow& r) { return fmt::format("{:g} deg", r.cell.spin_deg); }),
+      tunneled_columns<FlightRow>(), timing_columns<FlightRow>(),
+      value("depth_max", "m", "", [](const FlightRow& r) -> std::optional<double> {
+        if (r.tally.detected() == 0) return std::nullopt;
+        return std::max(0.0, -r.tally.deepest);
+      }));
+  return table("drawn", "", columns, rows);
+}
+
+constexpr const char* step_axis = "step / (w + 2 r + 2 L sin(tilt)) [1]";
+
+/// Tunneling along the step ratio, a series for each spin or method, and the theory.
+Panel tunneled_panel(const std::vector<FlightRow>& rows, const char* by, const std::string& label,
+                     const std::vector<RodMethod>& methods) {
+  Panel panel =
+      plot(drawn_table(rows)).x("step_ratio", Axis::log, step_axis).y("probability", Axis::linear, label).by(by);
+  panel.series.push_back(theory_curves(rows, methods));
+  return panel;
+}
+
+std::vector<Figure> flight_figures(const std::vector<FlightRow>& rows, const std::vector<RodMethod>& methods) {
+  const double tilt = nearest(rows, &RodFlight::tilt_deg, 90), spin = nearest(rows, &RodFlight::spin_deg, 90);
+  const auto tilted = chosen(rows, [=](const FlightRow& r) { return r.cell.tilt_deg == tilt; });
+  std::vector<Figure> figures;
+  Figure by_spin = {
+      .name = "probability",
+      .title = "How often a spinning rod flies through the wall unseen",
+      .caption = fmt::format("Share of the flights that tunnel where poses are tested, by how far the rod "
+                             "turns in a step, with 95 % Wilson intervals, and the theory; the axis of "
+                             "spin is tilted by {:g} degrees.",
+                             tilt),
+      .panels = {}};
+  for (const RodMethod& method : methods) {
+    if (method.name != "end_of_step" && !method.name.starts_with("substeps")) continue;
+    const auto its = chosen(tilted, [&](const FlightRow& r) { return r.method == method.name; });
+    by_spin.panels.push_back(tunneled_panel(its, "spin", method.name + " tunneled [1]", methods));
+  }
+  if (!by_spin.panels.empty()) figures.push_back(std::move(by_spin));
+
+  const auto spun = chosen(tilted, [=](const FlightRow& r) { return r.cell.spin_deg == spin; });
+  figures.push_back({.name = "methods",
+                     .title = "How often a spinning rod flies through the wall unseen, by method",
+                     .caption = fmt::format("Share of the flights that tunnel, with 95 % Wilson intervals, and the "
+                                            "theory, at {:g} degrees a step; the axis is tilted by {:g} degrees.",
+                                            spin, tilt),
+                     .panels = {tunneled_panel(spun, "method", "tunneled [1]", methods)}});
+
+  const auto sweeps = chosen(tilted, [](const FlightRow& r) { return r.method == "linear_sweep"; });
+  if (sweeps.empty()) return figures;
+  const auto along = [drawn = drawn_table(sweeps)](const char* column, const char* label) -> Panel {
+    return joined(plot(drawn).x("step_ratio", Axis::log, step_axis).y(column, Axis::linear, label).by("spin"));
+  };
+  figures.push_back(
+      {.name = "linear_sweep",
+       .title = "What a sweep that leaves the spin out sees too late",
+       .caption = fmt::format("linear_sweep, by how far the rod turns in a step; the axis is tilted by {:g} "
+                              "degrees. Above the share of hits later than first contact, with 95 % Wilson "
+                              "intervals; below how deep the rod, as it has turned by then, is at worst.",
+                              tilt),
+       .panels = {along("late_share", "late [1]"), along("depth_max", "depth at worst [m]")}});
+  return figures;
+}
+
+Figure pass_figure(const std::vector<PassRow>& rows, const std::vector<RodMethod>& methods) {
+  Plot passes = plot(passes_table(rows)).x("post_spin_deg", Axis::linear, "spin a step [deg]").by("method");
+  passes.y("probability", Axis::linear, "tunneled [1]");
+  Panel panel = passes;
+  Series curves = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  const auto [least, most] = std::ranges::minmax(rows, {}, [](const PassRow& r) { return r.cell.post_spin_deg; });
+  constexpr int points = 200;
+  for (const RodMethod& method : methods) {
+    for (int i = 0; i <= points; ++i) {
+      BladePass c = rows[0].cell;
+      c.post_spin_deg = std::lerp(least.cell.post_spin_deg, most.cell.post_spin_deg, static_cast<double>(i) / points);
+      curves.x.push_back(c.post_spin_deg);
+      curves.y.push_back(method.post_theory(c).value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    curves.x.push_back(most.cell.post_spin_deg);
+    curves.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  panel.series.push_back(std::move(curves));
+  return {
+      .name = "post",
+      .title = "How often a blade turns past a post unseen",
+      .caption = fmt::format("Share of the passes that tunnel, with 95 % Wilson intervals, and the theory. The blade "
+                             "touches the post over {:.3g} degrees; linear_sweep and end_of_step, both without a "
+                             "path to sweep, are the same.",
+                             2 * half_window(rows[0].cell) / radians(1)),
+      .panels = {std::move(panel)}};
+}
+
+// What it says.
+
+std::string percent(double x) { return fmt::format("{:.1f} %", 100 * x); }
+
+double share_of(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+/// The share that tunneled, and by theory where that is neither 0 nor 1.
+std::string tunneled_text(const Total& total) {
+  const double share = share_of(total.tally.tunneled, total.tally.trials);
+  if (!total.has_theory || total.expected == 0) return total.tally.tunneled == 0 ? "none" : percent(share);
+  return fmt::format("{} (theory {})", percent(share),
+                     percent(total.expected / static_cast<double>(total.tally.trials)));
+}
+
+std::string method_answer(const Total& wall, const Total& post) {
+  const Tally& t = wall.tally;
+  std::string text = fmt::format("{} lets {} of the rods through the wall and {} of the blades past the post",
+                                 wall.method, tunneled_text(wall), tunneled_text(post));
+  if (t.late == 0 && t.detected() > 0) text += ", and is never late at the wall";
+  if (t.late > 0 && t.tunneled == 0) {
+    text += fmt::format(", but finds {} of the rods too late, by up to {:.2g} of a step and {:.2g} m deep",
+                        percent(share_of(t.late, t.detected())), t.latest, -t.deepest);
+  }
+  if (t.false_hits > 0)
+    text += fmt::format("; {} of its hits are false", percent(share_of(t.false_hits, t.detected())));
+  return text + ". ";
+}
+
+Outcome outcome_of(const std::vector<FlightRow>& flights, const std::vector<PassRow>& passes,
+                   const std::vector<RodMethod>& methods) {
+  std::vector<Total> walls, totals;
+  add_totals("wall", flights, &FlightRow::method, walls);
+  totals = walls;
+  add_totals("post", passes, &PassRow::method, totals);
+  std::vector<CellCount> counts;
+  add_counts("wall", flights, counts);
+  add_counts("post", passes, counts);
+  const std::vector<SelfTest> tests = self_test(counts);
+  std::vector<ClaimTest> claims;
+  add_claims(flights, claims);
+  add_claims(passes, claims);
+  const bool claims_hold = std::ranges::all_of(claims, &ClaimTest::passed);
+  const std::vector<Total> spins = spins_of(flights);
+
+  Outcome out;
+  for (std::size_t i = 0; i < walls.size(); ++i) out.answer += method_answer(walls[i], totals[walls.size() + i]);
+  out.answer.pop_back();
+  out.tables = {methods_table(totals), counts_table(tests), claims_table(claims), flights_table(flights),
+                passes_table(passes)};
+  out.summary = terminal(out.tables[0], {"obstacle", "method", "trials", "tunneled", "expected", "late_share",
+                                         "false_hits", "lateness_max", "gap_min"});
+  if (!spins.empty()) {
+    out.tables.insert(out.tables.begin() + 1, spins_table(spins));
+    out.summary += "\nlinear_sweep at the wall:\n" + terminal(out.tables[1]);
+  }
+  out.summary += fmt::format("\nSelf-test: counts {}, claims {}.\n", all_passed(tests) ? "passed" : "FAILED",
+                             claims_hold ? "passed" : "FAILED");
+  out.figures = flight_figures(flights, methods);
+  out.figures.push_back(pass_figure(passes, methods));
+  out.sections = {{"Self-test", self_test_text(tests)}};
+  out.self_test_passed = all_passed(tests) && claims_hold;
+  return out;
+}
+
+std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
+  const std::vector<RodMethod> methods =
+      rod_methods(settings.choices_or_all("method", rod_method_names()),
+                  settings.integers("substeps", least_rod_substeps, most_rod_substeps));
+  const std::int64_t trials = settings.trials("flights", 1, most_rod_trials, options.trials);
+  std::vector<FlightRow> flights;
+  std::vector<PassRow> passes;
+  std::vector<Task<Tally>> flight_tasks, pass_tasks;
+  for (const RodFlight& cell : make_flights(settings, methods.size())) {
+    for (const RodMethod& method : methods) {
+      flights.push_back({cell, method.name, method.claims, method.wall_theory(cell)});
+      flight_tasks.push_back({fmt::format("wall {} {}", rod_factors().key(cell), method.name), trials,
+                              [cell, method, trials, seed = options.seed] { return fly(cell, method, trials, seed); }});
+    }
+  }
+  for (const BladePass& cell : make_passes(settings, methods.size())) {
+    for (const RodMethod& method : methods) {
+      passes.push_back({cell, method.name, method.claims, method.post_theory(cell)});
+      pass_tasks.push_back({fmt::format("post {} {}", blade_factors().key(cell), method.name), trials,
+                            [cell, method, trials, seed = options.seed] { return pass(cell, method, trials, seed); }});
+    }
+  }
+  const auto finish = [flights, passes, methods](const Done<Tally>& flown, const Done<Tally>& passed) {
+    std::vector<FlightRow> all_flights = flights;
+    std::vector<PassRow> all_passes = passes;
+    for (std::size_t i = 0; i < flights.size(); ++i) all_flights[i].tally = flown.results[i];
+    for (std::size_t i = 0; i < passes.size(); ++i) all_passes[i].tally = passed.results[i];
+    return outcome_of(all_flights, all_passes, methods);
+  };
+  return make_run(finish, std::move(flight_tasks), std::move(pass_tasks));
+}
+
+}  // namespace
+
+Experiment spinning_rod_experiment() {
+  return {"spinning_rod",
+          "How often does a rod that spins fly through a thin wall unseen, for each way of detecting the hit?",
+          embedded_toml("spinning_rod"), configure};
+}
+
+}  // namespace thinwall
