@@ -25,7 +25,7 @@ template <class M, class N> M as(const N& x) {
   if constexpr (std::is_same_v<M, N>) {
     return x;
   } else {
-    return M(x);
+    return static_cast<M>(x);
   }
 }
 template <class M, class V> Triple<M> as_triple(const V& v) { return {as<M>(v[0]), as<M>(v[1]), as<M>(v[2])}; }

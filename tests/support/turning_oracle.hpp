@@ -85,6 +85,24 @@ template <class N> N core_support(const Spinner<N>& body, const Triple<N>& n, in
   return sum;
 }
 
+/// The plane's normal, of any length.
+template <class N, class M> Arc<N> plane_at(const Spinners<N>& pair, const PlaneHint<M>& hint, const N& time) {
+  const Spinner<N>&a = pair.a, &b = pair.b;
+  const Triple<N> zero = {N(0), N(0), N(0)};
+  switch (hint.kind) {
+    case Kind<M>::with_a: return a.arc(a.arm(plane_normal(a, hint)), a.phase(time));
+    case Kind<M>::with_b: return b.arc(b.arm(plane_normal(b, hint)), b.phase(time));
+    case Kind<M>::edges: {
+      const auto first = static_cast<std::size_t>(hint.first), second = static_cast<std::size_t>(hint.second);
+      Arc<N> p = a.arc(a.edges[first], a.phase(time)), q = b.arc(b.edges[second], b.phase(time));
+      if (hint.flipped) std::swap(p, q);
+      return {cross(p.place, q.place), cross(p.speed, q.place) + cross(p.place, q.speed),
+              cross(p.pull, q.place) + N(2) * cross(p.speed, q.speed) + cross(p.place, q.pull)};
+    }
+    default: return {as_triple<N>(hint.normal), zero, zero};
+  }
+}
+
 /// The gap across the plane in the neighborhood of a time; with a ball of times, of each of them.
 template <class N, class M>
 GapJets<N> gap_jets(const Spinners<N>& pair, const PlaneHint<M>& hint, const N& time, const N& slack) {
@@ -96,19 +114,13 @@ GapJets<N> gap_jets(const Spinners<N>& pair, const PlaneHint<M>& hint, const N& 
   const bool with_a = hint.kind == Kind<M>::with_a, with_b = hint.kind == Kind<M>::with_b;
   const bool edges = hint.kind == Kind<M>::edges;
   GapJets<N> gap;
-  Arc<N> n;
+  const Arc<N> n = plane_at(pair, hint, time);
   if (edges) {
-    const auto first = static_cast<std::size_t>(hint.first), second = static_cast<std::size_t>(hint.second);
-    Arc<N> p = a.arc(a.edges[first], of_a), q = b.arc(b.edges[second], of_b);
-    if (hint.flipped) std::swap(p, q);
-    n = {cross(p.place, q.place), cross(p.speed, q.place) + cross(p.place, q.speed),
-         cross(p.pull, q.place) + N(2) * cross(p.speed, q.speed) + cross(p.place, q.pull)};
     const N length = sqrt(dot(n.place, n.place)), rate = dot(n.place, n.speed) / length;
     const N bend = N(dot(n.speed, n.speed) + dot(n.place, n.pull) - rate * rate) / length;
     gap.apart -= {N(radius * length), N(radius * rate), N(radius * bend)};
   } else {
     const Triple<N> normal = with_b ? plane_normal(b, hint) : plane_normal(a, hint);
-    n = with_a ? a.arc(a.arm(normal), of_a) : with_b ? b.arc(b.arm(normal), of_b) : Arc<N>{normal, zero, zero};
     N reach = radius * N(sqrt(dot(normal, normal)));
     if (with_a) reach += core_support(a, normal, 1);
     if (with_b) reach += core_support(b, normal, -1);
@@ -419,9 +431,7 @@ template <class A, class B> class TurningOracle {
     const N least = std::numeric_limits<N>::epsilon() * (std::is_same_v<N, double> ? 4 : N(1e8));
     while (time < end && intervals < patience) {
       const Separation<N> closest = separation(posed(pair.a, a_.shape, time), posed(pair.b, b_.shape, time));
-      if (!(closest.distance > N(slack))) break;
-      std::vector<PlaneHint<N>> hints =
-          plane_hints(pair, Triple<N>{closest.normal[0], closest.normal[1], closest.normal[2]}, time);
+      std::vector<PlaneHint<N>> hints = hints_of(pair, closest, time);
       if (pair.a.angle + pair.b.angle > N(2)) {
         hints.push_back({Kind<N>::orbits, {closest.normal[0], closest.normal[1], closest.normal[2]}});
       }
@@ -435,6 +445,7 @@ template <class A, class B> class TurningOracle {
         if (next > time && parts(proof, best, time, next, slack_ball)) {
           gained = next - time;
           time = next;
+          if (best.kind != Kind<N>::orbits) last_ = as_triple<Time>(plane_at(pair, best, time).place);
           ++intervals;
           break;
         }
@@ -443,6 +454,17 @@ template <class A, class B> class TurningOracle {
       if (!(gained > N(0))) break;
     }
     return Time(time);
+  }
+
+  /// Of the closest points, and of the last plane: touching boxes have any closest points.
+  template <class N>
+  std::vector<PlaneHint<N>> hints_of(const Spinners<N>& pair, const Separation<N>& closest, const N& time) const {
+    const Triple<N> normal = {closest.normal[0], closest.normal[1], closest.normal[2]};
+    std::vector<PlaneHint<N>> hints = plane_hints(pair, normal, time);
+    if (!std::is_same_v<N, Time> || !last_) return hints;
+    const std::vector<PlaneHint<N>> more = plane_hints(pair, as_triple<N>(*last_), time);
+    hints.insert(hints.end(), more.begin(), more.end());
+    return hints;
   }
 
   /// The core's point nearest to `wanted`, [length] from its center, as shares of its arms, of which none is more than `most`. A box's arms are at
@@ -546,29 +568,79 @@ template <class A, class B> class TurningOracle {
     return false;
   }
 
-  /// For two boxes: a point of A that solves to shares of B's arms below 1. Both are shrunk by a guess of how deep they are.
+  /// For two boxes: a point of A that solves to shares of B's arms below 1, or the other way round. It is a corner's, or where two edges
+  /// cross, and drawn inside by a guess of how deep that is; or found by projecting on both boxes, shrunk.
   bool has_shared_point(const Time& time) {
     const Spinners<Time>& pair = *fine_;
-    const Spinners<Ball>& proof = *fine_proof_;
-    if (pair.a.corners || pair.b.corners || pair.a.arms.size() != 3 || pair.b.arms.size() != 3) return false;
+    if (pair.a.arms.size() != 3 || pair.b.arms.size() != 3 || pair.a.corners || pair.b.corners) return false;
     const Separation<Time> deepest = separation(posed(pair.a, a_.shape, time), posed(pair.b, b_.shape, time));
-    const Vec3<Time> middle = (deepest.point_a + deepest.point_b) / 2;
     const Triple<Time> center = pair.a.center_at(time), between = pair.b.center_at(time) - center;
     const std::vector<Triple<Time>> arms_a = arms_at(pair.a, time), arms_b = arms_at(pair.b, time);
     const Ball at(time);
-    const std::vector<Triple<Ball>> balls_a = arms_at(proof.a, at), balls_b = arms_at(proof.b, at);
-    const Triple<Ball> way = proof.between + at * proof.path;
-    for (Time less = ldexp(Time(1), -2); less > ldexp(Time(1), -130); less = ldexp(less, -8)) {
+    const std::vector<Triple<Ball>> balls_a = arms_at(fine_proof_->a, at), balls_b = arms_at(fine_proof_->b, at);
+    const Triple<Ball> way = fine_proof_->between + at * fine_proof_->path;
+    const auto of_a_in_b = [&](const std::vector<Time>& x) {
+      const auto in_a = point(fine_proof_->a, balls_a, x);
+      return in_a && solves(balls_b, *in_a - way);
+    };
+    const auto of_b_in_a = [&](const std::vector<Time>& x) {
+      const auto in_b = point(fine_proof_->b, balls_b, x);
+      return in_b && solves(balls_a, *in_b + way);
+    };
+    std::vector<PlaneHint<Time>> hints = hints_of(pair, deepest, time);
+    for (PlaneHint<Time>& hint : hints) {
+      const GapJets<Time> gap = gap_jets(pair, hint, time, Time(0));
+      const Arc<Time> n = plane_at(pair, hint, time);
+      hint.until = active(gap).value / sqrt(dot(n.place, n.place));
+    }
+    std::sort(hints.begin(), hints.end(), [](const auto& x, const auto& y) { return x.until > y.until; });
+    hints.resize(std::min(hints.size(), std::size_t{6}));
+    for (const PlaneHint<Time>& hint : hints) {
+      const Triple<Time> n = plane_at(pair, hint, time).place;
+      std::vector<Time> x = extreme_shares(arms_a, n, 1), y = extreme_shares(arms_b, n, -1);
+      if (hint.kind == Kind<Time>::edges) {
+        cross_edges(arms_a, arms_b, between, x, y, static_cast<std::size_t>(hint.first),
+                    static_cast<std::size_t>(hint.second));
+      }
+      for (Time less = ldexp(Time(1), -2); less > ldexp(Time(1), -140); less = ldexp(less, -6)) {
+        std::vector<Time> in_a = x, in_b = y;
+        for (std::vector<Time>* both : {&in_a, &in_b}) {
+          for (Time& share : *both) share *= Time(1) - less;
+        }
+        if (of_a_in_b(in_a) || of_b_in_a(in_b)) return true;
+      }
+    }
+    const Vec3<Time> middle = (deepest.point_a + deepest.point_b) / 2;
+    for (Time less = ldexp(Time(1), -2); less > ldexp(Time(1), -130); less = ldexp(less, -12)) {
       Triple<Time> wanted = Triple<Time>{middle[0], middle[1], middle[2]} - center;
-      for (int round = 0; round < 12; ++round) {
+      for (int round = 0; round < 8; ++round) {
         const std::vector<Time> x = shares(pair.a, arms_a, wanted, Time(1 - less));
-        const auto in_a = point(proof.a, balls_a, x);
-        if (in_a && solves(balls_b, *in_a - way)) return true;
+        if (of_a_in_b(x)) return true;
         const Triple<Time> near = *point(pair.a, arms_a, x) - between;
         wanted = between + *point(pair.b, arms_b, shares(pair.b, arms_b, near, Time(1 - less)));
       }
     }
     return false;
+  }
+  /// The corner that is farthest along n, or against it.
+  static std::vector<Time> extreme_shares(const std::vector<Triple<Time>>& arms, const Triple<Time>& n, int side) {
+    std::vector<Time> made;
+    for (const Triple<Time>& arm : arms) made.push_back(Time(side * dot(arm, n) < 0 ? -1 : 1));
+    return made;
+  }
+  /// Where two edges pass nearest to each other.
+  static void cross_edges(const std::vector<Triple<Time>>& arms_a, const std::vector<Triple<Time>>& arms_b,
+                          const Triple<Time>& between, std::vector<Time>& x, std::vector<Time>& y, std::size_t i,
+                          std::size_t j) {
+    x[i] = 0;
+    y[j] = 0;
+    Triple<Time> way = between;
+    for (std::size_t k = 0; k < 3; ++k) way = way + y[k] * arms_b[k] - x[k] * arms_a[k];
+    const Triple<Time>&p = arms_a[i], &q = arms_b[j];  // the way between the lines is way + s q - r p
+    const Time pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), det = pp * qq - pq * pq;
+    if (!(det > 0)) return;
+    x[i] = (qq * dot(way, p) - pq * dot(way, q)) / det;
+    y[j] = (pq * dot(way, p) - pp * dot(way, q)) / det;
   }
   static bool solves(const std::vector<Triple<Ball>>& arms, const Triple<Ball>& from) {
     const Triple<Ball>&x = arms[0], &y = arms[1], &z = arms[2];
@@ -583,6 +655,7 @@ template <class A, class B> class TurningOracle {
   std::optional<Spinners<Ball>> proof_;
   std::optional<Spinners<Time>> fine_;
   std::optional<Spinners<Ball>> fine_proof_;
+  std::optional<Triple<Time>> last_;  ///< normal of the last plane that proved something
 };
 
 }  // namespace thinwall::oracle
