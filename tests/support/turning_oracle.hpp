@@ -312,6 +312,39 @@ std::vector<PlaneHint<N>> plane_hints(const Spinners<N>& pair, const Triple<N>& 
   return hints;
 }
 
+/// The unit normal, from this one on, across which whole orbits are farthest apart: uphill in ever smaller steps.
+template <class N> Triple<N> across_orbits(const Spinners<N>& pair, const Triple<N>& from, const N& time) {
+  using std::sqrt;
+  const auto unit = [](const Triple<N>& v) { return N(N(1) / N(sqrt(dot(v, v)))) * v; };
+  const auto gap = [&](const Triple<N>& n) { return gap_of_orbits(pair, n, time, N(0)); };
+  Triple<N> best = from;
+  N most = gap(best);
+  const Triple<N> way = pair.between + time * pair.path;
+  if (dot(way, way) > N(0)) {
+    const N between = gap(unit(way));
+    if (between > most) {
+      most = between;
+      best = unit(way);
+    }
+  }
+  for (N step = N(0.5); step > N(1e-3);) {
+    bool better = false;
+    for (int k = 0; k < 6; ++k) {
+      Triple<N> other = best;
+      other[static_cast<std::size_t>(k / 2)] += k % 2 == 0 ? step : N(-step);
+      if (!(dot(other, other) > N(0))) continue;
+      other = unit(other);
+      const N there = gap(other);
+      if (!(there > most)) continue;
+      most = there;
+      best = other;
+      better = true;
+    }
+    if (!better) step = N(step / N(2));
+  }
+  return best;
+}
+
 /// For how long the plane may part them, from `time` on, `end` at most.
 template <class N>
 N promise(const Spinners<N>& pair, const PlaneHint<N>& hint, const N& time, const N& end, const N& slack) {
@@ -359,8 +392,8 @@ template <class A, class B> class TurningOracle {
     proof_.emplace(a, b);
   }
 
-  int intervals = 0;    ///< proven so far
-  int patience = 4000;  ///< of them at most
+  int intervals = 0;      ///< proven so far
+  int patience = 20'000;  ///< of them at most
 
   /// Until when, `end` at most, they are proven to stay more than `slack` [length] apart, from the start on; 0 if not even at the start.
   Time free_until(const Time& end, double slack = 0) {
@@ -433,7 +466,8 @@ template <class A, class B> class TurningOracle {
       const Separation<N> closest = separation(posed(pair.a, a_.shape, time), posed(pair.b, b_.shape, time));
       std::vector<PlaneHint<N>> hints = hints_of(pair, closest, time);
       if (pair.a.angle + pair.b.angle > N(2)) {
-        hints.push_back({Kind<N>::orbits, {closest.normal[0], closest.normal[1], closest.normal[2]}});
+        const Triple<N> normal = {closest.normal[0], closest.normal[1], closest.normal[2]};
+        hints.push_back({Kind<N>::orbits, across_orbits(pair, normal, time)});
       }
       for (PlaneHint<N>& hint : hints) hint.until = promise(pair, hint, time, end, N(slack));
       N gained = 0;
@@ -529,13 +563,14 @@ template <class A, class B> class TurningOracle {
         if (x[k] < N(0)) return std::nullopt;
         sum = sum + as<M>(x[k]) * (arms[k] - arms[0]);
       }
-      if (x[1] + x[2] > N(1)) {  // rounded, and the proof takes it as it is
-        const M both = as<M>(x[1]) + as<M>(x[2]);
-        const M less = M(1) / both;
-        sum = {sum[0] * less, sum[1] * less, sum[2] * less};
-      } else if constexpr (std::is_same_v<M, Ball>) {
-        if (!(Ball(1) - as<M>(x[1]) - as<M>(x[2])).is_not_negative()) return std::nullopt;
+      const M both = as<M>(x[1]) + as<M>(x[2]);
+      bool beyond = false;  // by rounding
+      if constexpr (std::is_same_v<M, Ball>) {
+        beyond = !(Ball(1) - both).is_not_negative();
+      } else {
+        beyond = both > M(1);
       }
+      if (beyond) sum = {sum[0] / both, sum[1] / both, sum[2] / both};
       return arms[0] + sum;
     }
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -554,16 +589,20 @@ template <class A, class B> class TurningOracle {
     const Ball at(time), reach = proof.a.radius + proof.b.radius + Ball(gap);
     const std::vector<Triple<Ball>> balls_a = arms_at(proof.a, at), balls_b = arms_at(proof.b, at);
     Triple<N> wanted = Triple<N>{closest.point_b[0], closest.point_b[1], closest.point_b[2]} - center;
-    for (int round = 0; round < 24; ++round) {
+    const N enough = pair.a.radius + pair.b.radius + N(gap);
+    constexpr int rounds = std::is_same_v<N, double> ? 4096 : 24;
+    for (int round = 1; round <= rounds; ++round) {
       const std::vector<N> x = shares(pair.a, arms_a, wanted, N(1));
       const auto near = point(pair.a, arms_a, x);
       if (!near) return false;
       const std::vector<N> y = shares(pair.b, arms_b, *near - between, N(1));
+      wanted = between + *point(pair.b, arms_b, y);
+      const Triple<N> rest = wanted - *near;
+      if (round != rounds && round > 2 && dot(rest, rest) > enough * enough) continue;
       const auto in_a = point(proof.a, balls_a, x), in_b = point(proof.b, balls_b, y);
       if (!in_a || !in_b) return false;
       const Triple<Ball> way = proof.between + at * proof.path + *in_b - *in_a;
       if ((reach * reach - dot(way, way)).is_not_negative()) return true;
-      wanted = between + *point(pair.b, arms_b, y);
     }
     return false;
   }
