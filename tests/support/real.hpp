@@ -58,8 +58,8 @@ template <class N> Triple<N> operator*(const N& s, const Triple<N>& a) {
   return {N(s * a[0]), N(s * a[1]), N(s * a[2])};
 }
 template <class N> N dot(const Triple<N>& a, const Triple<N>& b) { return N(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
-inline Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+template <class N> Triple<N> cross(const Triple<N>& a, const Triple<N>& b) {
+  return {N(a[1] * b[2] - a[2] * b[1]), N(a[2] * b[0] - a[0] * b[2]), N(a[0] * b[1] - a[1] * b[0])};
 }
 inline Real length(const Vector& a) { return sqrt(dot(a, a)); }
 

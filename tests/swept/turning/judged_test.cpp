@@ -1,0 +1,132 @@
+// Every time of impact of what turns, judged by the oracle, on motions drawn to be hard: nothing touches before the answered time, a hit
+// is near by then, and what is called apart is proven apart.
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <thinwall/swept/turning/turning_certified.hpp>
+
+#include "support/thorough.hpp"
+#include "support/turning_motions.hpp"
+#include "support/turning_oracle.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+using oracle::TurningOracle;
+
+/// What the answers were.
+struct Tally {
+  int motions = 0, apart = 0, hit = 0, overlapping = 0, gave_up = 0;
+  int frantic = 0;  ///< motions of a million radians, of which one may give up as many
+};
+
+/// [length] a step: no point of either is faster.
+template <class A> double fastest(const Turning<A>& m) {
+  const oracle::Spinner<double> body(m);
+  double far = 0;
+  for (const auto& arm : body.arms) {
+    const double square = oracle::dot(arm.start, arm.start);
+    far = body.corners ? std::max(far, square) : far + square;
+  }
+  return std::sqrt(m.displacement.squaredNorm()) + body.angle * std::sqrt(far);
+}
+
+/// [length] how much a plain computation may be off by: a multiple of the last place of what goes in.
+template <class A, class B> double rounding(const Turning<A>& a, const Turning<B>& b) {
+  const double turns = 1 + (std::sqrt(a.rotation.squaredNorm()) + std::sqrt(b.rotation.squaredNorm())) / 4;
+  return 0x1p-43 * turns * (1 + magnitude(a) + magnitude(b));
+}
+
+template <class A> std::string shown(const Turning<A>& m) {
+  const oracle::Spinner<double> body(m);
+  std::ostringstream out;
+  out << std::hexfloat;
+  const auto show = [&](const oracle::Triple<double>& v) {
+    out << " {" << v[0] << ", " << v[1] << ", " << v[2] << "}";
+  };
+  out << "center";
+  show(body.center);
+  out << " radius " << body.radius << " arms";
+  for (const auto& arm : body.arms) show(arm.start);
+  out << " path";
+  show(body.path);
+  out << " rotation {" << m.rotation[0] << ", " << m.rotation[1] << ", " << m.rotation[2] << "}\n";
+  return out.str();
+}
+
+/// What is wrong with an answer of a method that is never late; nothing if all is right.
+template <class A, class B>
+std::string wrong_with(const Turning<A>& a, const Turning<B>& b, const Toi<double>& toi, double tolerance) {
+  TurningOracle<A, B> oracle(a, b);
+  const double allowed = std::max(tolerance * (fastest(a) + fastest(b)), rounding(a, b));
+  if (toi.status == ToiStatus::invalid) return "invalid";
+  if (!(toi.time >= 0 && toi.time <= 1)) return "a time out of range";
+  if (toi.status == ToiStatus::overlapping) {
+    if (toi.time != 0) return "overlapping at a time";
+    return oracle.within(0, rounding(a, b)) ? "" : "overlapping what is apart";
+  }
+  if (toi.status == ToiStatus::apart && toi.time != 1) return "apart before the end";
+  if (toi.status == ToiStatus::hit && !oracle.within(toi.time, allowed)) return "a hit of what is not near";
+  if (toi.time == 0) return "";
+  const auto proven = static_cast<double>(oracle.free_until(toi.time));
+  if (proven >= toi.time) return "";
+  if (oracle.intervals >= oracle.patience) return "out of patience at " + std::to_string(proven);
+  return (toi.status == ToiStatus::apart ? "missed, or not proven apart, at " : "late, or not proven free, at ") +
+         std::to_string(proven);
+}
+
+template <class A, class B>
+void judge(const Turning<A>& a, const Turning<B>& b, const Toi<double>& toi, double tolerance, Tally& tally) {
+  const std::string wrong = wrong_with(a, b, toi, tolerance);
+  EXPECT_EQ(wrong, "") << "status " << static_cast<int>(toi.status) << " time " << toi.time << "\n"
+                       << shown(a) << shown(b);
+  ++tally.motions;
+  tally.apart += toi.status == ToiStatus::apart ? 1 : 0;
+  tally.hit += toi.status == ToiStatus::hit ? 1 : 0;
+  tally.overlapping += toi.status == ToiStatus::overlapping ? 1 : 0;
+  tally.gave_up += toi.status == ToiStatus::gave_up ? 1 : 0;
+}
+
+/// A motion of each style in turn, aimed in each way in turn.
+template <class A, class B, class Ask> Tally judge_motions(std::size_t count, const Ask& ask) {
+  Tally tally;
+  MotionDraw draw(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto style = static_cast<MotionStyle>(i % motion_styles);
+    const auto aim = static_cast<Aim>(i / motion_styles % 4);
+    const auto [a, b] = draw.motion<A, B>(style, aim);
+    ask(a, b, tally);
+    tally.frantic += style == MotionStyle::frantic ? 1 : 0;
+  }
+  ::testing::Test::RecordProperty("motions", tally.motions);
+  ::testing::Test::RecordProperty("hits", tally.hit);
+  ::testing::Test::RecordProperty("gave_up", tally.gave_up);
+  EXPECT_GT(tally.apart, tally.motions / 10);
+  EXPECT_GT(tally.hit, tally.motions / 10);
+  EXPECT_LE(tally.gave_up, tally.frantic + tally.motions / 200);
+  return tally;
+}
+
+const std::size_t motions = thorough(slow_build ? 220 : 2'200);
+
+template <class A, class B> Tally judge_pair() {
+  return judge_motions<A, B>(motions, [](const Turning<A>& a, const Turning<B>& b, Tally& tally) {
+    judge(a, b, time_of_impact(a, b), ConservativeAdvancement<double>{}.tolerance, tally);
+  });
+}
+
+TEST(JudgedTurning, sphere_and_sphere) { judge_pair<Sphere<double>, Sphere<double>>(); }
+TEST(JudgedTurning, capsule_and_sphere) { judge_pair<Capsule<double>, Sphere<double>>(); }
+TEST(JudgedTurning, capsule_and_capsule) { judge_pair<Capsule<double>, Capsule<double>>(); }
+TEST(JudgedTurning, box_and_sphere) { judge_pair<Obb<double>, Sphere<double>>(); }
+TEST(JudgedTurning, box_and_capsule) { judge_pair<Obb<double>, Capsule<double>>(); }
+TEST(JudgedTurning, box_and_box) { judge_pair<Obb<double>, Obb<double>>(); }
+TEST(JudgedTurning, triangle_and_sphere) { judge_pair<Triangle<double>, Sphere<double>>(); }
+TEST(JudgedTurning, triangle_and_capsule) { judge_pair<Triangle<double>, Capsule<double>>(); }
+
+}  // namespace
+}  // namespace thinwall::testing
