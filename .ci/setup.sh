@@ -13,7 +13,7 @@ program_commands=(c++ cmake ninja git gnuplot)
 page_packages=(clang-16 lld-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 libclang-rt-16-dev-wasm32 wasi-libc)
 
 # To build and run the tests and benchmarks as well.
-test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libhwy-dev libopenmpi-dev openmpi-bin)
+test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libhwy-dev libopenmpi-dev openmpi-bin libflint-dev libflint-arb-dev)
 
 # To check everything else. clang-format 16 is the first to lay out `requires` clauses well; the compiler is the oldest
 # we support; libclang-rt holds its sanitizers and libFuzzer.
