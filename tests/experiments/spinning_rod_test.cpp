@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/spinning_rod/methods.hpp>
 
