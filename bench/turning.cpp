@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include <thinwall/swept/turning/turning_certified.hpp>
+#include <thinwall/swept/certified/turning_certified.hpp>
 
 #include "errors.hpp"
 

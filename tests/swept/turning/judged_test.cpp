@@ -7,7 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <thinwall/swept/turning/turning_certified.hpp>
+#include <thinwall/swept/certified/turning_certified.hpp>
 
 #include "support/thorough.hpp"
 #include "support/turning_motions.hpp"

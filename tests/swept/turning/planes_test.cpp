@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <random>
+#include <thinwall/swept/certified/turning_certified.hpp>
 #include <thinwall/swept/turning/turning_bounds.hpp>
-#include <thinwall/swept/turning/turning_certified.hpp>
 
 #include <gtest/gtest.h>
 
