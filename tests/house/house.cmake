@@ -2,12 +2,12 @@
 set(house "${CMAKE_CURRENT_LIST_DIR}")
 
 # Every header alone: one file a header, which includes it twice and nothing else. A broken one stops the build.
-# `all_FOLDER.cpp` includes a whole folder: one file for clang-tidy to read, never built.
+# `all.cpp` includes them all: one file for clang-tidy to read, never built.
+set(all "${CMAKE_CURRENT_BINARY_DIR}/headers/all.cpp")
+set(all_includes "")
 foreach(folder IN ITEMS discrete capsule swept experiments)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/${folder}" "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
   set(sources "")
-  set(all "${CMAKE_CURRENT_BINARY_DIR}/headers/all_${folder}.cpp")
-  set(all_includes "")
   foreach(header IN LISTS headers)
     set(source "${CMAKE_CURRENT_BINARY_DIR}/headers/${folder}/${header}.cpp")
     set(include "#include <thinwall/${folder}/${header}>\n")
@@ -15,23 +15,22 @@ foreach(folder IN ITEMS discrete capsule swept experiments)
     list(APPEND sources "${source}")
     string(APPEND all_includes "${include}")
   endforeach()
-  file(CONFIGURE OUTPUT "${all}" CONTENT "${all_includes}" @ONLY)
 
   add_library(headers_alone_${folder} OBJECT ${sources})
   target_compile_options(headers_alone_${folder} PRIVATE -O0 -g0)
-  add_library(headers_all_${folder} OBJECT EXCLUDE_FROM_ALL "${all}")
-  foreach(target IN ITEMS headers_alone_${folder} headers_all_${folder})
-    target_link_libraries(${target} PRIVATE thinwall::${folder} thinwall_options)
-    if(folder STREQUAL "discrete")
-      target_link_libraries(${target} PRIVATE Boost::headers)  # the broad phase's R-tree
-    elseif(folder STREQUAL "swept")
-      target_link_libraries(${target} PRIVATE thinwall::certified)  # its headers lie there
-    endif()
-  endforeach()
+  target_link_libraries(headers_alone_${folder} PRIVATE thinwall::${folder} thinwall_options)
+  if(folder STREQUAL "discrete")
+    target_link_libraries(headers_alone_${folder} PRIVATE Boost::headers)  # the broad phase's R-tree
+  elseif(folder STREQUAL "swept")
+    target_link_libraries(headers_alone_${folder} PRIVATE thinwall::certified)  # its headers lie there
+  endif()
   if(NOT THINWALL_HEADERS_ALONE)
     set_target_properties(headers_alone_${folder} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
 endforeach()
+file(CONFIGURE OUTPUT "${all}" CONTENT "${all_includes}" @ONLY)
+add_library(headers_all OBJECT EXCLUDE_FROM_ALL "${all}")
+target_link_libraries(headers_all PRIVATE thinwall::experiments thinwall::certified thinwall_options)
 
 # Dependencies point one way, and the check itself is checked on trees that break each rule.
 add_test(NAME house/include_direction
