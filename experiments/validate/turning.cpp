@@ -220,10 +220,17 @@ template <class A> double fastest_point(const Turning<A>& m) {
   return norm<double>(m.displacement) + norm<double>(m.rotation) * farthest;
 }
 
-/// [length] what rounding may add to a gap.
+template <class A> double radius_of(const A& shape) {
+  if constexpr (requires { shape.radius; }) return shape.radius;
+  return 0;
+}
+
+/// [length] what rounding may hide of a gap. Where neither has a radius, the direction between closest points is lost before the gap is.
 template <class A, class B> double rounding_of(const Turning<A>& a, const Turning<B>& b) {
+  const double size = magnitude(a) + magnitude(b);
+  if (radius_of(a.shape) + radius_of(b.shape) == 0) return 0x1p-26 * size;
   const double turns = 1 + (norm<double>(a.rotation) + norm<double>(b.rotation)) / 4;
-  return 0x1p-43 * turns * (magnitude(a) + magnitude(b));
+  return 0x1p-43 * turns * size;
 }
 
 /// Counts an answer and says what is wrong with it, if that breaks what the method claims. `contact` [length] is called contact.
@@ -348,7 +355,8 @@ class TurningJudge {
       const Clock::time_point start = Clock::now();
       const TimedAnswer answer = ask(a, b);
       nanoseconds_[i].push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count());
-      const double contact = std::max(tolerance * (fastest_point(a) + fastest_point(b)), rounding_of(a, b));
+      const double contact =
+          tolerance > 0 ? std::max(tolerance * (fastest_point(a) + fastest_point(b)), rounding_of(a, b)) : 0;
       const std::string wrong = judged(answer, truth, contact, method, counts[i]);
       ++i;
       if (wrong.empty()) return;
