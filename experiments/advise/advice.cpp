@@ -57,9 +57,10 @@ std::optional<double> longest_step(const Wish& wish, const std::function<Theory(
 Advice advise(const Wish& wish, std::span<const Candidate> candidates, std::span<const StepCost> costs) {
   Advice advice = {wish, {}};
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Theory theory = candidates[i].theory(wish.cell);
-    advice.rows.push_back(
-        {candidates[i], theory, costs[i], meets_wish(wish, theory), longest_step(wish, candidates[i].theory)});
+    const Candidate& candidate = candidates[i];
+    const Theory theory = candidate.theory(wish.cell);
+    advice.rows.push_back({candidate, theory, costs[i], meets_wish(wish, theory),
+                           longest_step(wish, candidate.at_any_spin ? candidate.at_any_spin : candidate.theory)});
   }
   std::stable_sort(advice.rows.begin(), advice.rows.end(), [](const AdviceRow& a, const AdviceRow& b) {
     return std::tuple(!a.meets, a.cost.dearer().median) < std::tuple(!b.meets, b.cost.dearer().median);
@@ -84,9 +85,9 @@ void ask_certified(std::span<const ShotStep> steps) {
 
 }  // namespace
 
-std::vector<std::int64_t> offered_poses(const Wish& wish) {
+std::vector<std::int64_t> offered_poses(const Wish& wish, const std::function<Theory(int poses)>& theory) {
   std::vector<std::int64_t> poses = {2, 8};
-  const auto meets = [&](int n) { return meets_wish(wish, pose_theory(wish.cell, n)); };
+  const auto meets = [&](int n) { return meets_wish(wish, theory(n)); };
   if (meets(1) || !meets(most_substeps)) return poses;  // nobody needs them, or they are of no use
   int fewer = 1, enough = most_substeps;
   while (enough - fewer > 1) {
@@ -96,6 +97,10 @@ std::vector<std::int64_t> offered_poses(const Wish& wish) {
   if (std::find(poses.begin(), poses.end(), enough) == poses.end()) poses.push_back(enough);
   std::sort(poses.begin(), poses.end());
   return poses;
+}
+
+std::vector<std::int64_t> offered_poses(const Wish& wish) {
+  return offered_poses(wish, [&](int poses) { return pose_theory(wish.cell, poses); });
 }
 
 std::vector<Candidate> candidates(const Wish& wish) {

@@ -13,6 +13,7 @@
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/thin_wall/methods.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/swept/turning.hpp>
 
 namespace thinwall {
 
@@ -21,15 +22,22 @@ namespace thinwall {
 /// [1] What a chance or a ratio may be off by for rounding; a chance no larger is none.
 inline constexpr double no_chance = 0x1p-50;
 
+/// What flies where it is no ball: a rod that tumbles. It spins about its middle, at right angles to an axis in the plane of the wall.
+struct TumblingRod {
+  double length;  ///< [m] end to end, more than twice the radius
+  double spin;    ///< [deg/s] >= 0
+};
+
 struct Wish {
   Cell cell;                        ///< the wall is infinite
   double miss = 0;                  ///< [1] the largest acceptable chance that a shot tunnels, 0 to 1
   std::optional<double> late = {};  ///< [m] >= 0: the farthest a ball may get past first contact before it is seen
+  std::optional<TumblingRod> rod = {};
 };
 
 /// The words behind the options, where given.
 struct WishWords {
-  std::optional<std::string> speed, radius, thickness, angle, step, fps, miss, late;
+  std::optional<std::string> speed, radius, thickness, angle, step, fps, miss, late, length, spin;
 };
 
 /// Throws UsageError.
@@ -39,20 +47,36 @@ Wish read_wish(const WishWords& words);
 // answers. A method added to the list is here by itself; without a theory in thin_wall/methods.cpp it is never
 // advised.
 
+/// A rod's step.
+struct RodStep {
+  Turning<Capsule<double>> rod;
+  Moving<Obb<double>> wall;
+};
+
 struct Candidate {
   std::string name;  ///< as the thin wall calls it: substeps_8
   int poses;         ///< [1] that it tests a step and nothing else; 0 if it does more
   bool fired;        ///< the thin wall can fire it
   std::function<Theory(const Cell&)> theory;
-  std::function<void(std::span<const ShotStep>)> ask;  ///< to be timed
+  std::function<void(std::span<const ShotStep>)> ask = {};     ///< to be timed
+  std::function<void(std::span<const RodStep>)> ask_rod = {};  ///< of a rod, in its place
+  std::function<Theory(const Cell&)> at_any_spin =
+      {};  ///< of a rod: as likely to tunnel at least, and more so the longer the step
 };
 
 /// The numbers of poses a step that are offered: 2, 8, and the fewest that meet the wish if they are 2 to 1000.
 std::vector<std::int64_t> offered_poses(const Wish& wish);
+std::vector<std::int64_t> offered_poses(const Wish& wish, const std::function<Theory(int poses)>& theory);
 
 std::vector<Candidate> candidates(const Wish& wish);
 
 Candidate certified_candidate();
+
+/// The same for a rod: the methods that turn. The theory is that of docs/spinning_rod.md.
+std::vector<Candidate> rod_candidates(const Wish& wish);
+
+/// Steps of the rod's flights, `back` steps before the one of first contact.
+std::vector<RodStep> rod_steps(const Wish& wish, std::int64_t count, std::int64_t back);
 
 // ---- What a step costs on this machine, method by method.
 
@@ -78,6 +102,9 @@ struct TimingEffort {
 /// `result[i]` is of `candidates[i]`. Takes about a second at most.
 std::vector<StepCost> measure_costs(const Cell& cell, std::span<const Candidate> candidates,
                                     const TimingEffort& effort = {});
+/// The same of a rod's steps of both kinds.
+std::vector<StepCost> measure_costs(const std::vector<RodStep>& clear, const std::vector<RodStep>& contact,
+                                    std::span<const Candidate> candidates, const TimingEffort& effort = {});
 
 // ---- Which method to take. Nothing is measured or printed in here: costs come in, the advice goes out.
 
@@ -86,7 +113,7 @@ struct AdviceRow {
   Theory theory;  ///< at the step of the wish
   StepCost cost;
   bool meets;                          ///< the wish
-  std::optional<double> longest_step;  ///< [s] at which it would; nothing if it does at none
+  std::optional<double> longest_step;  ///< [s] at which it would, a rod at any spin; nothing if it does at none
 };
 
 struct Advice {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -20,11 +21,45 @@ std::string tunnel_words(double chance) {
   return percent_text(chance) + " of the shots tunnel";
 }
 
-std::string question_words(const Wish& wish) {
+namespace {
+
+std::string angle_words(const Cell& cell) {
+  return cell.angle_deg == 0 ? "head-on" : fmt::format("at {} deg from its normal", exact_text(cell.angle_deg));
+}
+
+/// [m] The path over which a rod touches the wall: where it lies flat, where it stands on end, and the mean over its angles.
+struct RodContact {
+  double flat, on_end, mean;
+};
+RodContact rod_contact(const Wish& wish) {
+  const double flat = wish.cell.thickness + 2 * wish.cell.radius, core = wish.rod->length - 2 * wish.cell.radius;
+  return {flat / cosine(wish.cell), (flat + core) / cosine(wish.cell),
+          (flat + 2 / std::numbers::pi * core) / cosine(wish.cell)};
+}
+
+std::string rod_question_words(const Wish& wish) {
   const Cell& cell = wish.cell;
   const auto number = [](double x) { return rounded_text(x, 4); };
-  const std::string angle =
-      cell.angle_deg == 0 ? "head-on" : fmt::format("at {} deg from its normal", exact_text(cell.angle_deg));
+  const RodContact contact = rod_contact(wish);
+  return wrapped(fmt::format(
+             "A rod {} m long, end to end, and {} m in radius, that spins at {} deg/s, flies at {} m/s at a wall {} m thick, {}, {} "
+             "steps a second.",
+             exact_text(wish.rod->length), exact_text(cell.radius), exact_text(wish.rod->spin), exact_text(cell.speed),
+             exact_text(cell.thickness), angle_words(cell), number(1 / cell.step))) +
+         wrapped(fmt::format(
+             "A step is {} s and {} m long, and the rod turns {} deg in it. It is in contact with the wall over {} m of "
+             "the path where it lies flat to {} m where it stands on end, {} m on average.",
+             number(cell.step), number(step_length(cell)), number(wish.rod->spin * cell.step), number(contact.flat),
+             number(contact.on_end), number(contact.mean)));
+}
+
+}  // namespace
+
+std::string question_words(const Wish& wish) {
+  if (wish.rod) return rod_question_words(wish);
+  const Cell& cell = wish.cell;
+  const auto number = [](double x) { return rounded_text(x, 4); };
+  const std::string angle = angle_words(cell);
   std::string text = wrapped(fmt::format(
       "A ball of radius {} m flies at {} m/s at a wall {} m thick, {}, {} steps a second.", exact_text(cell.radius),
       exact_text(cell.speed), exact_text(cell.thickness), angle, number(1 / cell.step)));
@@ -128,6 +163,11 @@ constexpr const char* limits =
     "step alike. At a wall that ends, a ray from the center misses what only the rim meets, and tested poses are "
     "never safe.";
 
+constexpr const char* rod_limits =
+    "Holds for one infinite wall at rest, straight flight, a rod that spins at a constant rate about an axis in the plane of the "
+    "wall, and a first contact that is anywhere in its step, and of a rod at any angle, alike. The longest step does at any "
+    "spin. Linear sweeps join across such a wall; past a post, or at a rim, they are as blind as a tested pose.";
+
 constexpr const char* header =
     "                           chance of  seen late by up to  time a step [ns]          longest step\n"
     "  method                   tunneling  [m]       [steps]   clear        contact      that does\n";
@@ -176,8 +216,11 @@ std::string formulas_text(const Advice& advice) {
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }
   std::string text =
-      "Formulas: v speed, h step, n poses a step, w thickness, r radius, a angle: docs/tunneling_theory.md.\n"
-      "  method                    chance of tunneling                      seen late by up to [m]\n";
+      advice.wish.rod
+          ? "Formulas: v speed, h step, n poses a step, a angle, b = w + 2r (thickness, radius), c length of the core;\n"
+            "m = max(|cos(D/2) cos p|, |sin(D/2) sin p|), D turned from pose to pose, E mean over p: docs/spinning_rod.md.\n"
+          : "Formulas: v speed, h step, n poses a step, w thickness, r radius, a angle: docs/tunneling_theory.md.\n";
+  text += "  method                    chance of tunneling                      seen late by up to [m]\n";
   for (const std::string& line : lines) text += line;
   return text;
 }
@@ -190,7 +233,7 @@ std::string advice_text(const Advice& advice) {
          wrapped(
              "A clear step ends before the wall, in the next is contact; a query of each, on this machine: the median and a "
              "95 % interval. A method counts by the dearer of the two.") +
-         "\n" + formulas_text(advice) + "\n" + wrapped(limits);
+         "\n" + formulas_text(advice) + "\n" + wrapped(advice.wish.rod ? rod_limits : limits);
 }
 
 namespace {
@@ -229,6 +272,11 @@ ordered_json advice_json(const Advice& advice) {
       {"speed_m_s", cell.speed},       {"radius_m", cell.radius},  {"thickness_m", cell.thickness},
       {"angle_deg", cell.angle_deg},   {"step_s", cell.step},      {"step_m", step_length(cell)},
       {"contact_m", slab_chord(cell)}, {"miss", advice.wish.miss}, {"late_m", optional_number(advice.wish.late)}};
+  if (advice.wish.rod) {
+    json["contact_m"] = rod_contact(advice.wish).mean;
+    json["length_m"] = advice.wish.rod->length;
+    json["spin_deg_s"] = advice.wish.rod->spin;
+  }
   const AdviceRow* best = advice.advised();
   json["method"] = best == nullptr ? ordered_json() : ordered_json(best->method.name);
   json["advice"] = advice_sentence(advice);

@@ -23,16 +23,34 @@ std::vector<ShotStep> steps_before(const Cell& cell, std::int64_t count, double 
   return steps;
 }
 
-std::vector<QueryTime> timed(std::span<const Candidate> candidates, const std::vector<ShotStep>& steps,
+const std::function<void(std::span<const ShotStep>)>& asker(const Candidate& candidate, const ShotStep*) {
+  return candidate.ask;
+}
+const std::function<void(std::span<const RodStep>)>& asker(const Candidate& candidate, const RodStep*) {
+  return candidate.ask_rod;
+}
+
+template <class Step>
+std::vector<QueryTime> timed(std::span<const Candidate> candidates, const std::vector<Step>& steps,
                              const TimingEffort& effort, const RandomStream& stream) {
-  std::vector<TimedLoop<ShotStep>> loops;
-  for (const Candidate& candidate : candidates) loops.push_back({candidate.ask});
-  run_rounds(loops, std::span<const ShotStep>(steps), effort.rounds, effort.round_ns, stream);
+  std::vector<TimedLoop<Step>> loops;
+  for (const Candidate& candidate : candidates) loops.push_back({asker(candidate, steps.data())});
+  run_rounds(loops, std::span<const Step>(steps), effort.rounds, effort.round_ns, stream);
   std::vector<QueryTime> times;
-  for (const TimedLoop<ShotStep>& loop : loops) {
+  for (const TimedLoop<Step>& loop : loops) {
     times.push_back({median(loop.nanoseconds), bootstrap_median(loop.nanoseconds, stream)});
   }
   return times;
+}
+
+template <class Step>
+std::vector<StepCost> costs_of(std::span<const Candidate> candidates, const std::vector<Step>& clear_steps,
+                               const std::vector<Step>& contact_steps, const TimingEffort& effort) {
+  const auto clear = timed(candidates, clear_steps, effort, {0, 1});
+  const auto contact = timed(candidates, contact_steps, effort, {0, 2});
+  std::vector<StepCost> costs;
+  for (std::size_t i = 0; i < candidates.size(); ++i) costs.push_back({clear[i], contact[i]});
+  return costs;
 }
 
 }  // namespace
@@ -43,11 +61,12 @@ std::vector<StepCost> measure_costs(const Cell& cell, std::span<const Candidate>
   Cell even = cell;
   even.speed = 1;
   even.step = std::max(step_length(cell), 1e-4 * slab_chord(cell));
-  const auto clear = timed(candidates, steps_before(even, effort.queries, 1), effort, {0, 1});
-  const auto contact = timed(candidates, steps_before(even, effort.queries, 0), effort, {0, 2});
-  std::vector<StepCost> costs;
-  for (std::size_t i = 0; i < candidates.size(); ++i) costs.push_back({clear[i], contact[i]});
-  return costs;
+  return costs_of(candidates, steps_before(even, effort.queries, 1), steps_before(even, effort.queries, 0), effort);
+}
+
+std::vector<StepCost> measure_costs(const std::vector<RodStep>& clear, const std::vector<RodStep>& contact,
+                                    std::span<const Candidate> candidates, const TimingEffort& effort) {
+  return costs_of(candidates, clear, contact, effort);
 }
 
 }  // namespace thinwall

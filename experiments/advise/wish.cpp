@@ -39,6 +39,27 @@ double read_step(const Word& step, const Word& fps) {
   return 1 / read("--fps", *fps, {.lower = 1 / allowed_step.upper, .upper = 1e12, .unit = "1/s"});
 }
 
+TumblingRod read_rod(const WishWords& words, const Cell& cell) {
+  if (!words.length)
+    throw UsageError("--spin: a ball looks the same however it spins; of a rod, give --length [m] too");
+  constexpr double most_turns = 100;
+  const TumblingRod rod = {
+      read("--length", *words.length, {.lower = 0, .upper = allowed_radius.upper, .lower_open = true, .unit = "m"}),
+      words.spin ? read("--spin", *words.spin, {.lower = 0, .upper = 1e9, .unit = "deg/s"}) : 0};
+  if (!(rod.length > 2 * cell.radius)) {
+    throw UsageError(fmt::format(
+        "--length: a rod {} m long, end to end, is no longer than it is wide, {} m; without --length it is a ball",
+        exact_text(rod.length), exact_text(2 * cell.radius)));
+  }
+  if (!(cell.thickness + 2 * cell.radius > 0))
+    throw UsageError("--radius, --thickness: a rod and a wall of no thickness; one of them must be more than 0 m");
+  if (rod.spin * cell.step > 360 * most_turns) {
+    throw UsageError(fmt::format("--spin {}: in a step of {} s that is {} turns; at most {}", exact_text(rod.spin),
+                                 exact_text(cell.step), rounded_text(rod.spin * cell.step / 360, 3), most_turns));
+  }
+  return rod;
+}
+
 }  // namespace
 
 Wish read_wish(const WishWords& words) {
@@ -58,10 +79,12 @@ Wish read_wish(const WishWords& words) {
   }
   if (words.miss) wish.miss = read("--miss", *words.miss, {.lower = 0, .upper = 1});
   if (words.late) wish.late = read("--late", *words.late, {.lower = 0, .unit = "m"});
+  if (words.length || words.spin) wish.rod = read_rod(words, wish.cell);
   return wish;
 }
 
 std::string check_config(const Wish& wish, std::span<const Candidate> candidates) {
+  if (wish.rod) throw UsageError("--toml: thin_wall fires balls; rods are fired by thinwall run spinning_rod");
   std::string text = config_text(wish, candidates);
   const Experiment thin_wall = thin_wall_experiment();
   try {

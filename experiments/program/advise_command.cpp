@@ -18,12 +18,13 @@ namespace {
 constexpr const char* advise_examples = R"(  thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60
   thinwall advise --speed 900 --radius 0.004 --thickness 0.02 --angle 30 --step 0.001 --miss 0.01 --late 0.05
   thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60 --toml check.toml
+  thinwall advise --speed 20 --radius 0.02 --length 0.6 --spin 1800 --thickness 0.01 --fps 60    a rod that spins
   thinwall run check.toml --out results/check              fires the shots that put the advice to the test
 )";
 
 constexpr const char* advise_footer =
-    R"(Chances and lateness are computed by formula, for one infinite wall, straight flight and no rotation; costs are measured,
-in about a second. --toml - prints the configuration instead of the advice. More: docs/advise.md.
+    R"(Chances and lateness are computed by formula, for one infinite wall and straight flight, of a ball without rotation, or of a
+rod that tumbles about its middle: its axis lies in the plane of the wall. Costs are measured, in about a second. --toml - prints the configuration instead of the advice. More: docs/advise.md.
 )";
 
 struct AdviseText {
@@ -42,7 +43,7 @@ int print_advice(const AdviseText& text, const Call& call) {
   if (text.toml && text.toml->empty()) throw UsageError("--toml: '' is not allowed; a file, or - for the terminal");
   if (text.toml && !to_file && text.json) throw UsageError("--toml - and --json both want to be all that is printed");
   const Wish wish = read_wish(text.words);
-  const std::vector<Candidate> methods = candidates(wish);
+  const std::vector<Candidate> methods = wish.rod ? rod_candidates(wish) : candidates(wish);
   if (text.toml) {
     const std::string config = check_config(wish, methods);
     if (!to_file) {
@@ -51,7 +52,11 @@ int print_advice(const AdviseText& text, const Call& call) {
     }
     write_own_file("--toml", *text.toml, config, "advise");
   }
-  const Advice advice = advise(wish, methods, measure_costs(wish.cell, methods));
+  constexpr std::int64_t queries = TimingEffort{}.queries;
+  const std::vector<StepCost> costs =
+      wish.rod ? measure_costs(rod_steps(wish, queries, 1), rod_steps(wish, queries, 0), methods)
+               : measure_costs(wish.cell, methods);
+  const Advice advice = advise(wish, methods, costs);
   if (text.json) {
     nlohmann::ordered_json reply = advice_json(advice);
     if (to_file) reply["toml"] = *text.toml;
@@ -69,6 +74,8 @@ Action declare_advise(CLI::App& self) {
   self.footer(advise_footer);
   add_text(self, "--speed", text->words.speed, "How fast the ball flies, seen from the wall", "M/S");
   add_text(self, "--radius", text->words.radius, "Of the ball; 0 is a point", "M");
+  add_text(self, "--length", text->words.length, "Of a rod in place of the ball, end to end (default: a ball)", "M");
+  add_text(self, "--spin", text->words.spin, "Of the rod, degrees a second (default: 0)", "DEG/S");
   add_text(self, "--thickness", text->words.thickness, "Of the wall; 0 is a sheet", "M");
   add_text(self, "--angle", text->words.angle, "Between the flight and the wall's normal (default: 0, head-on)", "DEG");
   add_text(self, "--step", text->words.step, "How long a step is", "S");

@@ -10,6 +10,7 @@
 
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/validate/turning.hpp>
 #include <thinwall/experiments/validate/validate.hpp>
 
 namespace thinwall {
@@ -84,36 +85,103 @@ std::string json_reply(const Validation& validation) {
   return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+// ---- Of shapes that turn.
+
+std::string text_reply(const TurningValidation& validation) {
+  std::string out = fmt::format("{:<30} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>8} {:>13} {:>8}\n", "method", "queries",
+                                "touching", "late", "missed", "false", "near", "gave up", "largest error", "ns");
+  for (std::size_t i = 0; i < validation.methods.size(); ++i) {
+    const TurningCounts& counts = validation.total[i];
+    out += fmt::format("{:<30} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>8} {:>13} {:>8}\n", validation.methods[i].name,
+                       grouped_text(counts.queries), grouped_text(counts.touching), grouped_text(counts.late),
+                       grouped_text(counts.missed), grouped_text(counts.false_hits), grouped_text(counts.near),
+                       grouped_text(counts.gave_up), rounded_text(counts.largest_error, 2),
+                       rounded_text(validation.median_ns[i], 3));
+  }
+  return out +
+         fmt::format(
+             "\nfalse: hits of what stays apart; near: of those, nearer than the method's tolerance as far as the file "
+             "proves.\nlargest error: of a step; ns: median of a first call.\n{}\n",
+             validation.wrong == 0 ? "Every method keeps what it claims."
+                                   : plural_text(validation.wrong, "answer") + " against what a method claims.");
+}
+
+std::string json_reply(const TurningValidation& validation) {
+  using nlohmann::ordered_json;
+  const auto methods = [&](const std::vector<TurningCounts>& all) {
+    ordered_json list = ordered_json::array();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const TurningCounts& counts = all[i];
+      list.push_back({{"method", validation.methods[i].name},
+                      {"queries", counts.queries},
+                      {"touching", counts.touching},
+                      {"late", counts.late},
+                      {"missed", counts.missed},
+                      {"false", counts.false_hits},
+                      {"near", counts.near},
+                      {"gave_up", counts.gave_up},
+                      {"largest_error", counts.largest_error}});
+    }
+    return list;
+  };
+  ordered_json reply{{"wrong", validation.wrong}, {"methods", methods(validation.total)}};
+  for (std::size_t i = 0; i < validation.methods.size(); ++i) {
+    reply["methods"][i]["never_late"] = validation.methods[i].never_late;
+    reply["methods"][i]["hits_are_true"] = validation.methods[i].hits_are_true;
+    reply["methods"][i]["median_ns"] = validation.median_ns[i];
+  }
+  reply["pairs"] = ordered_json::array();
+  for (const TurningPairCounts& pair : validation.pairs)
+    reply["pairs"].push_back({{"pair", pair.pair}, {"methods", methods(pair.counts)}});
+  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
 constexpr const char* validate_examples =
     R"(  thinwall validate ccd-queries                 every CSV file below the folder
   thinwall validate ccd-queries/unit-tests --json
+  thinwall validate --turning docs/data/turning  shapes that turn, with their exact times; a file or a folder
 )";
 
 constexpr const char* validate_footer =
     R"(A file has 8 rows a query and lies in a folder named vertex-face or edge-edge. Queries whose two primitives translate
-rigidly are checked, the others counted. Exit code 1: a verdict is wrong.
+rigidly are checked, the others counted. Files of --turning are described in docs/data/README.md; every method that turns
+is held against them. Exit code 1: a verdict is wrong.
 )";
 
 struct ValidateText {
   std::string folder;
+  OptionText turning;
   bool json = false;
 };
 
+/// Prints the reply, and what is wrong.
+template <class V> int print_judged(const V& validation, std::int64_t wrong, bool json, const Call& call) {
+  call.out << (json ? json_reply(validation) : text_reply(validation));
+  call.out.flush();
+  for (const std::string& line : validation.wrongs) call.err << line << "\n";
+  return wrong == 0 ? exit_done : exit_failed;
+}
+
 int print_validation(const ValidateText& text, const Call& call) {
+  if (text.turning) {
+    if (!text.folder.empty()) throw UsageError("validate: --turning takes the place of the folder; give one of them");
+    if (text.turning->empty()) throw UsageError("--turning: '' is not allowed; a CSV file, or a folder of them");
+    const TurningValidation validation = validate_turning(*text.turning);
+    return print_judged(validation, validation.wrong, text.json, call);
+  }
   if (text.folder.empty()) {
     throw UsageError("validate: a folder of published queries is missing; see thinwall validate --help");
   }
   const Validation validation = validate(text.folder);
-  call.out << (text.json ? json_reply(validation) : text_reply(validation));
-  call.out.flush();
-  for (const std::string& wrong : validation.wrongs) call.err << wrong << "\n";
-  return validation.total.wrong() == 0 ? exit_done : exit_failed;
+  return print_judged(validation, validation.total.wrong(), text.json, call);
 }
 
 Action declare_validate(CLI::App& self) {
   const auto text = std::make_shared<ValidateText>();
   self.footer(validate_footer);
   add_target(self, "folder", text->folder, "Where the CSV files of queries are", "DIR");
+  add_text(self, "--turning", text->turning, "Instead: queries of shapes that turn; a CSV file, or a folder of them",
+           "FILE");
   add_json(self, text->json);
   return [text](const Call& call) { return print_validation(*text, call); };
 }

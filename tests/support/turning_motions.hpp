@@ -2,6 +2,7 @@
 /// Motions that turn, drawn to be hard: what dips in and returns, misses by a hair, touches as the step ends, or is degenerate.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,6 +33,9 @@ enum class MotionStyle {
   grid,         ///< all numbers are small multiples of 1/4: exact touches
 };
 inline constexpr int motion_styles = 11;
+inline constexpr std::array<std::string_view, motion_styles> motion_style_names = {
+    "any",       "parallel", "spin_only",  "flight_only", "concentric", "sliver",
+    "along_rod", "together", "many_turns", "frantic",     "grid"};
 
 /// Where the two come near each other.
 enum class Aim {
@@ -40,7 +44,9 @@ enum class Aim {
   dip,         ///< they are in each other by as much there, and perhaps nowhere else
   at_the_end,  ///< they are in each other by as much at the end of the step
 };
+inline constexpr std::array<std::string_view, 4> aim_names = {"none", "near_miss", "dip", "at_the_end"};
 
+/// The same motions by every compiler: nothing is drawn in an order that the language leaves open.
 class MotionDraw {
  public:
   explicit MotionDraw(std::uint64_t seed) : engine_(seed) {}
@@ -57,7 +63,10 @@ class MotionDraw {
     } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
     return v / std::sqrt(v.squaredNorm());
   }
-  Vec3<double> point(double size) { return direction() * between(0, size); }
+  Vec3<double> point(double size) {
+    const Vec3<double> way = direction();
+    return way * between(0, size);
+  }
 
   template <class A, class B> std::pair<Turning<A>, Turning<B>> motion(MotionStyle style, Aim aim) {
     const Mat3<double> axes = turn();
@@ -73,7 +82,10 @@ class MotionDraw {
   }
 
  private:
-  Mat3<double> turn() { return rotation_about<double>(direction(), between(0, std::numbers::pi)); }
+  Mat3<double> turn() {
+    const Vec3<double> axis = direction();
+    return rotation_about<double>(axis, between(0, std::numbers::pi));
+  }
   double size(MotionStyle style, double least, double most) {
     if (style == MotionStyle::grid) return (1 + below(4)) * 0.25;
     if (style == MotionStyle::sliver && one_in(2)) return one_in(2) ? 1e-6 : 1e-3;
@@ -115,10 +127,19 @@ class MotionDraw {
     if (style == grid) m.displacement = cells(8);
     if (!one_in(5)) m.rotation = point(most);
     if (style == spin_only) m.rotation = point(most);
-    if (style == parallel) m.rotation = axes.col(one_in(2) ? 2 : below(3)) * between(-most, most);
+    if (style == parallel) {
+      const int about = one_in(2) ? 2 : below(3);
+      m.rotation = axes.col(about) * between(-most, most);
+    }
     if (style == along_rod) m.rotation = axes.col(0) * between(-most, most);
-    if (style == grid) m.rotation = axis_vector<double>(below(3)) * ((below(9) - 4) * std::numbers::pi / 4);
-    if (style == many_turns) m.rotation = direction() * (one_in(2) ? 10 : 100);
+    if (style == grid) {
+      const int about = below(3);
+      m.rotation = axis_vector<double>(about) * ((below(9) - 4) * std::numbers::pi / 4);
+    }
+    if (style == many_turns) {
+      const double angle = one_in(2) ? 10 : 100;
+      m.rotation = direction() * angle;
+    }
     if (style == frantic) m.rotation = direction() * 1e6;
     if (style == flight_only) m.rotation = Vec3<double>::Zero();
     return m;

@@ -1,0 +1,126 @@
+/// A rod that tumbles, in the place of the ball: what may be asked about it, what theory expects, and its steps.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thinwall/experiments/advise/advice.hpp>
+#include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/spinning_rod/model.hpp>
+#include <thinwall/swept/turning/turning_certified.hpp>
+
+namespace thinwall {
+
+namespace {
+
+/// The flight along the wall's normal: what goes along the wall changes nothing.
+RodFlight flight_of(const Wish& wish, const Cell& cell, double spin) {
+  RodFlight flight = {.half_length = wish.rod->length / 2 - cell.radius,
+                      .radius = cell.radius,
+                      .thickness = cell.thickness,
+                      .tilt_deg = 90,
+                      .spin_deg = spin * cell.step,
+                      .step_ratio = 1};
+  flight.step_ratio = step_length(cell) * cosine(cell) / widest(flight);
+  return flight;
+}
+
+Theory pose_theory_at(const Wish& wish, const Cell& cell, double spin, int poses) {
+  const RodFlight flight = flight_of(wish, cell, spin);
+  Theory theory;
+  theory.probability = rod_miss_probability(clearance(flight), reach(flight), step_length(flight) / poses,
+                                            radians(flight.spin_deg) / poses);
+  theory.latest = std::min(step_length(cell) / poses, widest(flight) / cosine(cell));
+  const bool once = poses == 1;
+  theory.why = once ? "E max(0, 1 - (b + c m) / (v h cos a))" : "E max(0, 1 - n (b + c m) / (v h cos a))";
+  theory.why_late = once ? "min(v h, (b + c) / cos a)" : "min(v h / n, (b + c) / cos a)";
+  return theory;
+}
+
+Theory never_late(const char* why) {
+  Theory theory;
+  theory.probability = 0;
+  theory.latest = 0;
+  theory.why = why;
+  theory.why_late = "0";
+  return theory;
+}
+
+// What theory says of a method that turns, at the step and at any spin; nothing of one that is not named here.
+
+struct RodTheories {
+  std::function<Theory(const Cell&)> at_spin = [](const Cell&) { return Theory{}; };
+  std::function<Theory(const Cell&)> at_any_spin = at_spin;
+};
+RodTheories same(const Theory& theory) {
+  const auto always = [theory](const Cell&) { return theory; };
+  return {always, always};
+}
+RodTheories of_poses(const Wish& wish, int poses) {
+  return {[=](const Cell& cell) { return pose_theory_at(wish, cell, wish.rod->spin, poses); },
+          [=](const Cell& cell) { return pose_theory_at(wish, cell, 0, poses); }};
+}
+
+template <class Method> RodTheories rod_theories(const Method&, const Wish&) { return {}; }
+RodTheories rod_theories(const EndOfStep<double>&, const Wish& wish) { return of_poses(wish, 1); }
+RodTheories rod_theories(const Substeps<double>& method, const Wish& wish) { return of_poses(wish, method.n); }
+RodTheories rod_theories(const LinearSweep<double>&, const Wish&) {
+  Theory theory;
+  theory.probability = 0;
+  theory.why = "0: the sweeps join at the wall's middle";
+  theory.why_late = "no formula";
+  return same(theory);
+}
+RodTheories rod_theories(const Speculative<double>&, const Wish&) {
+  return same(never_late("0: it looks a whole step ahead"));
+}
+RodTheories rod_theories(const ConservativeAdvancement<double>&, const Wish&) {
+  return same(never_late("0: free up to its answer, proven"));
+}
+
+template <class Ask> Candidate rod_candidate(std::string name, int poses, const RodTheories& theories, const Ask& ask) {
+  Candidate candidate = {std::move(name), poses, false, theories.at_spin};
+  candidate.ask_rod = [ask](std::span<const RodStep> steps) {
+    for (const RodStep& step : steps) keep(ask(step));
+  };
+  candidate.at_any_spin = theories.at_any_spin;
+  return candidate;
+}
+
+}  // namespace
+
+std::vector<Candidate> rod_candidates(const Wish& wish) {
+  std::vector<Candidate> all;
+  const auto add = [&](const auto& method, std::string name, int poses) {
+    all.push_back(rod_candidate(std::move(name), poses, rod_theories(method, wish),
+                                [method](const RodStep& step) { return time_of_impact(method, step.rod, step.wall); }));
+  };
+  const auto of_n = [&](int poses) { return pose_theory_at(wish, wish.cell, wish.rod->spin, poses); };
+  for_each_type(TurningMethods<double>{}, [&]<class Method>(TypeTag<Method>) {
+    if constexpr (std::is_same_v<Method, Substeps<double>>) {
+      for (const std::int64_t n : offered_poses(wish, of_n))
+        add(Method{.n = static_cast<int>(n)}, fmt::format("{}_{}", Method::name, n), static_cast<int>(n));
+    } else {
+      add(Method{}, std::string(Method::name), std::is_same_v<Method, EndOfStep<double>> ? 1 : 0);
+    }
+  });
+  all.push_back(rod_candidate("certified", 0, same(never_late("0: the verdict is proven")),
+                              [](const RodStep& step) { return certified_time_of_impact(step.rod, step.wall); }));
+  return all;
+}
+
+std::vector<RodStep> rod_steps(const Wish& wish, std::int64_t count, std::int64_t back) {
+  const RodFlight flight = flight_of(wish, wish.cell, wish.rod->spin);
+  const RandomStream stream = random_stream(flight, 0);
+  const Moving<Obb<double>> before = wall(flight);
+  std::vector<RodStep> steps;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const RodMotion motion = random_motion(flight, stream, static_cast<std::uint64_t>(i));
+    const auto touching = static_cast<std::int64_t>(std::floor(motion.contact));
+    steps.push_back({step_of(motion, std::max<std::int64_t>(0, touching - back)), before});
+  }
+  return steps;
+}
+
+}  // namespace thinwall
