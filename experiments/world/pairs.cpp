@@ -195,16 +195,18 @@ template <class A, class B> bool spin_is_short_of_gap(const Turning<A>& a, const
   return time_of_impact(ClosedForm<double>{bridged + contact}, straight_a, straight_b).status == ToiStatus::apart;
 }
 
-/// [1] Until when two that touch stay no deeper in each other than `sink` allows: until the first root of the bound of their gap across a plane
-/// that stands still, let down by that much (docs/turning.md).
+/// [1] When to look again at two that touch: half of the time until when they sink no deeper into each other than by a 1024th of `least`, which is the
+/// first root of the bound of their gap across a plane that stands still (docs/turning.md), let down by that much. Half, because what parts
+/// and comes back, or comes down at its other end, is then apart, and its next contact is found in time.
 template <class A, class B>
-double sunk_after(const Turning<A>& a, const Turning<B>& b, const Vec3<double>& normal, double least) {
+double look_after(const Turning<A>& a, const Turning<B>& b, const Vec3<double>& normal, double least) {
   const TurningPair<double> pair(a, b, 0.0);
   const TurningInstant<double> now = instant(pair, 0.0);
   ConcaveBound<double> bound = gap_ahead(pair, plane_riding(pair, now, Rides::world, normal), now, 0.0).bound;
   const double gap = first_root(bound, 0.0).value, sink = std::max(0x1p-10 * least, 16 * pair.margin);
   bound.gap += sink - std::min(gap, 0.0);
-  return first_root(bound, 1.0).tau;
+  const double sunk = first_root(bound, 1.0).tau;
+  return sunk < 1 ? sunk / 2 : 1;
 }
 
 struct Swept {
@@ -333,9 +335,9 @@ template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
     if constexpr (!with_spin) return false;
     return rotations_[pair.first] != Vec3<double>::Zero() || rotations_[pair.second] != Vec3<double>::Zero();
   }
-  double barely_sunk_for(const ProxyPair& pair, const Vec3<double>& normal) const override {
+  double until_next_look(const ProxyPair& pair, const Vec3<double>& normal) const override {
     return visit_turning(pair, 1.0, [&]<class A, class B>(const Turning<A>& a, const Turning<B>& b) {
-      return sunk_after(a, b, normal, std::min(least_half_width(a.shape), least_half_width(b.shape)));
+      return look_after(a, b, normal, std::min(least_half_width(a.shape), least_half_width(b.shape)));
     });
   }
 

@@ -226,9 +226,9 @@ class NarrowPhase {
 
   /// True if one of them turns in what is left of the step.
   virtual bool turns(const ProxyPair& pair) const = 0;
-  /// [1] of what is left of the step, of two that touch where they are placed and turn: so long none of them sinks into the other by more than a
-  /// thousandth of its least half width, whatever else they do. > 0 but for rounding.
-  virtual double barely_sunk_for(const ProxyPair& pair, const Vec3<double>& normal) const = 0;
+  /// [1] of what is left of the step, of two that touch where they are placed: until then neither sinks into the other by more than a
+  /// 1024th of the lesser least half width of the two.
+  virtual double until_next_look(const ProxyPair& pair, const Vec3<double>& normal) const = 0;
 
   virtual std::size_t bytes() const = 0;
 };

@@ -98,7 +98,7 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
                            "there are oriented boxes or capsules");
   if (census.spinning + census.spinning_balls == 0) return plan;  // nothing turns: no question
   plan.spin = line("spin", census.spinning == 0,
-                   of(census.spinning_balls, "ball looks", "balls look") + " the same however it may turn",
+                   of(census.spinning_balls, "ball looks", "balls look") + " the same whichever way up",
                    of(census.spinning, "body turns", "bodies turn"));
   plan.spin_within_gap =
       line("spin short of the gap", census.spinning > 0,

@@ -32,7 +32,7 @@ template <class Spins> auto spin_of(Spins& spins, const Body& body, std::size_t 
   return !spins.empty() && can_turn(body) ? &spins[which] : nullptr;
 }
 
-/// The shape turned about its center, its axes and lengths kept true: rounding does not add up from step to step.
+/// The shape turned about its center, its axes made true again and its length kept: else rounding would add up from step to step.
 AnyShape turned_true(const AnyShape& shape, const Mat3<double>& turn);
 
 // ---- What resists: the inertia of a solid of uniform density.

@@ -165,7 +165,7 @@ void EventLoop::look_later(const Touch& touch, double time) {
   const ProxyPair pair{touch.first, touch.second};
   if (!scene_.narrow.turns(pair)) return;
   Touch then = touch;
-  then.time = time + scene_.narrow.barely_sunk_for(pair, touch.normal) * (1 - time);
+  then.time = time + scene_.narrow.until_next_look(pair, touch.normal) * (1 - time);
   if (then.time < 1) queue_.push({then, motions_[touch.first].version, motions_[touch.second].version, true});
 }
 
