@@ -132,7 +132,7 @@ class EventLoop {
   double closing(const Touch& touch, bool in_effect);
   void look_later(const Touch& touch, double time);
   void look(const Event& event, StepReport& counts);
-  enum class Answer { take_event, go_on, wait };
+  enum class Answer { take_event, go_on, wait };  // a contact; one that goes on; one that has been looked at too often
   void answer(const Touch& touch, Answer how, StepReport& counts);
   Mover mover(std::uint32_t which) {
     const Body& body = scene_.bodies[which];

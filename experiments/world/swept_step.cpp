@@ -220,7 +220,8 @@ void EventLoop::answer(const Touch& touch, Answer how, StepReport& counts) {
     if (!changes[k]) continue;  // it waits already: what is known of it stays
     ++motion.version;
     if (how == Answer::take_event) ++motion.events;
-    if (!bounces || how == Answer::wait || motion.events >= scene_.max_events) motion.waiting = true;
+    const bool is_behind_one_that_waits = !bounces;
+    if (is_behind_one_that_waits || how == Answer::wait || motion.events >= scene_.max_events) motion.waiting = true;
   }
   for (int k = 0; k < 2; ++k) {
     if (changes[k]) change_course(ends[k]);
