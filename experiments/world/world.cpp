@@ -95,8 +95,10 @@ void require_valid(const WorldOptions& options) {
   require(options.threads >= 1, "threads must be >= 1");
   require(options.max_pairs >= 1, "max_pairs must be >= 1");
   for (const std::string& kept : options.keep) {
-    const auto names = omission_names();
-    require(std::find(names.begin(), names.end(), kept) != names.end(), "there is no omission '" + kept + "' to keep");
+    const auto is_one = [&](std::span<const std::string_view> names) {
+      return std::find(names.begin(), names.end(), kept) != names.end();
+    };
+    require(is_one(omission_names()) || is_one(spin_omission_names()), "there is no omission '" + kept + "' to keep");
   }
   if (options.broad_phase == "auto") return;
   std::string names = "auto";

@@ -114,6 +114,8 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options);
 
 /// What a plan may omit: the `what` of its lines, in their order.
 std::span<const std::string_view> omission_names();
+/// And after these, where bodies turn: a plan of what does not turn does not speak of it.
+std::span<const std::string_view> spin_omission_names();
 
 /// What it omits, what it keeps, and why; ends with a newline.
 std::string to_text(const Plan& plan);
