@@ -158,7 +158,7 @@ TEST(SceneFile, says_what_turns_and_what_cannot) {
   expect_complaint(rod + "motion = 'static'\n" + spins, {"key 'body.angular_velocity'", "zero: the body is static"});
   expect_complaint(rod + "turns = false\n" + spins, {"key 'body.turns'", "true: the body has an angular velocity"});
   expect_complaint(rod + "angular_velocity = [0, 2e6, 0]\n",
-                   {"key 'body.angular_velocity'", ">= -1e+06 and <= 1e+06 [rad/s]"});
+                   {"key 'body.angular_velocity'", ">= -1000000 and <= 1000000 [rad/s]"});
   expect_complaint(rod + "angular_velocty = [0, 2, 0]\n", {"did you mean 'angular_velocity'?"});
 }
 
