@@ -171,9 +171,10 @@ void Stepper::sampled_step(int parts) {
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (!can_move(bodies_[i])) continue;
         motions_[i].offset += motions_[i].velocity * part;
-        if (Spin* const turns = spin(i))
-          turns->turned =
-              rotation_about<double>(safe_unit(turns->velocity), safe_norm(turns->velocity) * part) * turns->turned;
+        if (Spin* const turns = spin(i)) {
+          const Vec3<double>& rate = turns->velocity;
+          turns->turned = rotation_about<double>(safe_unit(rate), safe_norm(rate) * part) * turns->turned;
+        }
       }
       box(0);
     }
