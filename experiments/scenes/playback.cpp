@@ -11,6 +11,7 @@
 #include <thinwall/discrete/broad_phase/uniform_grid.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 #include <thinwall/experiments/world/world.hpp>
 #include <thinwall/swept/dispatch.hpp>
 
@@ -20,6 +21,14 @@ namespace {
 
 std::string vector_text(const Vec3<double>& v) {
   return fmt::format("[{},{},{}]", exact_text(v[0]), exact_text(v[1]), exact_text(v[2]));
+}
+
+std::string axes_text(const Obb<double>& b) {
+  return fmt::format(R"("axes":[{},{},{}])", vector_text(b.axes.col(0)), vector_text(b.axes.col(1)),
+                     vector_text(b.axes.col(2)));
+}
+std::string half_core_text(const Capsule<double>& c) {
+  return fmt::format(R"("half_core":{})", vector_text((c.b - c.a) / 2));
 }
 
 /// The shape around its own center: a body's place in a frame is where that center is.
@@ -32,14 +41,20 @@ struct ShapeText {
     return fmt::format(R"({{"type":"box","size":{}}})", vector_text(2 * b.half_extents));
   }
   std::string operator()(const Obb<double>& b) const {
-    return fmt::format(R"({{"type":"turned_box","size":{},"axes":[{},{},{}]}})", vector_text(2 * b.half_extents),
-                       vector_text(b.axes.col(0)), vector_text(b.axes.col(1)), vector_text(b.axes.col(2)));
+    return fmt::format(R"({{"type":"turned_box","size":{},{}}})", vector_text(2 * b.half_extents), axes_text(b));
   }
   std::string operator()(const Capsule<double>& c) const {
-    const Vec3<double> half = (c.b - c.a) / 2;
-    return fmt::format(R"({{"type":"capsule","radius":{},"half_core":{}}})", exact_text(c.radius), vector_text(half));
+    return fmt::format(R"({{"type":"capsule","radius":{},{}}})", exact_text(c.radius), half_core_text(c));
   }
 };
+
+/// How a body that turns is oriented, and at what rate it turns.
+std::string spin_text(const Body& body) {
+  std::string text = fmt::format(R"({{"id":{},)", body.id);
+  if (const auto* const box = std::get_if<Obb<double>>(&body.shape)) text += axes_text(*box) + ",";
+  if (const auto* const capsule = std::get_if<Capsule<double>>(&body.shape)) text += half_core_text(*capsule) + ",";
+  return text + fmt::format(R"("angular_velocity":{}}})", vector_text(body.angular_velocity));
+}
 
 std::string header(const Scene& scene, const World& world) {
   std::string bodies;
@@ -53,9 +68,11 @@ std::string header(const Scene& scene, const World& world) {
 }
 
 std::string frame(const World& world) {
-  std::string at, events;
+  std::string at, spins, events;
   for (const Body& body : world.bodies()) {
-    if (can_move(body)) at += (at.empty() ? "" : ",") + vector_text(box_of(body).center);
+    if (!can_move(body)) continue;
+    at += (at.empty() ? "" : ",") + vector_text(position(body));
+    if (body.turns) spins += (spins.empty() ? "" : ",") + spin_text(body);
   }
   for (const CollisionEvent& event : world.events().events()) {
     if (event.kind == CollisionEventKind::stay) continue;
@@ -63,7 +80,8 @@ std::string frame(const World& world) {
     events += fmt::format(R"({}["{}",{},{},{}])", events.empty() ? "" : ",", kind, event.first, event.second,
                           exact_text(event.time));
   }
-  return fmt::format("{{\"time\":{},\"at\":[{}],\"events\":[{}]}}\n", exact_text(world.time()), at, events);
+  const std::string turning = spins.empty() ? "" : fmt::format(R"("turning":[{}],)", spins);
+  return fmt::format("{{\"time\":{},\"at\":[{}],{}\"events\":[{}]}}\n", exact_text(world.time()), at, turning, events);
 }
 
 }  // namespace
@@ -83,8 +101,20 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The box of both poses, rounded outward.
-Proxy way_of(const Body& before, const Body& after) {
+/// [rad] How far a body that nothing touched turned in a step of dt [s].
+Vec3<double> rotation_of(const Body& after, double dt) {
+  return can_turn(after) ? Vec3<double>(after.angular_velocity * dt) : Vec3<double>(Vec3<double>::Zero());
+}
+
+/// The box of both poses, rounded outward, or of all in between where it turns.
+Proxy way_of(const Body& before, const Body& after, double dt) {
+  if (can_turn(after)) {
+    BodyMotion motion;
+    motion.velocity = position(after) - position(before);
+    Spin spin;
+    spin.velocity = rotation_of(after, dt);
+    return proxy_of(before, motion, &spin, 1);
+  }
   const Aabb<double> a = box_of(before), b = box_of(after);
   Proxy proxy;
   for (int i = 0; i < 3; ++i) {
@@ -100,6 +130,15 @@ Proxy way_of(const Body& before, const Body& after) {
   proxy.is_static = after.is_static;
   proxy.skipped = std::holds_alternative<std::monostate>(after.shape);
   return proxy;
+}
+
+/// When two first touch that turn.
+Toi<double> impact_of_spinning(const Moving<AnyShape>& a, const Moving<AnyShape>& b, const Vec3<double>& spin_a,
+                               const Vec3<double>& spin_b) {
+  return visit_shapes(a.shape, b.shape, Toi<double>{}, [&]<class A, class B>(const A& x, const B& y) {
+    return time_of_impact(spin_sweep, spinning(Moving<A>{x, a.displacement}, spin_a),
+                          spinning(Moving<B>{y, b.displacement}, spin_b));
+  });
 }
 
 }  // namespace
@@ -132,7 +171,7 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
   }
   memory_->proxies.clear();
   for (std::size_t i = 0; i < after.size(); ++i) {
-    Proxy& proxy = memory_->proxies.emplace_back(way_of(before[i], after[i]));
+    Proxy& proxy = memory_->proxies.emplace_back(way_of(before[i], after[i], dt));
     proxy.skipped |= touched[i];
   }
   find_pairs(UniformGrid{}, memory_->proxies, memory_->pairs);
@@ -142,7 +181,9 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
     const Body &a = before[pair.first], &b = before[pair.second];
     const auto way = [&](std::size_t i) { return Vec3<double>(box_of(after[i]).center - box_of(before[i]).center); };
     const Moving<AnyShape> first{a.shape, way(pair.first)}, second{b.shape, way(pair.second)};
-    const Toi<double> toi = time_of_impact(first, second);
+    const Vec3<double> spin_a = rotation_of(after[pair.first], dt), spin_b = rotation_of(after[pair.second], dt);
+    const bool turns = spin_a != Vec3<double>::Zero() || spin_b != Vec3<double>::Zero();
+    const Toi<double> toi = turns ? impact_of_spinning(first, second, spin_a, spin_b) : time_of_impact(first, second);
     if (toi.status != ToiStatus::hit || overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
     missed.push_back({a.id, b.id, start + toi.time * dt});
   }

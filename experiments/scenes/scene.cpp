@@ -130,6 +130,17 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   body.velocity = vector3(settings, "velocity", scene_speed);
   if (body.is_static && settings.given("velocity") && body.velocity != Vec3<double>::Zero())
     settings.complain("velocity", "zero: the body is static");
+  body.angular_velocity = vector3(settings, "angular_velocity", scene_spin);
+  const bool spins = body.angular_velocity != Vec3<double>::Zero();
+  if (spins && settings.given("turns") && !settings.flag("turns"))
+    settings.complain("turns", "true: the body has an angular velocity");
+  body.turns = settings.flag("turns") || spins;
+  const std::string key = spins ? "angular_velocity" : "turns";
+  if (spins && body.is_static) settings.complain(key, "zero: the body is static");
+  if (body.turns && std::holds_alternative<Aabb<double>>(body.shape))
+    settings.complain(key, "a box does not turn: write turned_box");
+  if (body.turns && std::holds_alternative<std::monostate>(body.shape))
+    settings.complain(key, "a body of shape 'none' does not turn");
   if (motion != "free" && settings.given("mass"))
     settings.complain("mass", fmt::format("none: the body is {}", motion));
   const double mass = settings.number("mass", {.lower = 1e-30, .upper = most_of_a_scene, .unit = "kg"});
@@ -265,7 +276,9 @@ Push read_push(const Settings& push, const Pushable& bodies) {
 
 void check_trace(const Settings& settings, const Scene& scene) {
   if (!scene.trace) return;
-  const auto moving = static_cast<double>(std::count_if(scene.bodies.begin(), scene.bodies.end(), can_move));
+  double moving = 0;
+  for (const Body& body : scene.bodies)
+    moving += !can_move(body) ? 0 : body.turns ? 5 : 1;  // three axes, and at what rate
   const double frames = static_cast<double>(scene.steps) / static_cast<double>(scene.trace_every) + 1;
   if (moving * frames > most_positions) {
     settings.complain("trace_every",

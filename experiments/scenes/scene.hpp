@@ -23,6 +23,7 @@ namespace thinwall {
 inline constexpr double most_of_a_scene = 1e30;
 inline constexpr Range scene_coordinate = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
 inline constexpr Range scene_speed = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
+inline constexpr Range scene_spin = {.lower = -1e6, .upper = 1e6, .unit = "rad/s"};
 
 /// Every [[body]] of the file, copies made: a grid, and random numbers that depend on the seed, on the body's own place,
 /// size and grid, and on the copy's place in it alone. Ids count up from 1, in the order of the file.
@@ -67,7 +68,7 @@ std::vector<std::string_view> policy_names();
 TimePolicy policy_named(std::string_view name);
 
 // ---- What a viewer needs: JSON lines, one object each. The first line names the bodies and their shapes; every further one
-// is a frame, with the places of the bodies that move, in the order of their ids.
+// is a frame, with the places of the bodies that move, in the order of their ids, and where any turn, with how those do.
 
 /// Plays the scene once more, which gives the same bits, and writes down every `trace_every`-th step and the last.
 std::string trace_of(const Scene& scene);
@@ -75,8 +76,8 @@ std::string trace_of(const Scene& scene);
 // ---- The referee of a scene: contacts that a step went through and did not see.
 //
 //
-// Between two steps a body that nothing touched moved straight, from where it was to where it is. Of two such bodies,
-// apart at both ends, the closed form says whether they touched on the way. If they did and the step told no contact of
+// Between two steps a body that nothing touched moved straight, from where it was to where it is, and turned at the rate that it still
+// has. Of two such bodies, apart at both ends, the closed form says whether they touched on the way, or where one turns its sweep. If they did and the step told no contact of
 // theirs, one went through the other: it tunneled. Bodies that were in any contact in the step are not judged against
 // others, for their way may have a corner. Under substeps gravity bends the way, by g dt^2 / 8 at most: a contact less deep
 // than that may be judged wrong.

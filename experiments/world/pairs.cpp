@@ -179,19 +179,58 @@ double least_half_width(const Capsule<double>& c) { return c.radius; }
 template <class A> bool is_slow(const Moving<A>& m, double gate) {
   return safe_norm(m.displacement) <= gate * least_half_width(m.shape);
 }
+template <class A> bool is_slow(const Turning<A>& m, double gate) {
+  return safe_norm(m.displacement) + safe_norm(m.rotation) * farthest(core_vectors(m.shape)) <=
+         gate * least_half_width(m.shape);
+}
+
+/// The two stay apart whatever their spin does: straight on they do not come within what it can bridge, twice the farthest point's distance
+/// from the center at most, and what their sweep takes for contact.
+template <class A, class B> bool spin_is_short_of_gap(const Turning<A>& a, const Turning<B>& b) {
+  const TurningPair<double> pair(a, b, 0.0);
+  const double bridged = std::min(pair.a.angle, 2.0) * pair.a.off_axis + std::min(pair.b.angle, 2.0) * pair.b.off_axis;
+  const double contact = 2 * (spin_sweep.tolerance * pair.speed + 4 * pair.margin);
+  const Moving<A> straight_a{a.shape, a.displacement};
+  const Moving<B> straight_b{b.shape, b.displacement};
+  return time_of_impact(ClosedForm<double>{bridged + contact}, straight_a, straight_b).status == ToiStatus::apart;
+}
+
+/// [1] When to look again at two that touch: half of the time until when they sink no deeper into each other than by a 1024th of `least`, which is the
+/// first root of the bound of their gap across a plane that stands still (docs/turning.md), let down by that much. Half, because what parts
+/// and comes back, or comes down at its other end, is then apart, and its next contact is found in time.
+template <class A, class B>
+double look_after(const Turning<A>& a, const Turning<B>& b, const Vec3<double>& normal, double least) {
+  const TurningPair<double> pair(a, b, 0.0);
+  const TurningInstant<double> now = instant(pair, 0.0);
+  ConcaveBound<double> bound = gap_ahead(pair, plane_riding(pair, now, Rides::world, normal), now, 0.0).bound;
+  const double gap = first_root(bound, 0.0).value, sink = std::max(0x1p-10 * least, 16 * pair.margin);
+  bound.gap += sink - std::min(gap, 0.0);
+  const double sunk = first_root(bound, 1.0).tau;
+  return sunk < 1 ? sunk / 2 : 1;
+}
 
 struct Swept {
-  Toi<double> toi;
+  Toi<double> toi = {};
   bool gated = false;
 };
 
 struct Sweep {
   double gate;
+  bool all_spin;
   template <class A, class B> Swept operator()(const Moving<A>& a, const Moving<B>& b) const {
     if (gate > 0 && is_slow(a, gate) && is_slow(b, gate)) {
       return {time_of_impact(at_rest(a.shape), at_rest(b.shape)), true};
     }
     return {time_of_impact(a, b), false};
+  }
+  template <class A, class B> Swept operator()(const Turning<A>& a, const Turning<B>& b) const {
+    if (gate > 0 && is_slow(a, gate) && is_slow(b, gate)) {
+      return {time_of_impact(at_rest(a.shape), at_rest(b.shape)), true};
+    }
+    if (!all_spin && spin_is_short_of_gap(a, b)) return {};
+    Toi<double> toi = time_of_impact(spin_sweep, a, b);
+    if (toi.status == ToiStatus::hit && toi.time == 0) toi.status = ToiStatus::overlapping;
+    return {toi, false};
   }
 };
 
@@ -212,16 +251,16 @@ void keep(const ProxyPair& pair, double start, const Swept& swept, std::vector<T
   const Toi<double>& toi = swept.toi;
   asked.gated += swept.gated ? 1 : 0;
   if (toi.status == ToiStatus::apart) return;
-  const bool at_start = toi.status == ToiStatus::overlapping;
-  if (!at_start && toi.status != ToiStatus::hit) throw std::logic_error("a sweep of two valid bodies has no answer");
+  const bool at_start = toi.status == ToiStatus::overlapping, gave_up = toi.status == ToiStatus::gave_up;
+  if (toi.status == ToiStatus::invalid) throw std::logic_error("a sweep of two valid bodies has no answer");
   const double time = at_start ? start : std::min(1.0, start + toi.time * (1 - start));
-  touches.push_back({pair.first, pair.second, time, at_start, toi.normal, toi.point, 0});
+  touches.push_back({pair.first, pair.second, time, at_start, gave_up, toi.normal, toi.point, 0});
 }
 
 void keep(const ProxyPair& pair, double start, const Seen& seen, std::vector<Touch>& touches, Asked&) {
   if (!seen.contact) return;
   touches.push_back(
-      {pair.first, pair.second, start, true, seen.contact->normal, seen.point, seen.contact->penetration});
+      {pair.first, pair.second, start, true, false, seen.contact->normal, seen.point, seen.contact->penetration});
 }
 
 template <class Held> Held as_held(const AnyShape& shape) {
@@ -244,35 +283,67 @@ template <class Held> void move_held(Held& shape, const Vec3<double>& by) {
       shape);
 }
 
-template <class Held> class Kernels final : public NarrowPhase {
- public:
-  explicit Kernels(int threads) : arena_(threads), threads_(threads) {}
+template <class Held> void turn_held(Held& shape, const Mat3<double>& by) {
+  std::visit(
+      [&]<class A>(A& s) {
+        if constexpr (looks_turned<A>) s = turned(s, by);
+      },
+      shape);
+}
 
-  void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, double dt, bool resting_too) override {
+/// with_spin: of bodies that turn as well; each pair of which neither does is asked as without.
+template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
+ public:
+  Kernels(bool all_spin, int threads) : arena_(threads), threads_(threads), all_spin_(all_spin) {}
+
+  void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, std::span<const Spin> spins, double dt,
+             bool resting_too) override {
     const bool is_new = list_.size() != bodies.size();
     list_.resize(bodies.size());
+    if (with_spin) rotations_.resize(bodies.size(), Vec3<double>::Zero());
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-      if (is_new || resting_too || can_move(bodies[i])) place_one(i, bodies[i], motions[i], motions[i].anchor, dt);
+      if (is_new || resting_too || can_move(bodies[i]))
+        place_one(i, bodies[i], motions[i], spin_of(spins, bodies[i], i), motions[i].anchor, dt);
     }
   }
 
-  void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, double time, double dt) override {
+  void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, const Spin* spin, double time,
+                 double dt) override {
     Moving<Held>& placed = list_[which];
     placed.shape = as_held<Held>(body.shape);
+    if constexpr (with_spin) {
+      rotations_[which] = Vec3<double>::Zero();
+      if (spin) {
+        const Mat3<double> turn = turned_at(*spin, motion, time, dt);
+        if (turn != Mat3<double>::Identity()) turn_held(placed.shape, turn);
+        rotations_[which] = rotation_from(motion, *spin, time, dt);
+      }
+    }
     const Vec3<double> offset = offset_at(motion, time, dt);
     if (offset != Vec3<double>::Zero()) move_held(placed.shape, offset);
     placed.displacement = moving_at(motion) * (dt * (1 - time));
   }
 
   Asked sweep(std::span<const ProxyPair> pairs, double start, double gate, std::vector<Touch>& touches) override {
-    return ask<Swept>(pairs, start, Sweep{gate}, touches);
+    return ask<Swept>(pairs, start, Sweep{gate, all_spin_}, touches);
   }
   Asked look(std::span<const ProxyPair> pairs, std::vector<Touch>& touches) override {
     return ask<Seen>(pairs, 1, Look{}, touches);
   }
 
+  bool turns(const ProxyPair& pair) const override {
+    if constexpr (!with_spin) return false;
+    return rotations_[pair.first] != Vec3<double>::Zero() || rotations_[pair.second] != Vec3<double>::Zero();
+  }
+  double until_next_look(const ProxyPair& pair, const Vec3<double>& normal) const override {
+    return visit_turning(pair, 1.0, [&]<class A, class B>(const Turning<A>& a, const Turning<B>& b) {
+      return look_after(a, b, normal, std::min(least_half_width(a.shape), least_half_width(b.shape)));
+    });
+  }
+
   std::size_t bytes() const override {
-    std::size_t sum = list_.capacity() * sizeof(list_[0]) + blocks_.capacity() * sizeof(Block);
+    std::size_t sum = list_.capacity() * sizeof(list_[0]) + blocks_.capacity() * sizeof(Block) +
+                      rotations_.capacity() * sizeof(Vec3<double>);
     for (const Block& block : blocks_) sum += block.touches.capacity() * sizeof(Touch);
     return sum;
   }
@@ -310,7 +381,24 @@ template <class Held> class Kernels final : public NarrowPhase {
     return asked;
   }
 
+  /// query(a, b) as Turning; `none` where one of them has no volume, or neither is of a kind that turns.
+  template <class Answer, class Query>
+  Answer visit_turning(const ProxyPair& pair, const Answer& none, const Query& query) const {
+    const Moving<Held>&a = list_[pair.first], &b = list_[pair.second];
+    return visit_shapes(a.shape, b.shape, none, [&]<class A, class B>(const A& x, const B& y) -> Answer {
+      if constexpr (with_spin && (looks_turned<A> || looks_turned<B>)) {
+        return query(spinning(Moving<A>{x, a.displacement}, rotations_[pair.first]),
+                     spinning(Moving<B>{y, b.displacement}, rotations_[pair.second]));
+      } else {
+        return none;
+      }
+    });
+  }
+
   template <class Answer, class Query> Answer one(const Query& query, const ProxyPair& pair) const {
+    if constexpr (with_spin && std::is_same_v<Answer, Swept>) {
+      if (turns(pair)) return visit_turning(pair, Answer{}, query);
+    }
     const Moving<Held>&a = list_[pair.first], &b = list_[pair.second];
     return visit_shapes(a.shape, b.shape, Answer{}, [&]<class A, class B>(const A& x, const B& y) {
       return query(Moving<A>{x, a.displacement}, Moving<B>{y, b.displacement});
@@ -323,6 +411,21 @@ template <class Held> class Kernels final : public NarrowPhase {
     block.asked = {};
     std::vector<IndexPair> places;
     places.reserve(pairs.size());
+    if constexpr (with_spin && std::is_same_v<Answer, Swept>) {
+      std::vector<std::size_t> straight;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (turns(pairs[i])) continue;
+        straight.push_back(i);
+        places.push_back({pairs[i].first, pairs[i].second});
+      }
+      const auto grouped = answers(group_pairs(list_, list_, places), list_, list_, places, Answer{}, query);
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const bool is_straight = next < straight.size() && straight[next] == i;
+        keep(pairs[i], start, is_straight ? grouped[next++] : one<Answer>(query, pairs[i]), block.touches, block.asked);
+      }
+      return;
+    }
     for (const ProxyPair& pair : pairs) places.push_back({pair.first, pair.second});
     const auto all = answers(group_pairs(list_, list_, places), list_, list_, places, Answer{}, query);
     for (std::size_t i = 0; i < pairs.size(); ++i) keep(pairs[i], start, all[i], block.touches, block.asked);
@@ -330,15 +433,26 @@ template <class Held> class Kernels final : public NarrowPhase {
 
   oneapi::tbb::task_arena arena_;
   int threads_;
+  bool all_spin_;
   std::vector<Moving<Held>> list_;
+  std::vector<Vec3<double>> rotations_;  // [rad] in what is left of the step
   std::vector<Block> blocks_;
 };
 
 }  // namespace
 
-std::unique_ptr<NarrowPhase> make_narrow_phase(bool sphere_aabb, int threads) {
-  if (sphere_aabb) return std::make_unique<Kernels<SphereOrAabb>>(threads);
-  return std::make_unique<Kernels<AnyShape>>(threads);
+Yield yield_of(const Mover& m, const Vec3<double>& arm, const Vec3<double>& normal) {
+  const double inverse = inverse_mass(m.body);
+  if (!m.spin || inverse == 0) return {Vec3<double>::Zero(), inverse};
+  const Vec3<double> moment = cross(arm, normal);
+  const Vec3<double> turn = inverse_inertia(turned_true(m.body.shape, m.spin->turned), inverse) * moment;
+  return {turn, inverse + turn.dot(moment)};
+}
+
+std::unique_ptr<NarrowPhase> make_narrow_phase(const Plan& plan, int threads) {
+  if (plan.sphere_aabb) return std::make_unique<Kernels<SphereOrAabb, false>>(false, threads);
+  if (plan.spin) return std::make_unique<Kernels<AnyShape, true>>(plan.spin_within_gap, threads);
+  return std::make_unique<Kernels<AnyShape, false>>(false, threads);
 }
 
 }  // namespace thinwall

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include <thinwall/discrete/broad_phase/proxy.hpp>
+#include <thinwall/experiments/world/spin.hpp>
 #include <thinwall/experiments/world/world.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 
 namespace thinwall {
 
-// ---- What two bodies in contact do to each other: an impulse along the normal, with restitution, and no friction. Bodies do
-// not turn.
+// ---- What two bodies in contact do to each other: an impulse along the normal, with restitution, and no friction.
 
 /// A body's part of what parts it from another: with masses m_a and m_b, m_b / (m_a + m_b) for A. Neither overflows.
 /// At least one of the two must be moved by impulses.
@@ -44,10 +44,44 @@ inline Vec3<double> moving_at(const BodyMotion& motion) {
   return motion.waiting ? Vec3<double>(Vec3<double>::Zero()) : motion.velocity;
 }
 
+/// [m] Where a body is at `time` [1], relative to its place at the start of the step of dt [s].
+inline Vec3<double> offset_at(const BodyMotion& motion, double time, double dt) {
+  if (time == motion.anchor) return motion.offset;
+  return motion.offset + moving_at(motion) * (dt * (time - motion.anchor));
+}
+
+/// How far it has turned by `time` [1], from the start of the step of dt [s].
+inline Mat3<double> turned_at(const Spin& spin, const BodyMotion& motion, double time, double dt) {
+  if (time == motion.anchor || motion.waiting || spin.velocity == Vec3<double>::Zero()) return spin.turned;
+  const double angle = safe_norm(spin.velocity) * (dt * (time - motion.anchor));
+  return rotation_about<double>(safe_unit(spin.velocity), angle) * spin.turned;
+}
+
+/// A body on its way through a step.
+struct Mover {
+  const Body& body;
+  BodyMotion& motion;
+  Spin* spin;  ///< nothing if it cannot turn
+};
+
+/// [m] From its center to a point, at `time` [1]; zero if it does not turn, and nobody asks.
+inline Vec3<double> arm_of(const Mover& m, const Vec3<double>& point, double time, double dt) {
+  if (!m.spin) return Vec3<double>::Zero();
+  return point - (position(m.body) + offset_at(m.motion, time, dt));
+}
+
+/// [m/s] Of the point of it at the end of the arm. `in_effect`: zero while it waits.
+inline Vec3<double> velocity_of(const Mover& m, const Vec3<double>& arm, bool in_effect) {
+  const Vec3<double> straight = in_effect ? moving_at(m.motion) : m.motion.velocity;
+  if (!m.spin || (in_effect && m.motion.waiting)) return straight;
+  return straight + cross(m.spin->velocity, arm);
+}
+
 /// [m/s] What rounding alone may make of a closing speed of zero, once an impulse has made it zero: 16 epsilon of the
-/// speeds there were. Source: derived in docs/world.md.
-inline double closing_noise(const BodyMotion& a, const BodyMotion& b) {
-  return 16 * std::numeric_limits<double>::epsilon() * (a.speed + b.speed);
+/// speeds there were; four times that with arms and inertia. Source: derived in docs/world.md.
+inline double closing_noise(const Mover& a, const Mover& b) {
+  const double noise = 16 * std::numeric_limits<double>::epsilon() * (a.motion.speed + b.motion.speed);
+  return a.spin || b.spin ? 4 * noise : noise;
 }
 
 /// [m/s] > 0 if A and B approach along the normal, from A to B.
@@ -55,20 +89,43 @@ inline double closing_speed(const Vec3<double>& normal, const Vec3<double>& a, c
   return normal.dot(Vec3<double>(a - b));
 }
 
-/// Lets the two bounce if they approach by more than rounding. True if it did.
-inline bool bounce(const Body& body_a, const Body& body_b, BodyMotion& a, BodyMotion& b, const Vec3<double>& normal) {
-  if (!is_moved_by_impulses(body_a) && !is_moved_by_impulses(body_b)) return false;
-  const double closing = closing_speed(normal, a.velocity, b.velocity);
+/// [m/s] The largest speed of any point of it, in the sum of components: what rounding is of.
+inline double speed_of(const Body& body, const Vec3<double>& velocity, const Spin* spin) {
+  const double straight = velocity.cwiseAbs().sum();
+  return spin ? straight + spin->velocity.cwiseAbs().sum() * farthest_point(body.shape) : straight;
+}
+
+/// What an impulse of 1 Ns along the normal does to a body: by how much it turns, and the speed along it that its point gains.
+struct Yield {
+  Vec3<double> turn = Vec3<double>::Zero();  ///< [rad/s] per Ns
+  double speed = 0;                          ///< [m/s] per Ns
+};
+Yield yield_of(const Mover& m, const Vec3<double>& arm, const Vec3<double>& normal);
+
+/// Lets the two bounce where they are, at a point [m] of contact, if they approach by more than rounding. True if they did.
+inline bool bounce(const Mover& a, const Mover& b, const Vec3<double>& normal, const Vec3<double>& point) {
+  if (!is_moved_by_impulses(a.body) && !is_moved_by_impulses(b.body)) return false;
+  const Vec3<double> arm_a = arm_of(a, point, a.motion.anchor, 0), arm_b = arm_of(b, point, b.motion.anchor, 0);
+  const double closing = closing_speed(normal, velocity_of(a, arm_a, false), velocity_of(b, arm_b, false));
   if (!(closing > closing_noise(a, b))) return false;
-  const double change = (1 + std::max(body_a.restitution, body_b.restitution)) * closing;
-  const auto push = [&](const Body& body, const Body& other, BodyMotion& motion, double way) {
-    if (!is_moved_by_impulses(body)) return;
-    motion.velocity += normal * (way * change * share_of(body, other));
-    motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
-    ++motion.version;
+  const double change = (1 + std::max(a.body.restitution, b.body.restitution)) * closing;
+  const auto push = [&](const Mover& m, const Vec3<double>& by, const Vec3<double>& turn) {
+    if (!is_moved_by_impulses(m.body)) return;
+    m.motion.velocity += by;
+    if (m.spin) m.spin->velocity += turn;
+    m.motion.speed = std::max(m.motion.speed, speed_of(m.body, m.motion.velocity, m.spin));
+    ++m.motion.version;
   };
-  push(body_a, body_b, a, -1);
-  push(body_b, body_a, b, 1);
+  if (!a.spin && !b.spin) {
+    const Vec3<double> none = Vec3<double>::Zero();
+    push(a, normal * (-change * share_of(a.body, b.body)), none);
+    push(b, normal * (change * share_of(b.body, a.body)), none);
+    return true;
+  }
+  const Yield of_a = yield_of(a, arm_a, normal), of_b = yield_of(b, arm_b, normal);
+  const double impulse = change / (of_a.speed + of_b.speed);  // [Ns]
+  push(a, normal * (-impulse * inverse_mass(a.body)), of_a.turn * -impulse);
+  push(b, normal * (impulse * inverse_mass(b.body)), of_b.turn * impulse);
   return true;
 }
 
@@ -83,8 +140,19 @@ inline void part_bodies(const Body& body_a, const Body& body_b, BodyMotion& a, B
 
 // ---- The box that holds a body in what is left of a step, as the broad phase wants it.
 
+/// [rad] How far it turns in what is left of the step of dt [s] after `time` [1].
+inline Vec3<double> rotation_from(const BodyMotion& motion, const Spin& spin, double time, double dt) {
+  return motion.waiting ? Vec3<double>(Vec3<double>::Zero()) : Vec3<double>(spin.velocity * (dt * (1 - time)));
+}
+
+/// From the motion's anchor to the end of the step of dt [s].
+template <class A> Turning<A> turning_of(const A& shape, const BodyMotion& motion, const Spin& spin, double dt) {
+  return {moved(turned(shape, spin.turned), motion.offset), moving_at(motion) * (dt * (1 - motion.anchor)),
+          rotation_from(motion, spin, motion.anchor, dt)};
+}
+
 /// From the motion's anchor to the end of the step of dt [s], rounded outward.
-inline Proxy proxy_of(const Body& body, const BodyMotion& motion, double dt) {
+inline Proxy proxy_of(const Body& body, const BodyMotion& motion, const Spin* spin, double dt) {
   Proxy proxy;
   proxy.group = body.group;
   proxy.mask = body.mask;
@@ -94,7 +162,12 @@ inline Proxy proxy_of(const Body& body, const BodyMotion& motion, double dt) {
   std::visit(
       [&]<class A>(const A& shape) {
         if constexpr (!std::is_same_v<A, std::monostate>) {
-          const Aabb<double> box = swept_bounds(Moving<A>{moved(shape, motion.offset), displacement});
+          const Aabb<double> box = [&] {
+            if constexpr (looks_turned<A>) {
+              if (spin) return swept_bounds(turning_of(shape, motion, *spin, dt));
+            }
+            return swept_bounds(Moving<A>{moved(shape, motion.offset), displacement});
+          }();
           proxy.low = box.center - box.half_extents;
           proxy.high = box.center + box.half_extents;
         }
@@ -116,6 +189,7 @@ struct Touch {
   std::uint32_t first = 0, second = 0;         ///< places, first < second
   double time = 0;                             ///< [1] part of the step
   bool at_start = false;                       ///< in contact where the question starts already
+  bool gave_up = false;                        ///< proven apart until `time`, and nothing after: they turn too far
   Vec3<double> normal = Vec3<double>::Zero();  ///< unit, from first to second
   Vec3<double> point = Vec3<double>::Zero();   ///< [m]
   double penetration = 0;                      ///< [m] >= 0; at an instant alone
@@ -137,10 +211,12 @@ class NarrowPhase {
 
   /// As many bodies as given, where their motions' anchors are. Those that cannot move keep their old place unless
   /// `resting_too`.
-  virtual void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, double dt,
-                     bool resting_too) = 0;
-  /// One of them, at `time` [1].
-  virtual void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, double time, double dt) = 0;
+  /// `spins`: one a body, or none where nothing turns.
+  virtual void place(std::span<const Body> bodies, std::span<const BodyMotion> motions, std::span<const Spin> spins,
+                     double dt, bool resting_too) = 0;
+  /// One of them, at `time` [1]. `spin`: nothing if it cannot turn.
+  virtual void place_one(std::uint32_t which, const Body& body, const BodyMotion& motion, const Spin* spin, double time,
+                         double dt) = 0;
 
   /// Appends the pairs that come into contact in what is left of the step from `start` [1] on, in the order of `pairs`.
   /// All must be placed at that time. gate [1]: see WorldOptions.
@@ -148,17 +224,17 @@ class NarrowPhase {
   /// Appends the pairs in contact where they are placed, with penetrations.
   virtual Asked look(std::span<const ProxyPair> pairs, std::vector<Touch>& touches) = 0;
 
+  /// True if one of them turns in what is left of the step.
+  virtual bool turns(const ProxyPair& pair) const = 0;
+  /// [1] of what is left of the step, of two that touch where they are placed: until then neither sinks into the other by more than a
+  /// 1024th of the lesser least half width of the two.
+  virtual double until_next_look(const ProxyPair& pair, const Vec3<double>& normal) const = 0;
+
   virtual std::size_t bytes() const = 0;
 };
 
-/// With the kernels of spheres and axis-aligned boxes alone, or of every shape; on `threads` >= 1 threads.
-std::unique_ptr<NarrowPhase> make_narrow_phase(bool sphere_aabb, int threads);
-
-/// [m] Where a body is at `time` [1], relative to its place at the start of the step of dt [s].
-inline Vec3<double> offset_at(const BodyMotion& motion, double time, double dt) {
-  if (time == motion.anchor) return motion.offset;
-  return motion.offset + moving_at(motion) * (dt * (time - motion.anchor));
-}
+/// With the kernels that the plan names; on `threads` >= 1 threads.
+std::unique_ptr<NarrowPhase> make_narrow_phase(const Plan& plan, int threads);
 
 // ---- Whom a body may meet in what is left of a step, kept up to date while bodies change course.
 //

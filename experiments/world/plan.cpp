@@ -4,6 +4,7 @@
 #include <array>
 
 #include <thinwall/experiments/world/pairs.hpp>
+#include <thinwall/experiments/world/spin.hpp>
 
 namespace thinwall {
 namespace {
@@ -14,6 +15,7 @@ constexpr std::string_view best_of_many = "uniform_grid";
 /// What a scene is made of, as far as a plan looks.
 struct Census {
   std::size_t with_shape = 0, at_rest = 0, movers = 0;
+  std::size_t spinning = 0, spinning_balls = 0;
   std::array<std::size_t, std::variant_size_v<AnyShape>> shapes{};
   bool masks = false;
 };
@@ -26,6 +28,7 @@ Census census_of(std::span<const Body> bodies) {
     if (std::holds_alternative<std::monostate>(body.shape)) continue;
     ++census.with_shape;
     ++(can_move(body) ? census.movers : census.at_rest);
+    if (body.turns && can_move(body)) ++(can_turn(body) ? census.spinning : census.spinning_balls);
     groups |= body.group;
     masks &= body.mask;
     if (body.group == 0) census.masks = true;
@@ -93,6 +96,14 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   const bool only_two = census.shapes[3] + census.shapes[4] == 0;
   plan.sphere_aabb = !line("kernels of absent shapes", only_two, "spheres and axis-aligned boxes alone",
                            "there are oriented boxes or capsules");
+  if (census.spinning + census.spinning_balls == 0) return plan;  // nothing turns: no question
+  plan.spin = line("spin", census.spinning == 0,
+                   of(census.spinning_balls, "ball looks", "balls look") + " the same whichever way up",
+                   of(census.spinning, "body turns", "bodies turn"));
+  plan.spin_within_gap =
+      line("spin short of the gap", census.spinning > 0,
+           "asked without it, at the distance that it can bridge: who stays farther apart never meets",
+           "no body turns for anyone to see");
   return plan;
 }
 
@@ -106,6 +117,11 @@ std::span<const std::string_view> omission_names() {
                                                             "masked pairs",
                                                             "motion of bodies at rest",
                                                             "kernels of absent shapes"};
+  return names;
+}
+
+std::span<const std::string_view> spin_omission_names() {
+  static constexpr std::array<std::string_view, 2> names = {"spin", "spin short of the gap"};
   return names;
 }
 

@@ -18,10 +18,7 @@ PhaseClock::PhaseClock(double& seconds) : seconds_(&seconds), start_(now()) {}
 PhaseClock::~PhaseClock() { *seconds_ += now() - start_; }
 
 Stepper::Stepper(const WorldOptions& options, const Plan& plan)
-    : options_(options),
-      plan_(plan),
-      finder_(plan.broad_phase),
-      narrow_(make_narrow_phase(plan.sphere_aabb, options.threads)) {}
+    : options_(options), plan_(plan), finder_(plan.broad_phase), narrow_(make_narrow_phase(plan, options.threads)) {}
 
 void Stepper::run(std::span<const Body> bodies, double dt, bool changed_by_hand) {
   bodies_ = bodies;
@@ -48,6 +45,11 @@ void Stepper::begin(double dt, bool changed_by_hand) {
     motions_[i].velocity = bodies_[i].velocity;
     motions_[i].speed = bodies_[i].velocity.cwiseAbs().sum();
   }
+  spins_.assign(plan_.spin ? bodies_.size() : 0, Spin{});
+  for (std::size_t i = 0; i < spins_.size(); ++i) {
+    spins_[i].velocity = bodies_[i].angular_velocity;
+    motions_[i].speed = speed_of(bodies_[i], bodies_[i].velocity, spin(i));
+  }
 }
 
 /// Gravity for `dt` [s]: the velocity at the end of a stretch is the one it is walked at (semi-implicit Euler), so that a body
@@ -57,7 +59,7 @@ void Stepper::fall(double dt) {
     if (!is_moved_by_impulses(bodies_[i])) continue;
     BodyMotion& motion = motions_[i];
     motion.velocity += options_.gravity * (bodies_[i].gravity_scale * dt);
-    motion.speed = std::max(motion.speed, motion.velocity.cwiseAbs().sum());
+    motion.speed = std::max(motion.speed, speed_of(bodies_[i], motion.velocity, spin(i)));
   }
 }
 
@@ -66,14 +68,15 @@ void Stepper::box(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!can_move(bodies_[i]) && !all_anew_) continue;
     require_in_the_world(i, moving_at(motions_[i]) * dt);
-    if (plan_.contacts) proxies_[i] = proxy_of(bodies_[i], motions_[i], dt);
+    if (plan_.contacts) proxies_[i] = proxy_of(bodies_[i], motions_[i], spin(i), dt);
   }
 }
 
 void Stepper::require_in_the_world(std::size_t which, const Vec3<double>& displacement) const {
   const BodyMotion& motion = motions_[which];
   const Vec3<double> way = motion.offset.cwiseAbs() + displacement.cwiseAbs();
-  if (is_in_the_world(bodies_[which].shape, way) && is_finite(motion.velocity)) return;
+  const bool turns_finitely = spins_.empty() || spins_[which].velocity.cwiseAbs().sum() * dt_ <= end_of_the_world;
+  if (is_in_the_world(bodies_[which].shape, way) && is_finite(motion.velocity) && turns_finitely) return;
   throw LeftTheWorld(called(bodies_[which]) +
                      " left the representable world: its place or its velocity is out of range");
 }
@@ -95,9 +98,9 @@ void Stepper::finish() {
 }
 
 std::size_t Stepper::bytes() const {
-  return motions_.capacity() * sizeof(BodyMotion) + proxies_.capacity() * sizeof(Proxy) +
-         pairs_.capacity() * sizeof(ProxyPair) + (touches_.capacity() + found_.capacity()) * sizeof(Touch) +
-         narrow_->bytes() + neighbors_.bytes();
+  return motions_.capacity() * sizeof(BodyMotion) + spins_.capacity() * sizeof(Spin) +
+         proxies_.capacity() * sizeof(Proxy) + pairs_.capacity() * sizeof(ProxyPair) +
+         (touches_.capacity() + found_.capacity()) * sizeof(Touch) + narrow_->bytes() + neighbors_.bytes();
 }
 
 /// The boxes as the broad phase is to see them: static and masked pairs are pairs like others where they are not left out.
@@ -126,6 +129,7 @@ void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)
     counts_.pairs += pairs_.size();
     const PhaseClock clock(counts_.seconds.narrow);
     count(ask(pairs_));
+    if (plan_.spin) require_answers(bodies_, found_);
     if (!drops) return;
     std::erase_if(pairs_, has_no_say);
     std::erase_if(found_, has_no_say);
@@ -148,6 +152,7 @@ void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)
     }
   }
   flush();
+  if (plan_.spin) require_answers(bodies_, found_);
   if (!drops) return;
   mark_proxies(true);
   std::erase_if(found_, has_no_say);
@@ -164,14 +169,19 @@ void Stepper::sampled_step(int parts) {
       const PhaseClock clock(counts_.seconds.integrate);
       fall(part);
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (can_move(bodies_[i])) motions_[i].offset += motions_[i].velocity * part;
+        if (!can_move(bodies_[i])) continue;
+        motions_[i].offset += motions_[i].velocity * part;
+        if (Spin* const turns = spin(i)) {
+          const Vec3<double>& rate = turns->velocity;
+          turns->turned = rotation_about<double>(safe_unit(rate), safe_norm(rate) * part) * turns->turned;
+        }
       }
       box(0);
     }
     if (!plan_.contacts) continue;
     {
       const PhaseClock clock(counts_.seconds.narrow);
-      narrow_->place(bodies_, motions_, dt_, all_anew_);
+      narrow_->place(bodies_, motions_, spins_, dt_, all_anew_);
     }
     found_.clear();
     find_touches([&](std::span<const ProxyPair> pairs) { return narrow_->look(pairs, found_); });
@@ -181,26 +191,25 @@ void Stepper::sampled_step(int parts) {
     if (!plan_.response) continue;
     const PhaseClock clock(counts_.seconds.response);
     if (options_.response) {
-      respond_at_instant(motions_);
+      respond_at_instant(motions_, spins_);
     } else {
       const std::size_t impulses = counts_.impulses;
       std::vector<BodyMotion> dropped = motions_;
-      respond_at_instant(dropped);
+      std::vector<Spin> dropped_spins = spins_;
+      respond_at_instant(dropped, dropped_spins);
       counts_.impulses = impulses;
     }
   }
 }
 
 /// Impulses in the order of the pairs, until nobody approaches or the rounds are over, then every penetration undone.
-void Stepper::respond_at_instant(std::vector<BodyMotion>& motions) {
+void Stepper::respond_at_instant(std::vector<BodyMotion>& motions, std::vector<Spin>& spins) {
+  const auto mover = [&](std::size_t i) { return Mover{bodies_[i], motions[i], spin_of(spins, bodies_[i], i)}; };
   bool any = true;
   for (int round = 0; round <= options_.contact_rounds && any; ++round) {
     any = false;
     for (const Touch& touch : found_) {
-      if (!bounce(bodies_[touch.first], bodies_[touch.second], motions[touch.first], motions[touch.second],
-                  touch.normal)) {
-        continue;
-      }
+      if (!bounce(mover(touch.first), mover(touch.second), touch.normal, touch.point)) continue;
       any = true;
       ++counts_.impulses;
     }

@@ -24,6 +24,7 @@ class Stepper {
   void run(std::span<const Body> bodies, double dt, bool changed_by_hand);
 
   const std::vector<BodyMotion>& motions() const { return motions_; }  ///< each at its end: `anchor` is 1
+  const std::vector<Spin>& spins() const { return spins_; }            ///< the same; none where nothing turns
   const std::vector<Touch>& touches() const { return touches_; }       ///< in the order they were processed
   const StepReport& counts() const { return counts_; }                 ///< no step, no time
   std::size_t bytes() const;
@@ -34,16 +35,19 @@ class Stepper {
   void fall(double dt);
   void box(double dt);
   void require_in_the_world(std::size_t which, const Vec3<double>& displacement) const;
+  Spin* spin(std::size_t which) { return spin_of(spins_, bodies_[which], which); }
   void finish();
   void find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask);
   void mark_proxies(bool as_they_are);
   void count(const Asked& asked);
   // sampled_step.cpp
   void sampled_step(int parts);
-  void respond_at_instant(std::vector<BodyMotion>& motions);
+  void respond_at_instant(std::vector<BodyMotion>& motions, std::vector<Spin>& spins);
   // swept_step.cpp
   void swept_step();
-  void play(std::vector<BodyMotion>& motions, std::vector<Touch>& processed, StepReport& counts);
+  void go_straight_on();
+  void play(std::vector<BodyMotion>& motions, std::vector<Spin>& spins, std::vector<Touch>& processed,
+            StepReport& counts);
 
   WorldOptions options_;
   Plan plan_;
@@ -55,6 +59,7 @@ class Stepper {
   bool ready_ = false;    // the last step came to its end
   bool all_anew_ = true;  // the boxes and places of bodies at rest too
   std::vector<BodyMotion> motions_;
+  std::vector<Spin> spins_;  // one a body, or none where nothing turns
   std::vector<Proxy> proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<Touch> touches_, found_;
@@ -77,6 +82,9 @@ class PhaseClock {
 
 // ---- What contacts do to motions that are known for the whole step: the events of a step in the order of their times.
 
+/// Throws TurnsTooFar if the sweep of one of these gave up.
+void require_answers(std::span<const Body> bodies, std::span<const Touch> touches);
+
 /// Every contact is told. One with a body that an impulse can turn is answered, which takes one of the `max_events` of that body, or
 /// ends its motion: a step of n bodies has at most n (max_events + 1) answers.
 class EventLoop {
@@ -86,12 +94,14 @@ class EventLoop {
     double dt;       ///< [s] of the step
     int max_events;  ///< of a body; then it waits
     int contact_rounds;
+    double correction;
     double gate;
     NarrowPhase& narrow;   ///< all placed at the start
     Neighbors& neighbors;  ///< begun
   };
 
-  EventLoop(const Scene& scene, std::vector<BodyMotion>& motions) : scene_(scene), motions_(motions) {}
+  EventLoop(const Scene& scene, std::vector<BodyMotion>& motions, std::vector<Spin>& spins)
+      : scene_(scene), motions_(motions), spins_(spins) {}
 
   /// Bounces and moves the bodies through the step, given what touches on the paths they start with. Appends the contacts that
   /// come about to `processed`.
@@ -101,6 +111,7 @@ class EventLoop {
   struct Event {
     Touch touch;
     std::uint32_t version_first = 0, version_second = 0;
+    bool is_look = false;  ///< not a contact: until then two that touch and turn have not sunk into each other
     /// The later one: std::priority_queue hands out the greatest. Of one pair at one time the older goes first.
     bool operator<(const Event& other) const {
       if (touch.time != other.touch.time) return touch.time > other.touch.time;
@@ -117,7 +128,17 @@ class EventLoop {
   void happen(const Event& event, std::vector<Touch>& processed, StepReport& counts);
   bool is_on_course(const Event& event) const;
   bool was_on_course(const Event& event) const;
-  bool press(const Touch& touch) const;
+  bool press(const Touch& touch);
+  double closing(const Touch& touch, bool in_effect);
+  void look_later(const Touch& touch, double time);
+  void look(const Event& event, StepReport& counts);
+  enum class Answer { take_event, go_on, wait };  // a contact; one that goes on; one that has been looked at too often
+  void answer(const Touch& touch, Answer how, StepReport& counts);
+  Mover mover(std::uint32_t which) {
+    const Body& body = scene_.bodies[which];
+    return {body, motions_[which], spin_of(spins_, body, which)};
+  }
+  void place(std::uint32_t which, double time);
   void sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts);
   void advance(std::uint32_t which, double time);
   void change_course(std::uint32_t which);
@@ -127,6 +148,7 @@ class EventLoop {
 
   const Scene& scene_;
   std::vector<BodyMotion>& motions_;
+  std::vector<Spin>& spins_;
   std::priority_queue<Event> queue_;
   std::vector<bool> changed_;  // by the contacts at the start
   std::vector<ProxyPair> pairs_;

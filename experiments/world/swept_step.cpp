@@ -13,7 +13,18 @@ void tell(const Touch& touch, std::vector<Touch>& processed) {
   if (!touch.at_start || touch.time > 0) processed.push_back(touch);
 }
 
+/// Of a body, in a step: then it waits. Two that touch and roll are looked at a few dozen times.
+constexpr int most_looks = 1024;
+
 }  // namespace
+
+void require_answers(std::span<const Body> bodies, std::span<const Touch> touches) {
+  for (const Touch& touch : touches) {
+    if (!touch.gave_up) continue;
+    throw TurnsTooFar("nothing can be proven of when " + called(bodies[touch.first]) + " meets " +
+                      called(bodies[touch.second]) + ": they turn too far in a step; take shorter ones");
+  }
+}
 
 void EventLoop::run(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts) {
   changed_.assign(scene_.bodies.size(), false);
@@ -25,7 +36,9 @@ void EventLoop::run(std::span<const Touch> found, std::vector<Touch>& processed,
   while (!queue_.empty()) {
     const Event event = queue_.top();
     queue_.pop();
-    if (is_on_course(event)) {
+    if (event.is_look) {
+      if (is_on_course(event)) look(event, counts);
+    } else if (is_on_course(event)) {
       happen(event, processed, counts);
     } else if (was_on_course(event) && !press(event.touch)) {  // those that do have been swept again
       tell(event.touch, processed);
@@ -59,15 +72,23 @@ bool EventLoop::was_on_course(const Event& event) const {
 }
 
 /// True if the two that touch go on toward each other by more than rounding, and one of them can be turned.
-bool EventLoop::press(const Touch& touch) const {
-  const BodyMotion &a = motions_[touch.first], &b = motions_[touch.second];
+bool EventLoop::press(const Touch& touch) {
   return (is_free(touch.first) || is_free(touch.second)) &&
-         closing_speed(touch.normal, moving_at(a), moving_at(b)) > closing_noise(a, b);
+         closing(touch, true) > closing_noise(mover(touch.first), mover(touch.second));
+}
+
+/// [m/s] Of the points where they touch. `in_effect`: a body that waits has none.
+double EventLoop::closing(const Touch& touch, bool in_effect) {
+  const auto velocity = [&](const Mover& m) {
+    return velocity_of(m, arm_of(m, touch.point, touch.time, scene_.dt), in_effect);
+  };
+  return closing_speed(touch.normal, velocity(mover(touch.first)), velocity(mover(touch.second)));
 }
 
 void EventLoop::advance(std::uint32_t which, double time) {
   BodyMotion& motion = motions_[which];
   if (time != motion.anchor) motion.arrived = motion.version;
+  if (Spin* const spin = mover(which).spin) spin->turned = turned_at(*spin, motion, time, scene_.dt);
   motion.offset = offset_at(motion, time, scene_.dt);
   motion.anchor = time;
 }
@@ -84,7 +105,7 @@ void EventLoop::resolve_start(std::span<const Touch> found, std::vector<Touch>& 
     any = false;
     for (const Touch& touch : contacts) {
       const std::uint32_t a = touch.first, b = touch.second;
-      if (!bounce(scene_.bodies[a], scene_.bodies[b], motions_[a], motions_[b], touch.normal)) continue;
+      if (!bounce(mover(a), mover(b), touch.normal, touch.point)) continue;
       any = true;
       ++counts.impulses;
       changed_[a] = changed_[a] || is_moved_by_impulses(scene_.bodies[a]);
@@ -96,7 +117,7 @@ void EventLoop::resolve_start(std::span<const Touch> found, std::vector<Touch>& 
 void EventLoop::sweep_changed_at_start(StepReport& counts) {
   for (std::uint32_t i = 0; i < changed_.size(); ++i) {
     if (!changed_[i]) continue;
-    scene_.narrow.place_one(i, scene_.bodies[i], motions_[i], 0, scene_.dt);
+    place(i, 0);
     change_course(i);
   }
   constexpr std::size_t at_a_time = 1U << 16;
@@ -119,31 +140,78 @@ void EventLoop::ask(double time, StepReport& counts) {
   counts.sweeps += asked.pairs;
   counts.gated += asked.gated;
   pairs_.clear();
+  if (!spins_.empty()) require_answers(scene_.bodies, touches_);
   for (const Touch& touch : touches_) schedule(touch);
 }
 
+void EventLoop::place(std::uint32_t which, double time) {
+  const Mover m = mover(which);
+  scene_.narrow.place_one(which, m.body, m.motion, m.spin, time, scene_.dt);
+}
+
 /// Bodies that touch and do not approach never meet again on straight paths: they are convex, and the plane of contact goes
-/// on parting them.
+/// on parting them. Those that turn may.
 void EventLoop::schedule(const Touch& touch) {
-  if (touch.at_start && !press(touch)) return;
-  queue_.push({touch, motions_[touch.first].version, motions_[touch.second].version});
+  if (touch.at_start && !press(touch)) return look_later(touch, touch.time);
+  queue_.push({touch, motions_[touch.first].version, motions_[touch.second].version, false});
+}
+
+// ---- Contacts that go on: two that touch, do not approach, and turn. What parts them now may press them together in a moment, at
+// another point. Until when nothing of note can have happened is known: then they are looked at again.
+
+void EventLoop::look_later(const Touch& touch, double time) {
+  if (spins_.empty() || (!is_free(touch.first) && !is_free(touch.second))) return;
+  for (const std::uint32_t end : {touch.first, touch.second}) place(end, time);
+  const ProxyPair pair{touch.first, touch.second};
+  if (!scene_.narrow.turns(pair)) return;
+  Touch then = touch;
+  then.time = time + scene_.narrow.until_next_look(pair, touch.normal) * (1 - time);
+  if (then.time < 1) queue_.push({then, motions_[touch.first].version, motions_[touch.second].version, true});
+}
+
+void EventLoop::look(const Event& event, StepReport& counts) {
+  const double time = event.touch.time;
+  const std::uint32_t ends[2] = {event.touch.first, event.touch.second};
+  bool waits = false;
+  for (const std::uint32_t end : ends) {
+    place(end, time);
+    if (Spin* const spin = mover(end).spin) waits = ++spin->looks > most_looks || waits;
+  }
+  const ProxyPair pair{ends[0], ends[1]};
+  touches_.clear();
+  scene_.narrow.look({&pair, 1}, touches_);
+  Touch touch = touches_.empty() ? event.touch : touches_.front();
+  touch.time = time;
+  if (waits || (!touches_.empty() && press(touch))) {
+    return answer(touch, waits ? Answer::wait : Answer::go_on, counts);
+  }
+  pairs_.assign(1, pair);
+  ask(time, counts);
 }
 
 void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepReport& counts) {
   const Touch& touch = event.touch;
-  const std::uint32_t ends[2] = {touch.first, touch.second};
-  BodyMotion &a = motions_[ends[0]], &b = motions_[ends[1]];
   tell(touch, processed);
-  if (!is_free(ends[0]) && !is_free(ends[1])) return;  // no impulse turns either
-  const bool bounces = closing_speed(touch.normal, a.velocity, b.velocity) > closing_noise(a, b);
-  if (!bounces && !press(touch)) return;  // a graze
+  if (!is_free(touch.first) && !is_free(touch.second)) return;  // no impulse turns either
+  answer(touch, Answer::take_event, counts);
+}
+
+/// Lets the two bounce if they approach, or wait behind one that waits; then what both may meet is swept again.
+void EventLoop::answer(const Touch& touch, Answer how, StepReport& counts) {
+  const std::uint32_t ends[2] = {touch.first, touch.second};
+  const bool bounces = closing(touch, false) > closing_noise(mover(ends[0]), mover(ends[1]));
+  if (!bounces && how != Answer::wait && !press(touch)) return look_later(touch, touch.time);  // a graze
   bool changes[2] = {false, false};
   for (const std::uint32_t end : ends) {
     if (can_move(scene_.bodies[end])) advance(end, touch.time);
   }
   if (bounces) {
-    bounce(scene_.bodies[ends[0]], scene_.bodies[ends[1]], a, b, touch.normal);
+    bounce(mover(ends[0]), mover(ends[1]), touch.normal, touch.point);
     ++counts.impulses;
+  }
+  if (touch.penetration > 0) {
+    part_bodies(scene_.bodies[ends[0]], scene_.bodies[ends[1]], motions_[ends[0]], motions_[ends[1]], touch.normal,
+                touch.penetration, scene_.correction);
   }
   for (int k = 0; k < 2; ++k) {
     BodyMotion& motion = motions_[ends[k]];
@@ -151,7 +219,9 @@ void EventLoop::happen(const Event& event, std::vector<Touch>& processed, StepRe
     changes[k] = bounces || !motion.waiting;
     if (!changes[k]) continue;  // it waits already: what is known of it stays
     ++motion.version;
-    if (!bounces || ++motion.events >= scene_.max_events) motion.waiting = true;  // it waits behind one that waits
+    if (how == Answer::take_event) ++motion.events;
+    const bool is_behind_one_that_waits = !bounces;
+    if (is_behind_one_that_waits || how == Answer::wait || motion.events >= scene_.max_events) motion.waiting = true;
   }
   for (int k = 0; k < 2; ++k) {
     if (changes[k]) change_course(ends[k]);
@@ -168,19 +238,16 @@ void EventLoop::change_course(std::uint32_t which) {
   if (!is_in_the_world(body.shape, motion.offset.cwiseAbs() + rest.cwiseAbs()) || !is_finite(motion.velocity)) {
     throw LeftTheWorld(called(body) + " left the representable world: a hit made its velocity too large");
   }
-  scene_.neighbors.change(which, proxy_of(body, motion, scene_.dt));
+  scene_.neighbors.change(which, proxy_of(body, motion, mover(which).spin, scene_.dt));
 }
 
 /// All that the body may meet from `time` on, but the pair with `done`, which is known. One that waits may still be met.
 void EventLoop::sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts) {
-  const auto place = [&](std::uint32_t i) {
-    scene_.narrow.place_one(i, scene_.bodies[i], motions_[i], time, scene_.dt);
-  };
-  place(which);
+  place(which, time);
   pairs_.clear();
   for (const std::uint32_t other : scene_.neighbors.of(which)) {
     if (other == done || (!goes_on(which) && !goes_on(other))) continue;
-    place(other);
+    place(other, time);
     pairs_.push_back({std::min(which, other), std::max(which, other)});
   }
   ask(time, counts);
@@ -193,45 +260,53 @@ void Stepper::swept_step() {
     box(dt_);
   }
   if (!plan_.contacts) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (can_move(bodies_[i])) motions_[i].offset = offset_at(motions_[i], 1, dt_);
-    }
+    go_straight_on();
     return;
   }
   {
     const PhaseClock clock(counts_.seconds.narrow);
-    narrow_->place(bodies_, motions_, dt_, all_anew_);
+    narrow_->place(bodies_, motions_, spins_, dt_, all_anew_);
   }
   found_.clear();
   find_touches([&](std::span<const ProxyPair> pairs) { return narrow_->sweep(pairs, 0, options_.gate, found_); });
   const PhaseClock clock(counts_.seconds.response);
   if (plan_.response) {
     if (options_.response) {
-      play(motions_, touches_, counts_);
+      play(motions_, spins_, touches_, counts_);
     } else {  // to show that leaving it out changes nothing
       std::vector<BodyMotion> motions = motions_;
+      std::vector<Spin> spins = spins_;
       std::vector<Touch> processed;
       StepReport counts;
-      play(motions, processed, counts);
+      play(motions, spins, processed, counts);
     }
   }
   if (options_.response) return;
   touches_ = found_;
   std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) { return a.time < b.time; });
+  go_straight_on();
+}
+
+/// All bodies to the end of the step, on the paths that they started on.
+void Stepper::go_straight_on() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (can_move(bodies_[i])) motions_[i].offset = offset_at(motions_[i], 1, dt_);
+    if (!can_move(bodies_[i])) continue;
+    if (Spin* const turns = spin(i)) turns->turned = turned_at(*turns, motions_[i], 1, dt_);
+    motions_[i].offset = offset_at(motions_[i], 1, dt_);
   }
 }
 
 /// The events of the step, then the correction of what overlapped at its start and still does at its end.
-void Stepper::play(std::vector<BodyMotion>& motions, std::vector<Touch>& processed, StepReport& counts) {
+void Stepper::play(std::vector<BodyMotion>& motions, std::vector<Spin>& spins, std::vector<Touch>& processed,
+                   StepReport& counts) {
   has_links_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) has_links_[i] = is_moved_by_impulses(bodies_[i]);
   neighbors_.begin(proxies_, plan_.all_bounds ? std::span<const ProxyPair>() : std::span<const ProxyPair>(pairs_),
                    has_links_, plan_.all_bounds);
   const int max_events = options_.policy == TimePolicy::clamp ? 1 : options_.max_events;
-  const EventLoop::Scene scene{bodies_, dt_, max_events, options_.contact_rounds, options_.gate, *narrow_, neighbors_};
-  EventLoop(scene, motions).run(found_, processed, counts);
+  const EventLoop::Scene scene{bodies_,       dt_,      max_events, options_.contact_rounds, options_.correction,
+                               options_.gate, *narrow_, neighbors_};
+  EventLoop(scene, motions, spins).run(found_, processed, counts);
   std::vector<ProxyPair> overlapping;
   for (const Touch& touch : found_) {
     if (touch.at_start) overlapping.push_back({touch.first, touch.second});
@@ -239,7 +314,7 @@ void Stepper::play(std::vector<BodyMotion>& motions, std::vector<Touch>& process
   if (overlapping.empty()) return;
   for (const ProxyPair& pair : overlapping) {
     for (const std::uint32_t end : {pair.first, pair.second}) {
-      narrow_->place_one(end, bodies_[end], motions[end], 1, dt_);
+      narrow_->place_one(end, bodies_[end], motions[end], spin_of(spins, bodies_[end], end), 1, dt_);
     }
   }
   std::vector<Touch> still;

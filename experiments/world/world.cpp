@@ -7,6 +7,7 @@
 
 #include <thinwall/discrete/raised_flag.hpp>
 #include <thinwall/experiments/world/pairs.hpp>
+#include <thinwall/experiments/world/spin.hpp>
 #include <thinwall/experiments/world/step.hpp>
 
 namespace thinwall {
@@ -69,6 +70,15 @@ void require_valid(const Body& body) {
   if (!is_finite(1 / body.mass)) complain("its mass is so small that 1 / mass is not finite");
   if (!(body.restitution >= 0 && body.restitution <= 1)) complain("its restitution must be in [0, 1]");
   if (!is_finite(body.gravity_scale)) complain("its gravity scale must be finite");
+  const Vec3<double>& w = body.angular_velocity;
+  if (!is_finite(w)) complain("its angular velocity must be finite");
+  if (!body.turns && w != Vec3<double>::Zero()) complain("it does not turn, so that its angular velocity must be zero");
+  if (body.is_static && w != Vec3<double>::Zero()) complain("it is static, so that its angular velocity must be zero");
+  if (!body.turns) return;
+  if (std::holds_alternative<Aabb<double>>(body.shape)) complain("an aabb does not turn: write obb");
+  if (std::holds_alternative<std::monostate>(body.shape)) complain("it has no shape, so that it cannot turn");
+  if (!inverse_inertia(body.shape, inverse_mass(body)).allFinite())
+    complain("its moment of inertia is so small that its inverse is not finite");
 }
 
 void require_valid(const WorldOptions& options) {
@@ -85,8 +95,10 @@ void require_valid(const WorldOptions& options) {
   require(options.threads >= 1, "threads must be >= 1");
   require(options.max_pairs >= 1, "max_pairs must be >= 1");
   for (const std::string& kept : options.keep) {
-    const auto names = omission_names();
-    require(std::find(names.begin(), names.end(), kept) != names.end(), "there is no omission '" + kept + "' to keep");
+    const auto is_one = [&](std::span<const std::string_view> names) {
+      return std::find(names.begin(), names.end(), kept) != names.end();
+    };
+    require(is_one(omission_names()) || is_one(spin_omission_names()), "there is no omission '" + kept + "' to keep");
   }
   if (options.broad_phase == "auto") return;
   std::string names = "auto";
@@ -156,6 +168,10 @@ void World::Impl::commit(double dt) {
     if (!can_move(bodies[i])) continue;
     const BodyMotion& motion = stepper.motions()[i];
     bodies[i].velocity = motion.velocity;
+    if (const Spin* const spin = spin_of(stepper.spins(), bodies[i], i)) {
+      bodies[i].angular_velocity = spin->velocity;
+      if (spin->turned != Mat3<double>::Identity()) bodies[i].shape = turned_true(bodies[i].shape, spin->turned);
+    }
     std::visit(
         [&](auto& shape) {
           if constexpr (!std::is_same_v<decltype(shape), std::monostate&>) shape = moved(shape, motion.offset);
@@ -258,6 +274,7 @@ double World::energy() const {
     const Vec3<Wide> v = body.velocity.cast<Wide>(), g = impl_->options.gravity.cast<Wide>();
     const Vec3<Wide> place = position(body).cast<Wide>();
     sum += Wide(body.mass) * (v.squaredNorm() / 2 - Wide(body.gravity_scale) * g.dot(place));
+    if (body.turns) sum += energy_of_turning(body);
   }
   return static_cast<double>(sum);
 }
@@ -284,6 +301,13 @@ std::uint64_t World::state_hash() const {
           }
         },
         body.shape);
+    if (!body.turns) continue;
+    add_vector(body.angular_velocity);
+    if (const auto* const box = std::get_if<Obb<double>>(&body.shape)) {
+      for (int k = 0; k < 3; ++k) add_vector(box->axes.col(k));
+    } else if (const auto* const capsule = std::get_if<Capsule<double>>(&body.shape)) {
+      add_vector(capsule->b);
+    }
   }
   return hash;
 }

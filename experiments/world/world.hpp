@@ -50,7 +50,7 @@ struct WorldOptions {
       std::size_t{1} << 24;  ///< >= 1: more candidate pairs than this stop the step with TooManyPairs
 };
 
-// ---- What a world is made of: a body has a shape, or none, and moves without turning.
+// ---- What a world is made of: a body has a shape, or none, moves, and turns if it is to.
 
 /// A shape that every other of the list can meet, or none.
 using AnyShape = std::variant<std::monostate, Sphere<double>, Aabb<double>, Obb<double>, Capsule<double>>;
@@ -67,6 +67,8 @@ struct Body {
   double gravity_scale = 1;                      ///< [1] times the world's gravity; of no effect without a finite mass
   std::uint32_t group = 1;                       ///< bits it belongs to
   std::uint32_t mask = ~std::uint32_t{0};        ///< bits it may meet
+  bool turns = false;  ///< it spins, and contacts change how it does, unless its mass is infinite; an Aabb never does
+  Vec3<double> angular_velocity = Vec3<double>::Zero();  ///< [rad/s] about its center; zero unless it turns
 };
 
 /// [1/kg] What an impulse does to it: 0 for a body that nothing moves.
@@ -92,17 +94,19 @@ struct PlanLine {
 };
 
 struct Plan {
-  bool full = false;            ///< nothing is omitted
-  std::string broad_phase;      ///< its name
-  bool sphere_aabb = false;     ///< the kernels of spheres and axis-aligned boxes alone
-  bool all_bounds = false;      ///< every two bodies are asked, whatever their boxes
-  bool static_pairs = false;    ///< pairs of two static bodies are asked, and what they find is dropped
-  bool masked_pairs = false;    ///< the same for pairs that a mask leaves out
-  bool resting_bounds = false;  ///< boxes and places of bodies that never move are computed anew in each step
-  bool contacts = false;        ///< pairs are looked for at all
-  bool events = false;          ///< begin, stay and end are kept, be it for nobody
-  bool response = false;        ///< impulses are computed, be it to drop them
-  std::vector<PlanLine> lines;  ///< the same for people
+  bool full = false;             ///< nothing is omitted
+  std::string broad_phase;       ///< its name
+  bool sphere_aabb = false;      ///< the kernels of spheres and axis-aligned boxes alone
+  bool all_bounds = false;       ///< every two bodies are asked, whatever their boxes
+  bool static_pairs = false;     ///< pairs of two static bodies are asked, and what they find is dropped
+  bool masked_pairs = false;     ///< the same for pairs that a mask leaves out
+  bool resting_bounds = false;   ///< boxes and places of bodies that never move are computed anew in each step
+  bool contacts = false;         ///< pairs are looked for at all
+  bool events = false;           ///< begin, stay and end are kept, be it for nobody
+  bool response = false;         ///< impulses are computed, be it to drop them
+  bool spin = false;             ///< bodies are asked whether they turn
+  bool spin_within_gap = false;  ///< those that do are asked with their spin, however far apart they stay without
+  std::vector<PlanLine> lines;   ///< the same for people
 };
 
 /// Throws what World's constructor throws for the same scene.
@@ -110,6 +114,8 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options);
 
 /// What a plan may omit: the `what` of its lines, in their order.
 std::span<const std::string_view> omission_names();
+/// And after these, where bodies turn: a plan of what does not turn does not speak of it.
+std::span<const std::string_view> spin_omission_names();
 
 /// What it omits, what it keeps, and why; ends with a newline.
 std::string to_text(const Plan& plan);
@@ -179,17 +185,22 @@ struct LeftTheWorld : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Two bodies that turn so far in a step that nothing can be proven of when they meet; the world stays as it was.
+struct TurnsTooFar : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class World {
  public:
   /// Throws WorldError: two bodies with one id, a mass that is not > 0, a velocity, size or place that is not finite,
-  /// axes that are not orthonormal, a static body with a velocity, an option out of range. No bodies: a world where
-  /// nothing happens. Bodies that overlap or lie in each other are in contact from the start, and are parted.
+  /// axes that are not orthonormal, a static body with a velocity, an Aabb that turns, an option out of range. No bodies: a
+  /// world where nothing happens. Bodies that overlap or lie in each other are in contact from the start, and are parted.
   World(std::vector<Body> bodies, WorldOptions options);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// dt [s] > 0 and finite, or WorldError. Throws TooManyPairs or LeftTheWorld, and then nothing has changed.
+  /// dt [s] > 0 and finite, or WorldError. Throws TooManyPairs, LeftTheWorld or TurnsTooFar, and then nothing has changed.
   const StepReport& step(double dt);
 
   const std::vector<Body>& bodies() const;   ///< in the order of ids
@@ -208,7 +219,7 @@ class World {
   void remove(std::uint32_t id);                                      ///< also from within a listener; its contacts end
 
   double energy() const;             ///< [J] kinetic, and of height, over bodies of finite mass; in the order of ids
-  std::uint64_t state_hash() const;  ///< of every body's id, place and velocity, to the bit
+  std::uint64_t state_hash() const;  ///< of every body's id, place and velocity, to the bit; of its turn, if it turns
 
  private:
   struct Impl;
