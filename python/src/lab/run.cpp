@@ -147,11 +147,12 @@ std::pair<std::string, std::string> run(RunWish wish, std::vector<std::string> a
   }
   wait_until_free(wish.out);
   wish.launch = Launch{};
-  wish.watch = RunWatch{.stop = [&stop = job->stop] { return stop.load(); },
+  Job& told = *job;
+  wish.watch = RunWatch{.stop = [&told] { return told.stop.load(); },
                         .on_progress =
-                            [job = job.get()](const Progress& now) {
-                              const std::scoped_lock lock(job->mutex);
-                              job->progress = now;
+                            [&told](const Progress& now) {
+                              const std::scoped_lock lock(told.mutex);
+                              told.progress = now;
                             }};
   job->wish = std::move(wish);
   job->argv = std::move(argv);
