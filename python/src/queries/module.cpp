@@ -132,7 +132,7 @@ Side side_of(const std::string& kind, const std::vector<py::array>& arrays, bool
     const py::array& array = arrays[f];
     const int axes = axes_of(fields[f]);
     const bool has_rows = array.ndim() == axes + 1;
-    bool fits = array.dtype().is(wanted) && (has_rows || array.ndim() == axes);
+    bool fits = array.dtype().equal(wanted) && (has_rows || array.ndim() == axes);
     for (int k = 0; fits && k < axes; ++k) fits = array.shape(array.ndim() - 1 - k) == 3;
     if (!fits) throw std::invalid_argument(kind + ": an array of another shape or dtype");
     const bool repeats = !has_rows || array.shape(0) == 1;
