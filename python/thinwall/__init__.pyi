@@ -19,3 +19,11 @@ from .shapes import Sphere as Sphere
 from .shapes import Triangle as Triangle
 from .shapes import Turning as Turning
 from .shapes import at_rest as at_rest
+from . import theory as theory
+from .advice import advise as advise
+from .experiments import defaults as defaults
+from .experiments import run as run
+from .results import Result as Result
+from .results import read as read
+from .scenes import compare as compare
+from .scenes import world as world

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from thinwall import _lab, experiments, tables
+from . import _lab, experiments, tables
 
 _COLUMNS = [
     tables.Column("method", "string", "", "As the experiment thin_wall calls it."),

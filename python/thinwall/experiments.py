@@ -14,8 +14,8 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
-from thinwall import _lab
-from thinwall.results import Result, read
+from . import _lab
+from .results import Result, read
 
 Progress = Callable[[int, int], object]
 

@@ -12,7 +12,7 @@ import textwrap
 from pathlib import Path, PurePosixPath
 from typing import Any, Callable, Iterator
 
-from thinwall.tables import Column, Rows, Value, as_array, as_frame
+from .tables import Column, Rows, Value, as_array, as_frame
 
 _JOURNAL, _MANIFEST, _PACKAGE, _SEAL = "journal.tsv", "manifest.json", "datapackage.json", "shard.json"
 _NEEDED: dict[str, type | tuple[type, ...]] = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import os
 from pathlib import Path
 from typing import Any, Mapping, Sequence, Union
@@ -10,8 +11,8 @@ from typing import Any, Mapping, Sequence, Union
 import numpy as np
 import numpy.typing as npt
 
-from thinwall import _lab, experiments
-from thinwall.results import Result
+from . import _lab, experiments
+from .results import Result
 
 SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -167,7 +168,7 @@ class World:
         RuntimeError
             A body left the representable world, or more pairs may touch than ``max_pairs``; the step that failed has changed nothing.
         """
-        length = self.dt if dt is None else _number("dt", dt)
+        length = self.dt if dt is None else _seconds("dt", dt)
         self._world.step(length, experiments.whole("steps", steps, 1, 2**63 - 1))
         return self.events
 
@@ -267,10 +268,13 @@ class World:
         raise ValueError(f"body: none is called {body!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
 
 
-def _number(argument: str, value: float) -> float:
+def _seconds(argument: str, value: float) -> float:
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f"{argument}: {value!r} is not allowed; a number")
-    return float(value)
+    number = float(value)
+    if not 0 < number < math.inf:
+        raise ValueError(f"{argument}: {number} is not allowed; a number > 0 and finite [s]")
+    return number
 
 
 def _vector(argument: str, value: npt.ArrayLike) -> Sequence[float]:

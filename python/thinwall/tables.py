@@ -65,7 +65,7 @@ def as_array(name: str, description: str, columns: Sequence[Column], values: Map
 def as_frame(name: str, description: str, columns: Sequence[Column], values: Mapping[str, Sequence[Value]]) -> Any:
     """The table as a data frame; a structured array where pandas is not installed. Missing integers and booleans are ``pandas.NA``."""
     try:
-        import pandas
+        import pandas  # type: ignore[import]
     except ImportError:
         return as_array(name, description, columns, values)
     series = {column.name: _series(pandas, column.type, values[column.name]) for column in columns}

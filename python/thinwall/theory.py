@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from thinwall import _lab
+from . import _lab
 
 Numbers = npt.ArrayLike
 Answer = Any  # a float of numbers, a float64 array of arrays
@@ -93,7 +93,7 @@ def through_probability(
 
 def miss_probability(chord: Numbers, spacing: Numbers) -> Answer:
     """The chance that poses `spacing` > 0 apart along a line, at a uniform phase, all miss a chord of it of length `chord` >= 0."""
-    return _lab.miss_probability(_numbers("chord", chord), _numbers("spacing", spacing))
+    return _ask(_lab.miss_probability, chord=chord, spacing=spacing)
 
 
 def slab_chord(thickness: Numbers, radius: Numbers, cosine: Numbers = 1) -> Answer:
@@ -101,22 +101,22 @@ def slab_chord(thickness: Numbers, radius: Numbers, cosine: Numbers = 1) -> Answ
 
     `cosine`: of the angle between the line and the wall's normal, > 0 and <= 1.
     """
-    return _lab.slab_chord(_numbers("thickness", thickness), _numbers("radius", radius), _numbers("cosine", cosine))
+    return _ask(_lab.slab_chord, thickness=thickness, radius=radius, cosine=cosine)
 
 
 def volume(half_extents: Numbers, radius: Numbers) -> Answer:
     """[length^3] Of a box, `half_extents` (..., 3) >= 0, thickened by a ball's `radius` >= 0."""
-    return _lab.volume(*_axes("half_extents", half_extents), _numbers("radius", radius))
+    return _ask(_lab.volume, half_extents=half_extents, radius=radius)
 
 
 def shadow(half_extents: Numbers, radius: Numbers, direction: Numbers) -> Answer:
     """[length^2] Of the same along `direction` (..., 3), of any length > 0."""
-    return _lab.shadow(*_thick_box(half_extents, radius), *_axes("direction", direction))
+    return _ask(_lab.shadow, half_extents=half_extents, radius=radius, direction=direction)
 
 
 def longest_chord(half_extents: Numbers, radius: Numbers, direction: Numbers) -> Answer:
     """[length] The longest that a line along `direction` (..., 3) cuts from the same."""
-    return _lab.longest_chord(*_thick_box(half_extents, radius), *_axes("direction", direction))
+    return _ask(_lab.longest_chord, half_extents=half_extents, radius=radius, direction=direction)
 
 
 def wall_miss_probability(half_extents: Numbers, radius: Numbers, direction: Numbers, spacing: Numbers) -> Answer:
@@ -129,8 +129,9 @@ def wall_miss_probability(half_extents: Numbers, radius: Numbers, direction: Num
     float, or float64 array of the broadcast shape
         NaN where ``spacing < longest_chord(...)``: there some lines cannot be missed, and the average is another.
     """
-    box = _thick_box(half_extents, radius)
-    return _lab.wall_miss_probability(*box, *_axes("direction", direction), _numbers("spacing", spacing))
+    return _ask(
+        _lab.wall_miss_probability, half_extents=half_extents, radius=radius, direction=direction, spacing=spacing
+    )
 
 
 def center_ray_miss_probability(half_extents: Numbers, radius: Numbers, step: Numbers) -> Answer:
@@ -139,15 +140,13 @@ def center_ray_miss_probability(half_extents: Numbers, radius: Numbers, step: Nu
     The ball flies along x, `step` > 0 [length] a step; the box has `half_extents` (..., 3). NaN where a step is shorter than
     ``2 (half_extents[0] + radius)``.
     """
-    return _lab.center_ray_miss_probability(*_thick_box(half_extents, radius), _numbers("step", step))
+    return _ask(_lab.center_ray_miss_probability, half_extents=half_extents, radius=radius, step=step)
 
 
 def pose_lateness(chord: Numbers, spacing: Numbers) -> Lateness:
     """How late poses `spacing` > 0 apart see a ball whose path is in contact over `chord` >= 0."""
-    lengths = _numbers("chord", chord), _numbers("spacing", spacing)
-    return Lateness(
-        _lab.pose_lateness_mean(*lengths), _lab.pose_lateness_deviation(*lengths), _lab.pose_lateness_largest(*lengths)
-    )
+    parts = _lab.pose_lateness_mean, _lab.pose_lateness_deviation, _lab.pose_lateness_largest
+    return Lateness(*(_ask(part, chord=chord, spacing=spacing) for part in parts))
 
 
 def center_ray_lateness(lead: Numbers, step: Numbers) -> Lateness:
@@ -155,12 +154,8 @@ def center_ray_lateness(lead: Numbers, step: Numbers) -> Lateness:
 
     `lead` >= 0 [length]: how far past first contact the ray meets the wall; ``radius / cosine`` at a wall without end.
     """
-    lengths = _numbers("lead", lead), _numbers("step", step)
-    return Lateness(
-        _lab.center_ray_lateness_mean(*lengths),
-        _lab.center_ray_lateness_deviation(*lengths),
-        _lab.center_ray_lateness_largest(*lengths),
-    )
+    parts = _lab.center_ray_lateness_mean, _lab.center_ray_lateness_deviation, _lab.center_ray_lateness_largest
+    return Lateness(*(_ask(part, lead=lead, step=step) for part in parts))
 
 
 def rod_miss_probability(clearance: Numbers, reach: Numbers, step: Numbers, spin: Numbers) -> Answer:
@@ -182,19 +177,20 @@ def rod_miss_probability(clearance: Numbers, reach: Numbers, step: Numbers, spin
     float, or float64 array of the broadcast shape
         Exactly 0 where ``step <= clearance + reach |sin(spin)|``.
     """
-    return _lab.rod_miss_probability(
-        _numbers("clearance", clearance), _numbers("reach", reach), _numbers("step", step), _numbers("spin", spin)
-    )
+    return _ask(_lab.rod_miss_probability, clearance=clearance, reach=reach, step=step, spin=spin)
 
 
 def long_step_miss_probability(clearance: Numbers, reach: Numbers, step: Numbers) -> Answer:
-    """The same where the step is so long that the spin drops out: ``1 - (clearance + 4 reach / pi) / step``."""
-    return _lab.long_step_miss_probability(_numbers("clearance", clearance), _numbers("reach", reach), _numbers("step", step))
+    """The same where the step is so long that the spin drops out: ``1 - (clearance + 4 reach / pi) / step``.
+
+    So it is where ``step >= clearance + 2 reach``, whatever the spin; of a shorter step it may be another, and below 0.
+    """
+    return _ask(_lab.long_step_miss_probability, clearance=clearance, reach=reach, step=step)
 
 
 def blade_miss_probability(window: Numbers, spin: Numbers) -> Answer:
     """The chance that poses `spin` > 0 [rad] apart all miss a post that a turning blade touches over `window` > 0 [rad]."""
-    return _lab.blade_miss_probability(_numbers("window", window), _numbers("spin", spin))
+    return _ask(_lab.blade_miss_probability, window=window, spin=spin)
 
 
 def _at_wall(
@@ -213,17 +209,28 @@ def _at_wall(
         rate = _numbers("fps", fps)
         if not np.all((rate >= 1e-3) & (rate <= 1e12)):
             raise ValueError(f"fps: {fps!r} is not allowed; numbers >= 0.001 and <= 1e12 [1/s]")
-        seconds = 1 / rate
-    else:
-        seconds = _numbers("step", step)
-    return formula(
-        _numbers("speed", speed),
-        seconds,
-        _numbers("radius", radius),
-        _numbers("thickness", thickness),
-        _numbers("angle_deg", angle_deg),
-        _numbers("poses", poses),
-    )
+        step = 1 / rate
+    return _ask(formula, speed=speed, step=step, radius=radius, thickness=thickness, angle_deg=angle_deg, poses=poses)
+
+
+def _ask(formula: Any, **arguments: Any) -> Answer:
+    """The formula of the arguments in their order, of a vector its three axes one after the other."""
+    flat: list[npt.NDArray[np.float64]] = []
+    shapes: dict[str, tuple[int, ...]] = {}
+    for name, value in arguments.items():
+        array = _numbers(name, value)
+        shapes[name] = array.shape
+        if name not in ("half_extents", "direction"):
+            flat.append(array)
+        elif array.ndim == 0 or array.shape[-1] != 3:
+            raise ValueError(f"{name}: an array of shape {array.shape} is not allowed; (..., 3)")
+        else:
+            flat += [array[..., 0], array[..., 1], array[..., 2]]
+    try:
+        np.broadcast_shapes(*(array.shape for array in flat))
+    except ValueError:
+        raise ValueError(", ".join(f"{name} {shape}" for name, shape in shapes.items()) + ": do not broadcast") from None
+    return formula(*flat)
 
 
 def _numbers(argument: str, value: Any) -> npt.NDArray[np.float64]:
@@ -231,14 +238,3 @@ def _numbers(argument: str, value: Any) -> npt.NDArray[np.float64]:
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{argument}: {value!r} is not allowed; numbers, whole or floating")
     return array.astype(np.float64, copy=False)
-
-
-def _axes(argument: str, value: Any) -> tuple[npt.NDArray[np.float64], ...]:
-    array = _numbers(argument, value)
-    if array.ndim == 0 or array.shape[-1] != 3:
-        raise ValueError(f"{argument}: an array of shape {array.shape} is not allowed; (..., 3)")
-    return array[..., 0], array[..., 1], array[..., 2]
-
-
-def _thick_box(half_extents: Any, radius: Any) -> tuple[npt.NDArray[np.float64], ...]:
-    return *_axes("half_extents", half_extents), _numbers("radius", radius)
