@@ -137,7 +137,10 @@ def test_there_is_no_result(tmp_path: Path) -> None:
         tw.read(tmp_path)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", "[" * 100_000, '{"thinwall_manifest": 2}', '{"thinwall_manifest": 1}', "\0\xff"])
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "{}", '{"thinwall_manifest": 2}', '{"thinwall_manifest": 1}', "\0\xff", pytest.param("[" * 100_000, id="deep")],
+)
 def test_a_manifest_that_is_none(copied: Path, text: str) -> None:
     (copied / "manifest.json").write_bytes(text.encode("latin-1"))
     with pytest.raises(ValueError, match="manifest.json: "):
