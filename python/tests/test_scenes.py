@@ -103,7 +103,7 @@ def test_what_leaves_the_world_changes_nothing() -> None:
 
 @pytest.mark.parametrize("file", SCENES, ids=lambda file: file.stem)
 def test_every_scene_goes_as_the_program_has_it(file: Path, tmp_path: Path) -> None:
-    steps = 20
+    steps = 4
     result = tw.run(file, trials=steps, seed=3, out=tmp_path / "run")
     world = tw.world(file, seed=3)
     events = world.step(steps=steps)
