@@ -516,4 +516,9 @@ def find_pairs(lower, upper, method="uniform_grid", *, group=None, mask=None, st
         max_pairs = int(max_pairs)
     rows = len(lower)
     group, mask = _per_body("group", group, rows, np.uint32), _per_body("mask", mask, rows, np.uint32)
-    return _queries.find_pairs(method, lower, upper, group, mask, _per_body("static", static, rows, np.bool_), max_pairs)
+    static = _per_body("static", static, rows, np.bool_)
+    try:
+        return _queries.find_pairs(method, lower, upper, group, mask, static, max_pairs)
+    except ValueError as error:  # the row's fault, by its index
+        fault = str(error).replace("proxy", "row")
+        raise ValueError(f"find_pairs: lower and upper, {fault}; allowed is lower <= upper in every row") from None
