@@ -11,7 +11,8 @@ namespace {
 
 template <class A, class B> struct Asked {
   using S = typename A::Scalar;
-  static constexpr bool value = A::rank >= B::rank && std::is_same_v<S, typename B::Scalar> && serves<ClosedForm<S>, A, B>;
+  static constexpr bool value =
+      A::rank >= B::rank && std::is_same_v<S, typename B::Scalar> && serves<ClosedForm<S>, A, B>;
 };
 
 /// The pairs of swept/batch.hpp, the shape of later rank first.
@@ -45,7 +46,9 @@ template <class A, class B, class Row> void ask_pair(const Question& q, typename
     if (min_separation == S(0) && !(q.a.is_one && q.b.is_one)) {
       answer_by_kernel<Moving<A>, Moving<B>, S>(
           q, std::is_same_v<Row, Toi<S>>, ask, [&](std::size_t i, const Toi<S>& toi) { out[i] = row_with<Row>(toi); },
-          [&](std::size_t i, ToiStatus status, S time) { out[i] = {status, 1, time}; });
+          [&](std::size_t i, ToiStatus status, S time) {
+            out[i] = {status, 1, time};
+          });
       return;
     }
   }
@@ -84,7 +87,9 @@ template <class S> bool cast_rays(const Question& q) {
         auto* const out = static_cast<RayRow<S>*>(q.out);
         answer_by_kernel<Aabb<S>, Ray<S>, S>(
             boxes_first, true, ask, [&](std::size_t i, const RayRow<S>& row) { out[i] = row; },
-            [&](std::size_t i, ToiStatus status, S t) { out[i] = {status, {t}}; });
+            [&](std::size_t i, ToiStatus status, S t) {
+              out[i] = {status, {t}};
+            });
         return;
       }
     }
