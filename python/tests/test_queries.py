@@ -179,7 +179,7 @@ def test_out_takes_the_answers(dtype, vectors):
     expected = tw.time_of_impact(a, b, vectors=vectors)
     assert expected["time"].dtype == dtype
     room = np.empty_like(expected)
-    assert tw.time_of_impact(a, b, vectors=vectors, out=room) is not expected
+    assert tw.time_of_impact(a, b, vectors=vectors, out=room) is room
     assert bits(room) == bits(expected)
 
 
@@ -332,6 +332,7 @@ def test_the_interpreter_runs_meanwhile():
     assert turns > 3  # one, if the thread held the interpreter
 
 
+@pytest.mark.skipif("THINWALL_SANITIZED" in os.environ, reason="a sanitizer's runtime takes its time")
 def test_import_takes_no_time():
     command = "import time; t = time.process_time(); import thinwall; print(time.process_time() - t)"
     took = min(float(subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True).stdout) for _ in range(3))
