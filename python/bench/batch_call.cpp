@@ -24,8 +24,8 @@ VectorRows<const double> vectors(const Array& array) { return {column(array, 0),
 class BatchCall {
  public:
   BatchCall(Array center, Array radius, Array motion, Array box_center, Array half, Array box_motion, bool with_vectors)
-      : arrays_{std::move(center), std::move(radius),     std::move(motion),
-                std::move(box_center), std::move(half), std::move(box_motion)},
+      : arrays_{std::move(center),     std::move(radius), std::move(motion),
+                std::move(box_center), std::move(half),   std::move(box_motion)},
         balls_{vectors(arrays_[0]), column(arrays_[1], 0), vectors(arrays_[2])},
         boxes_{vectors(arrays_[3]), vectors(arrays_[4]), vectors(arrays_[5])},
         status_(balls_.radius.size()),

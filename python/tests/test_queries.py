@@ -179,7 +179,7 @@ def test_out_takes_the_answers(dtype, vectors):
     expected = tw.time_of_impact(a, b, vectors=vectors)
     assert expected["time"].dtype == dtype
     room = np.empty_like(expected)
-    assert tw.time_of_impact(a, b, vectors=vectors, out=room) is not expected
+    assert tw.time_of_impact(a, b, vectors=vectors, out=room) is room
     assert bits(room) == bits(expected)
 
 
@@ -245,7 +245,7 @@ REFUSED = [
     (lambda: tw.time_of_impact(A, B, min_separation=float("nan")), ValueError, r"min_separation is nan"),
     (lambda: tw.time_of_impact(F, F, min_separation=1e300), ValueError, r"min_separation is 1e\+300"),
     (lambda: tw.time_of_impact(A, B, vectors=2), TypeError, r"vectors is int 2"),
-    (lambda: tw.overlaps(shape("Triangle", np.random.default_rng(0), 4), B.shape), ValueError, r"a Triangle and a Aabb are not served"),
+    (lambda: tw.overlaps(shape("Triangle", np.random.default_rng(0), 4), B.shape), ValueError, r"Triangle with Aabb is not served"),
     (lambda: tw.valid(3), TypeError, r"valid: shape is int"),
 ]
 
@@ -281,7 +281,7 @@ def test_every_method_and_option_is_written_down():
     for name in {**tw.methods(), **tw.methods(turning=True)}:
         assert f'"{name}"' in stub
     page = (SOURCE / "docs/methods.md").read_text()
-    assert all(name in page for name in tw.methods())
+    assert all(name.title().replace("_", "") in page for name in tw.methods())
 
 
 def test_docstrings_have_their_sections():
@@ -311,7 +311,9 @@ def test_turning_has_its_methods():
         tw.time_of_impact(rods, boxes, "closed_form")
     still = tw.Turning(rods.shape, rods.displacement, [0, 0, 0])
     straight = tw.Moving(rods.shape, rods.displacement)
-    assert np.array_equal(tw.time_of_impact(still, boxes, "linear_sweep")["time"], tw.time_of_impact(straight, boxes)["time"], equal_nan=True)
+    linear, exact = tw.time_of_impact(still, boxes, "linear_sweep"), tw.time_of_impact(straight, boxes)
+    assert np.array_equal(linear["status"], exact["status"])
+    assert np.allclose(linear["time"], exact["time"], rtol=1e-12, atol=0, equal_nan=True)  # an oriented box's formula
     proven = tw.certified_time_of_impact(rods, boxes)
     sure = proven["status"] == S.HIT
     assert sure.any() and np.all(swept["time"][sure] <= proven["upper"][sure])
@@ -332,6 +334,7 @@ def test_the_interpreter_runs_meanwhile():
     assert turns > 3  # one, if the thread held the interpreter
 
 
+@pytest.mark.skipif("THINWALL_SANITIZED" in os.environ, reason="a sanitizer's runtime takes its time")
 def test_import_takes_no_time():
     command = "import time; t = time.process_time(); import thinwall; print(time.process_time() - t)"
     took = min(float(subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True).stdout) for _ in range(3))

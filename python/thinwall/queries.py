@@ -118,8 +118,8 @@ def _ask(query, a, b, threads, out=None, kind=None, method="", options=None):
     kind_b, arrays_b = b._side()
     if not _queries.ask(kind, kind_a, arrays_a, kind_b, arrays_b, out, threads, method, options or _queries.Options()):
         by = f" by {method!r}" if method else ""
-        raise ValueError(f"{query}: a {kind_a} and a {kind_b} are not served{by}; docs/pairs.md and docs/methods.md say which pairs are")
-    return out[()]
+        raise ValueError(f"{query}: {kind_a} with {kind_b} is not served{by}; docs/pairs.md and docs/methods.md say which pairs are")
+    return out[()] if rows is None else out
 
 
 def overlaps(a, b, *, threads=1):
@@ -300,10 +300,6 @@ def raycast(ray, shape, *, threads=1, out=None):
     return _ask("raycast", ray, shape, threads, out)
 
 
-def _fraction(x, epsilon):
-    return epsilon <= x <= 1
-
-
 # What options of methods are, and which values they take: the type, the check, and how it is said.
 _OPTIONS = {
     "tolerance": (float, lambda x, epsilon: epsilon <= x <= 1, "[1] a number from epsilon, {epsilon:.3g}, to 1"),
@@ -325,7 +321,8 @@ def _options(query, method, known, options, dtype):
         kinds = (int, np.integer) if kind is int else (int, float, np.integer, np.floating)
         if not isinstance(value, kinds) or isinstance(value, bool):
             raise TypeError(f"{query}: {name} is {type(value).__name__} {value!r:.60}; allowed is {words}")
-        as_held = kind(value) if kind is int else float(dtype.type(value))
+        with np.errstate(over="ignore"):
+            as_held = kind(value) if kind is int else float(dtype.type(value))
         if not allows(as_held, epsilon):
             raise ValueError(f"{query}: {name} is {value!r}; allowed is {words}")
         setattr(chosen, name, kind(value))
@@ -403,7 +400,7 @@ def time_of_impact(a, b, method=None, *, threads=1, vectors=True, out=None, **op
     known = methods(turning=turning)
     if method is None:
         method = "conservative_advancement" if turning else "closed_form"
-    if method not in known:
+    if not isinstance(method, str) or method not in known:
         what = "the method, where a shape turns," if turning else "the method"
         raise ValueError(f"{query}: " + _nearest(method, list(known), what))
     chosen = _options(query, method, known[method], options, a.dtype)
@@ -516,4 +513,9 @@ def find_pairs(lower, upper, method="uniform_grid", *, group=None, mask=None, st
         max_pairs = int(max_pairs)
     rows = len(lower)
     group, mask = _per_body("group", group, rows, np.uint32), _per_body("mask", mask, rows, np.uint32)
-    return _queries.find_pairs(method, lower, upper, group, mask, _per_body("static", static, rows, np.bool_), max_pairs)
+    static = _per_body("static", static, rows, np.bool_)
+    try:
+        return _queries.find_pairs(method, lower, upper, group, mask, static, max_pairs)
+    except ValueError as error:  # the row's fault, by its index
+        fault = str(error).replace("proxy", "row")
+        raise ValueError(f"find_pairs: lower and upper, {fault}; allowed is lower <= upper in every row") from None

@@ -42,7 +42,7 @@ class _Rows:
             elif not _is_literal(value):
                 self._refuse(name, f"{type(value).__name__} {value!r:.60}", "an array, a number or a list of numbers")
             arrays[name] = value
-        self.dtype = np.dtype(dtype or np.float64)
+        self.dtype = np.dtype(np.float64 if dtype is None else dtype)
         rows = None
         for name, value in arrays.items():
             if not isinstance(value, np.ndarray):

@@ -15,9 +15,9 @@ namespace thinwall::python {
 /// A block of one side.
 template <class S> class Block {
  public:
-  batch::Rows<S> rows(const Side& side, std::size_t begin, std::size_t n) {
-    batch::Rows<S> rows{{}, side.count, side.is_one};
-    for (std::size_t k = 0; k < side.count; ++k) rows.columns[k] = column(side, k, begin, n);
+  batch::Rows<S> rows(const Side& side, bool is_one, std::size_t begin, std::size_t n) {
+    batch::Rows<S> rows{{}, side.count, is_one};
+    for (std::size_t k = 0; k < side.count; ++k) rows.columns[k] = column(side, k, begin, is_one ? 1 : n);
     return rows;
   }
 
@@ -25,11 +25,10 @@ template <class S> class Block {
   const S* column(const Side& side, std::size_t k, std::size_t begin, std::size_t n) {
     const std::byte* const from = side.first[k] + side.step[k] * static_cast<std::ptrdiff_t>(begin);
     const bool aligned = reinterpret_cast<std::uintptr_t>(from) % alignof(S) == 0;
-    if (aligned && (side.is_one || side.step[k] == std::ptrdiff_t{sizeof(S)})) return reinterpret_cast<const S*>(from);
-    S* const to = copied_[k].data();
     const std::ptrdiff_t step = side.step[k];
-    for (std::size_t i = 0; i < (side.is_one ? 1 : n); ++i)
-      std::memcpy(to + i, from + step * static_cast<std::ptrdiff_t>(i), sizeof(S));
+    if (aligned && (n == 1 || step == std::ptrdiff_t{sizeof(S)})) return reinterpret_cast<const S*>(from);
+    S* const to = copied_[k].data();
+    for (std::size_t i = 0; i < n; ++i) std::memcpy(to + i, from + step * static_cast<std::ptrdiff_t>(i), sizeof(S));
     return to;
   }
 
@@ -45,7 +44,8 @@ void answer_by_kernel(const Question& q, bool vectors, const Ask& ask, const Set
     std::array<ToiStatus, block_of_rows> status;
     std::array<S, block_of_rows> time;
     const std::size_t n = end - begin;
-    batch::run<ItemA, ItemB>(block_a.rows(q.a, begin, n), block_b.rows(q.b, begin, n), n,
+    const bool b_is_one = q.b.is_one && !q.a.is_one;  // a kernel takes one shape on one side
+    batch::run<ItemA, ItemB>(block_a.rows(q.a, q.a.is_one, begin, n), block_b.rows(q.b, b_is_one, begin, n), n,
                              batch::Answers<S>{status.data(), time.data()});
     for (std::size_t j = 0; j < n; ++j) {
       const bool in_contact = status[j] == ToiStatus::hit || status[j] == ToiStatus::overlapping;

@@ -31,11 +31,11 @@ enum class Motion { none, moving, turning };
 
 /// One side of a question: where each number of its first row lies, and how many bytes on that of the next does; 0 repeats it.
 struct Side {
-  int kind = 0;                  ///< its place in `layouts`; a shape's is its rank
-  int asked_as = 0;              ///< the rank of the shape that is asked about: an Aabb's beside what turns is an Obb's
+  int kind = 0;      ///< its place in `layouts`; a shape's is its rank
+  int asked_as = 0;  ///< the rank of the shape that is asked about: an Aabb's beside what turns is an Obb's
   Motion motion = Motion::none;
-  std::size_t count = 0;         ///< numbers a row
-  bool is_one = true;            ///< one row, against all of the other side
+  std::size_t count = 0;  ///< numbers a row
+  bool is_one = true;     ///< one row, against all of the other side
   std::size_t rows = 1;
   std::array<const std::byte*, 21> first{};
   std::array<std::ptrdiff_t, 21> step{};
@@ -147,7 +147,8 @@ template <class Row, class Answer> void answer_rows(const Question& q, const Ans
 
 /// Calls ask.template operator()<A, B>() for the shapes of the two sides; false where `ask` serves no such pair.
 /// `Serves<A, B>::value` says which.
-template <class S, template <class, class> class Serves, class Ask> bool for_the_shapes(const Question& q, const Ask& ask) {
+template <class S, template <class, class> class Serves, class Ask>
+bool for_the_shapes(const Question& q, const Ask& ask) {
   bool asked = false;
   for_each_type(Shapes<S>{}, [&]<class TagA>(TagA) {
     using A = typename TagA::type;

@@ -55,8 +55,8 @@ template <class S> bool at_rest(const Task& task) {
     for_each_type(Shapes<S>{}, [&]<class TagB>(TagB) {
       using B = typename TagB::type;
       if constexpr (ServedPair<A, B>) {
-        asked = asked || each_row<A, B, S>(
-                             task, [&](const auto& a, const auto& b) { ask(task.query, a.shape, b.shape); });
+        asked =
+            asked || each_row<A, B, S>(task, [&](const auto& a, const auto& b) { ask(task.query, a.shape, b.shape); });
       }
     });
   });

@@ -12,8 +12,8 @@ bool certified(const Task& task) {
       using B = typename TagB::type;
       if constexpr (certifies<A, B>) {
         asked = asked || each_row<A, B, double>(task, [](const auto& a, const auto& b) {
-                  const CertifiedToi toi = certified_time_of_impact(Moving<A>{a.shape, a.displacement},
-                                                                    Moving<B>{b.shape, b.displacement});
+                  const CertifiedToi toi =
+                      certified_time_of_impact(Moving<A>{a.shape, a.displacement}, Moving<B>{b.shape, b.displacement});
                   put(toi.verdict);
                   put(toi.lower);
                   put(toi.upper);

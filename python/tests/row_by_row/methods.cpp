@@ -17,7 +17,8 @@ template <class A, class B> bool ask(const Task& task) {
       if constexpr (stays_along_the_axes<B>) {
         put(time_of_impact(Turning<A>{a.shape, a.displacement, a.rotation}, Moving<B>{b.shape, b.displacement}));
       } else {
-        put(time_of_impact(Turning<A>{a.shape, a.displacement, a.rotation}, Turning<B>{b.shape, b.displacement, b.rotation}));
+        put(time_of_impact(Turning<A>{a.shape, a.displacement, a.rotation},
+                           Turning<B>{b.shape, b.displacement, b.rotation}));
       }
     });
   }
