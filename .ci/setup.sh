@@ -13,13 +13,15 @@ program_commands=(c++ cmake ninja git gnuplot)
 page_packages=(clang-16 lld-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 libclang-rt-16-dev-wasm32 wasi-libc)
 
 # To build and run the tests and benchmarks as well.
-test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libhwy-dev libopenmpi-dev openmpi-bin libflint-dev libflint-arb-dev)
+test_packages=(libgtest-dev librapidcheck-dev libbenchmark-dev libhwy-dev libopenmpi-dev openmpi-bin libflint-dev libflint-arb-dev
+  pybind11-dev python3-dev python3-numpy python3-pytest python3-hypothesis)
 
 # To check everything else. clang-format 16 is the first to lay out `requires` clauses well; the compiler is the oldest
 # we support; libclang-rt holds its sanitizers and libFuzzer.
 check_packages=(clang-14 libclang-rt-14-dev clang-format-16 clang-tidy-14)
 
 # What readers of a result use, for the tests in tests/results/; each is skipped where its program is absent.
+check_packages+=(python3-pandas python3-matplotlib mypy)
 check_packages+=(chromium texlive-latex-base texlive-latex-recommended python3 python3-jsonschema)
 check_commands=(clang++-14 clang-format-16 clang-tidy-14)
 

@@ -8,7 +8,9 @@
 #include <thread>
 #include <utility>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <sys/utsname.h>
 #include <nlohmann/json.hpp>
 #include <thinwall_build_info.hpp>
@@ -55,8 +57,22 @@ MachineRecord this_machine() {
   return out;
 }
 
+namespace {
+
+/// The file that this very code was loaded from: the program, or a module that another program loaded.
+std::string file_of_this_code() {
+  Dl_info info{};
+  void* map = nullptr;
+  const auto* const here = reinterpret_cast<const void*>(&this_program_sha256);
+  if (::dladdr1(here, &info, &map, RTLD_DL_LINKMAP) == 0 || map == nullptr) return "/proc/self/exe";
+  const std::string name = static_cast<const link_map*>(map)->l_name;  // empty for the program itself
+  return name.empty() ? "/proc/self/exe" : name;
+}
+
+}  // namespace
+
 std::string this_program_sha256() {
-  static const std::string hash = sha256_of_file("/proc/self/exe");
+  static const std::string hash = sha256_of_file(file_of_this_code());
   return hash;
 }
 

@@ -57,7 +57,7 @@ struct RunRecord {
 BuildRecord this_build();
 MachineRecord this_machine();
 
-/// SHA-256 of the running program; empty where it cannot be read.
+/// SHA-256 of the running program, or of the module that this code was loaded with; empty where it cannot be read.
 std::string this_program_sha256();
 
 /// ISO 8601 in UTC, to the second.

@@ -183,21 +183,23 @@ int perform_run(const RunWish& given, const Call& call) try {
   }
   folder.journal().add(merged);
 
-  watch_for_stop();
-  std::optional<StopGuard> guard(std::in_place, patience, [&] {
-    if (stderr_is_terminal()) ProgressBar::erase();
-    std::_Exit(interrupted(wish, "finished units are kept", call));
-  });
+  std::optional<StopGuard> guard;
+  if (!wish.watch) {
+    watch_for_stop();
+    guard.emplace(patience, [&] {
+      if (stderr_is_terminal()) ProgressBar::erase();
+      std::_Exit(interrupted(wish, "finished units are kept", call));
+    });
+  }
   for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
   call.err << size_text(record) << std::endl;
   UnitResults results;
   {
-    ProgressBar bar(stderr_is_terminal());
-    results =
-        crew.compute(folder, identity_text(identity),
-                     {.threads = record.threads, .stop = stop_requested, .on_progress = [&](const Progress& progress) {
-                        bar.show(progress);
-                      }});
+    ProgressBar bar(!wish.watch && stderr_is_terminal());
+    const RunWatch watch = wish.watch.value_or(
+        RunWatch{.stop = stop_requested, .on_progress = [&](const Progress& progress) { bar.show(progress); }});
+    results = crew.compute(folder, identity_text(identity),
+                           {.threads = record.threads, .stop = watch.stop, .on_progress = watch.on_progress});
   }
   if (!results.complete) {
     guard.reset();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -107,6 +108,12 @@ class ProgressBar {
 
 // ---- What `thinwall run`, `compare` and `merge` do: compute what is missing and leave a result folder.
 
+/// Whoever watches a run in the place of signals and a terminal: a process that goes on after it.
+struct RunWatch {
+  std::function<bool()> stop;                        ///< asked between units, from any thread
+  std::function<void(const Progress&)> on_progress;  ///< as RunnerOptions has it
+};
+
 /// What the user asked for.
 struct RunWish {
   std::string target;  ///< an experiment's name or a TOML file
@@ -117,6 +124,7 @@ struct RunWish {
   std::optional<Shard> shard;        ///< compute this part alone, and leave it for `merge`
   std::optional<ShardSet> merged;    ///< the finished parts of the run, in place of `target` and what chooses it
   Launch launch = launch_of_this_process();  ///< `Launch{}`: by this process alone, whoever mpirun started beside it
+  std::optional<RunWatch> watch = {};        ///< then no signal is handled, and nothing ends the process
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.

@@ -2,7 +2,8 @@
 # discrete <- capsule <- swept <- experiments; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers, and
 # Boost.Multiprecision in swept/certified alone, which nothing but swept/certified.hpp may include; Highway and oneTBB in the
 # sources of swept/batch alone, which nothing but swept/batch.hpp may include.
-# What tests or benchmarks share among themselves they include by its path under tests/ or bench/, in quotes.
+# What tests or benchmarks share among themselves they include by its path under tests/ or bench/, in quotes; the parts of python/ what
+# lies beside them.
 cmake_minimum_required(VERSION 3.25)
 
 set(below_discrete discrete)
@@ -11,16 +12,19 @@ set(below_swept discrete capsule swept)
 set(below_experiments discrete capsule swept experiments)
 set(below_tests ${below_experiments})
 set(below_bench ${below_experiments})
+set(below_python ${below_experiments})
 set(libraries_discrete "^(Eigen|boost/geometry)/")  # Boost.Geometry: the R-tree of the broad phase
 set(libraries_capsule "^Eigen/")
 set(libraries_swept "^Eigen/")
 
 set(faults "")
 set(files_read 0)
-foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
+foreach(folder IN ITEMS discrete capsule swept experiments tests bench python)
   file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp")
   foreach(file IN LISTS files)
     math(EXPR files_read "${files_read} + 1")
+    cmake_path(GET file PARENT_PATH beside)
+    cmake_path(ABSOLUTE_PATH beside BASE_DIRECTORY "${ROOT}")
     file(READ "${ROOT}/${file}" text)
     string(REGEX REPLACE "[^\n\"<>#A-Za-z0-9_./+-]" " " text "${text}")  # nothing left that a CMake list minds
     string(REPLACE "\n" ";" lines "${text}")
@@ -43,7 +47,8 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench)
       endif()
       if(path MATCHES "\\.\\.")
         set(fault "a path goes up with '..'; write <thinwall/FOLDER/...>")
-      elseif(quote STREQUAL "\"" AND NOT (folder MATCHES "^(tests|bench)$" AND EXISTS "${ROOT}/${folder}/${path}"))
+      elseif(quote STREQUAL "\"" AND NOT (folder MATCHES "^(tests|bench)$" AND EXISTS "${ROOT}/${folder}/${path}")
+             AND NOT (folder STREQUAL "python" AND EXISTS "${beside}/${path}"))
         set(fault "the one spelling is <thinwall/FOLDER/...>, in angle brackets")
       elseif(path MATCHES "^thinwall/([^/]*)/")
         if(NOT CMAKE_MATCH_1 IN_LIST below_${folder})

@@ -34,6 +34,8 @@ expect(refused experiments/a.hpp "#include \"a.hpp\"")
 expect(refused tests/swept/a_test.cpp "#include \"../support/oracle.hpp\"")
 expect(refused tests/swept/a_test.cpp "#include \"a_test.cpp\"")
 expect(refused bench/a.cpp "#include \"discrete/sphere.hpp\"")
+expect(refused python/src/a.cpp "#include \"queries/rows.hpp\"")
+expect(accepted python/src/a.hpp "#include \"a.hpp\"")
 
 expect(accepted discrete/a.hpp "#include <Eigen/Core>")
 expect(accepted discrete/a.hpp "#include <vector>")

@@ -1,0 +1,49 @@
+#include "lab.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/advise/advice.hpp>
+
+namespace thinwall {
+
+namespace {
+
+namespace py = pybind11;
+
+using Word = std::optional<std::string>;
+
+Wish wish_of(const std::map<std::string, Word>& words) {
+  const auto word = [&](const char* name) {
+    const auto found = words.find(name);
+    return found == words.end() ? Word() : found->second;
+  };
+  return read_wish({word("speed"), word("radius"), word("thickness"), word("angle"), word("step"), word("fps"),
+                    word("miss"), word("late")});
+}
+
+/// Every number as JSON, and all of it in words.
+std::pair<std::string, std::string> advice(const std::map<std::string, Word>& words) {
+  const Wish wish = wish_of(words);
+  const std::vector<Candidate> methods = candidates(wish);
+  const Advice made = advise(wish, methods, measure_costs(wish.cell, methods));
+  return {advice_json(made).dump(), advice_text(made)};
+}
+
+std::string advice_toml(const std::map<std::string, Word>& words) {
+  const Wish wish = wish_of(words);
+  return check_config(wish, candidates(wish));
+}
+
+}  // namespace
+
+void bind_advice(py::module_& module) {
+  module.def("advice", advice, py::arg("words"), py::call_guard<py::gil_scoped_release>());
+  module.def("advice_toml", advice_toml, py::arg("words"), py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace thinwall

@@ -1,0 +1,81 @@
+/// The questions at one instant. Both orders of a pair are asked of the front door, whose answers to shapes that lie on each
+/// other are not those of the other order turned round.
+#include <thinwall/capsule/capsule_manifold.hpp>
+#include <thinwall/discrete/boxes/box_manifold.hpp>
+#include <thinwall/swept/compiled.hpp>
+
+#include "queries.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+template <class A, class B> struct Asked {
+  static constexpr bool value = ServedPair<A, B>;
+};
+template <class A, class B> struct AskedForManifold {
+  static constexpr bool value = ServedPair<A, B> && serves_manifold<A, B>;
+};
+
+/// `Ask::of(a, b)` of every row, in the scalar of the arrays.
+template <class Ask, template <class, class> class Serves, class S> bool ask_all(const Question& q) {
+  return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
+    using Row = decltype(Ask::of(std::declval<A>(), std::declval<B>()));
+    answer_rows<Row>(q, [&](std::size_t i) { return Ask::of(row_of<A, S>(q.a, i), row_of<B, S>(q.b, i)); });
+  });
+}
+template <class Ask, template <class, class> class Serves> bool ask_rows(const Question& q) {
+  return q.is_float ? ask_all<Ask, Serves, float>(q) : ask_all<Ask, Serves, double>(q);
+}
+
+struct AskOverlaps {
+  template <class A, class B> static bool of(const A& a, const B& b) { return overlaps(a, b); }
+};
+struct AskContact {
+  template <class A, class B, class S = typename A::Scalar> static ContactRow<S> of(const A& a, const B& b) {
+    if (const auto answer = contact(a, b)) return {ToiStatus::overlapping, *answer};
+    return {valid(a) && valid(b) ? ToiStatus::apart : ToiStatus::invalid, {}};
+  }
+};
+struct AskSeparation {
+  template <class A, class B, class S = typename A::Scalar> static SeparationRow<S> of(const A& a, const B& b) {
+    const Separation<S> answer = separation(a, b);
+    if (answer.distance != answer.distance) return {ToiStatus::invalid, answer};
+    return {answer.distance > S(0) ? ToiStatus::apart : ToiStatus::overlapping, answer};
+  }
+};
+struct AskManifold {
+  template <class A, class B, class S = typename A::Scalar> static ManifoldRow<S> of(const A& a, const B& b) {
+    const Manifold<S> answer = manifold(a, b);
+    if (!answer.empty()) return {ToiStatus::overlapping, answer};
+    return {valid(a) && valid(b) ? ToiStatus::apart : ToiStatus::invalid, answer};
+  }
+};
+
+template <class S> bool valid_rows(const Question& q) {
+  for_each_type(Shapes<S>{}, [&]<class Tag>(Tag) {
+    using A = typename Tag::type;
+    if (A::rank != q.a.kind) return;
+    answer_rows<bool>(q, [&](std::size_t i) {
+      RowReader<S> from(q.a, i);
+      Moving<A> item{{}, Vec3<S>::Zero()};
+      take(from, item.shape);
+      if (q.a.motion != Motion::none) item.displacement = from.vector();
+      const bool turns_well = q.a.motion != Motion::turning || is_finite(from.vector());
+      return valid(item) && turns_well;
+    });
+  });
+  if (q.a.kind < Capsule<S>::rank + 1) return true;
+  answer_rows<bool>(q, [&](std::size_t i) { return valid(row_of<Ray<S>, S>(q.a, i)); });
+  return true;
+}
+
+}  // namespace
+
+bool ask_overlaps(const Question& q) { return ask_rows<AskOverlaps, Asked>(q); }
+bool ask_contact(const Question& q) { return ask_rows<AskContact, Asked>(q); }
+bool ask_separation(const Question& q) { return ask_rows<AskSeparation, Asked>(q); }
+bool ask_valid(const Question& q) { return q.is_float ? valid_rows<float>(q) : valid_rows<double>(q); }
+bool ask_manifold(const Question& q) { return ask_rows<AskManifold, AskedForManifold>(q); }
+
+}  // namespace thinwall::python
