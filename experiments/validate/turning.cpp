@@ -16,7 +16,7 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/swept/turning/turning_certified.hpp>
+#include <thinwall/swept/certified/turning_certified.hpp>
 
 namespace thinwall {
 

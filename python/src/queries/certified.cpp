@@ -1,7 +1,7 @@
 /// Certified times of impact, of straight motion and of what turns. Of double alone: they are proven for the numbers as given.
 #include <thinwall/swept/certified.hpp>
+#include <thinwall/swept/certified/turning_certified.hpp>
 #include <thinwall/swept/compiled.hpp>
-#include <thinwall/swept/turning/turning_certified.hpp>
 
 #include "queries.hpp"
 
