@@ -374,7 +374,8 @@ def time_of_impact(a, b, method=None, *, threads=1, vectors=True, out=None, **op
     -------
     structured array, (N,)
         ``status`` : ToiStatus.
-        ``evaluations`` : of the pair's separation, overlap or closed form: the machine-independent cost.
+        ``evaluations`` : of the pair's separation, overlap or closed form: the machine-independent cost. 1 in rows that a kernel of
+            thinwall::batch found apart, which counts none.
         ``time`` : [1] fraction of the step in [0, 1]; 1 if APART, 0 if OVERLAPPING, NaN if INVALID.
         ``normal`` : (3,) unit, from a to b; zero if APART.
         ``point`` : (3,) [length] where they touch, in world space; zero if APART.

@@ -33,30 +33,30 @@ template <class Row, Scalar S> Row row_with(const Toi<S>& toi) {
   }
 }
 
-/// The scalar code's answer to row i. Compiled once a pair: all of the query is inlined here.
+/// The scalar code's answer. Compiled once a pair: all of the query is inlined here.
 template <class A, class B, class S>
-[[gnu::noinline]] Toi<S> ask_row(const Question& q, const ClosedForm<S>& method, std::size_t i) {
-  const auto a = row_of<Moving<A>, S>(q.a, i);
-  const auto b = row_of<Moving<B>, S>(q.b, i);
-  return turned_round(time_of_impact(method, a, b), q.swapped);
+[[gnu::noinline]] Toi<S> ask_items(const ClosedForm<S>& method, bool swapped, const Moving<A>& a, const Moving<B>& b) {
+  return turned_round(time_of_impact(method, a, b), swapped);
 }
 
 template <class A, class B, class Row> void ask_pair(const Question& q, typename A::Scalar min_separation) {
   using S = typename A::Scalar;
   const ClosedForm<S> method{min_separation};
-  const auto ask = [&](std::size_t i) { return ask_row<A, B>(q, method, i); };
-  Row* const out = static_cast<Row*>(q.out);
+  const auto set = [&](Row& row, const Moving<A>& a, const Moving<B>& b) {
+    row = row_with<Row>(ask_items(method, q.swapped, a, b));
+  };
   if constexpr (has_kernel<A, B>) {
     if (min_separation == S(0)) {
-      answer_by_kernel<Moving<A>, Moving<B>, S>(
-          q, std::is_same_v<Row, Toi<S>>, ask, [&](std::size_t i, const Toi<S>& toi) { out[i] = row_with<Row>(toi); },
-          [&](std::size_t i, ToiStatus status, S time) {
-            out[i] = {status, 1, time};
-          });
+      answer_by_kernel<Moving<A>, Moving<B>, S>(q, std::is_same_v<Row, Toi<S>>, static_cast<Row*>(q.out), set,
+                                                [](ToiStatus status, S time) {
+                                                  return Row{status, 1, time};
+                                                });
       return;
     }
   }
-  answer_rows<Row>(q, [&](std::size_t i) { return row_with<Row>(ask(i)); });
+  answer_rows<Row>(q, [&](std::size_t i) {
+    return row_with<Row>(ask_items(method, q.swapped, row_of<Moving<A>, S>(q.a, i), row_of<Moving<B>, S>(q.b, i)));
+  });
 }
 
 template <class S> bool ask_all(const Question& q, S min_separation, bool vectors) {
@@ -71,9 +71,7 @@ template <class S> bool ask_all(const Question& q, S min_separation, bool vector
 
 // ---- Rays.
 
-template <class S, class A> [[gnu::noinline]] RayRow<S> cast_row(const Question& q, std::size_t i) {
-  const auto ray = row_of<Ray<S>, S>(q.a, i);
-  const auto shape = row_of<A, S>(q.b, i);
+template <class S, class A> [[gnu::noinline]] RayRow<S> cast_row(const Ray<S>& ray, const A& shape) {
   if (const auto hit = raycast(ray, shape))
     return {hit->normal == Vec3<S>::Zero() ? ToiStatus::overlapping : ToiStatus::hit, *hit};
   if (!valid(ray) || !valid(shape)) return {ToiStatus::invalid, {std::numeric_limits<S>::quiet_NaN()}};
@@ -86,17 +84,17 @@ template <class S> bool cast_rays(const Question& q) {
     using A = typename Tag::type;
     if (A::rank != q.b.kind) return;
     asked = true;
-    const auto ask = [&](std::size_t i) { return cast_row<S, A>(q, i); };
     if constexpr (std::is_same_v<A, Aabb<S>>) {
       const Question boxes_first{q.b, q.a, q.rows, q.out, q.threads, q.is_float};
-      auto* const out = static_cast<RayRow<S>*>(q.out);
       answer_by_kernel<Aabb<S>, Ray<S>, S>(
-          boxes_first, true, ask, [&](std::size_t i, const RayRow<S>& row) { out[i] = row; },
-          [&](std::size_t i, ToiStatus status, S t) {
-            out[i] = {status, {t}};
+          boxes_first, true, static_cast<RayRow<S>*>(q.out),
+          [](RayRow<S>& row, const Aabb<S>& box, const Ray<S>& ray) { row = cast_row(ray, box); },
+          [](ToiStatus status, S t) {
+            return RayRow<S>{status, {t}};
           });
     } else {
-      answer_rows<RayRow<S>>(q, ask);
+      answer_rows<RayRow<S>>(q,
+                             [&](std::size_t i) { return cast_row(row_of<Ray<S>, S>(q.a, i), row_of<A, S>(q.b, i)); });
     }
   });
   return asked;
