@@ -201,13 +201,18 @@ def said(error: ValueError, own: str | None) -> str:
 
 def toml(settings: Mapping[str, Any]) -> str:
     """TOML text of a dict. Raises TypeError or ValueError, naming the key, for what TOML cannot hold."""
-    return "".join(f"{_key(key)} = {_value(str(key), value)}\n" for key, value in settings.items())
+    return "".join(f"{_key(key)} = {_value(_shown(key), value)}\n" for key, value in settings.items())
 
 
 def _key(key: Any) -> str:
     if not isinstance(key, str):
         raise TypeError(f"{key!r}: is not allowed as a key; a str")
-    return _string(key, key)
+    return _string(_shown(key), key)
+
+
+def _shown(key: Any) -> str:
+    """A key in a complaint, which is one line."""
+    return key if isinstance(key, str) and key.isprintable() and key else repr(key)
 
 
 def _string(key: str, text: str) -> str:
@@ -234,6 +239,6 @@ def _value(key: str, value: Any) -> str:
     if isinstance(value, (list, tuple, range)):
         return "[" + ", ".join(_value(key, item) for item in value) + "]"
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_key(inner)} = {_value(f'{key}.{inner}', item)}" for inner, item in value.items()) + "}"
+        return "{" + ", ".join(f"{_key(inner)} = {_value(f'{key}.{_shown(inner)}', item)}" for inner, item in value.items()) + "}"
     what = f"an array of shape {value.shape} and type {value.dtype}" if isinstance(value, np.ndarray) else f"a {type(value).__name__}"
     raise TypeError(f"{key}: {what} is not allowed; a number, a text, a bool, a dict, or a list or array of them in one dimension")

@@ -1,5 +1,7 @@
 #include "lab.hpp"
 
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
