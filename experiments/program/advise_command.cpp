@@ -17,14 +17,15 @@ namespace {
 
 constexpr const char* advise_examples = R"(  thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60
   thinwall advise --speed 900 --radius 0.004 --thickness 0.02 --angle 30 --step 0.001 --miss 0.01 --late 0.05
+  thinwall advise --speed 20 --radius 0.02 --length 0.6 --spin 1800 --thickness 0.01 --fps 60
   thinwall advise --speed 10 --radius 0.02 --thickness 0.01 --fps 60 --toml check.toml
-  thinwall advise --speed 20 --radius 0.02 --length 0.6 --spin 1800 --thickness 0.01 --fps 60    a rod that spins
   thinwall run check.toml --out results/check              fires the shots that put the advice to the test
 )";
 
 constexpr const char* advise_footer =
     R"(Chances and lateness are computed by formula, for one infinite wall and straight flight, of a ball without rotation, or of a
-rod that tumbles about its middle: its axis lies in the plane of the wall. Costs are measured, in about a second. --toml - prints the configuration instead of the advice. More: docs/advise.md.
+rod that tumbles about its middle: its axis lies in the plane of the wall. Costs are measured, in about a second.
+--toml - prints the configuration instead of the advice. More: docs/advise.md.
 )";
 
 struct AdviseText {
@@ -73,7 +74,7 @@ Action declare_advise(CLI::App& self) {
   const auto text = std::make_shared<AdviseText>();
   self.footer(advise_footer);
   add_text(self, "--speed", text->words.speed, "How fast the ball flies, seen from the wall", "M/S");
-  add_text(self, "--radius", text->words.radius, "Of the ball; 0 is a point", "M");
+  add_text(self, "--radius", text->words.radius, "Of the ball or the rod; 0 is a point", "M");
   add_text(self, "--length", text->words.length, "Of a rod in place of the ball, end to end (default: a ball)", "M");
   add_text(self, "--spin", text->words.spin, "Of the rod, degrees a second (default: 0)", "DEG/S");
   add_text(self, "--thickness", text->words.thickness, "Of the wall; 0 is a sheet", "M");

@@ -115,7 +115,7 @@ TEST(RodAdvice, is_asked_for_by_length_and_spin) {
   refused({"--spin", "3"}, "--spin: a ball looks the same however it spins; of a rod, give --length [m] too");
   refused({"--length", "0.1"},
           "--length: a rod 0.1 m long, end to end, is no longer than it is wide, 0.1 m; without --length it is a ball");
-  refused({"--length", "1", "--spin", "-1"}, "--spin: '-1' is not allowed; a number >= 0 and <= 1e+09 [deg/s]");
+  refused({"--length", "1", "--spin", "-1"}, "--spin: '-1' is not allowed; a number >= 0 and <= 1000000000 [deg/s]");
   refused({"--length", "inf"}, "--length: 'inf' is not allowed; a number > 0 and <= 1000 [m]");
   refused({"--length", "1", "--spin", "1e6"}, "--spin 1000000: in a step of 0.1 s that is 278 turns; at most 100");
   refused({"--length", "1", "--toml", "-"},
