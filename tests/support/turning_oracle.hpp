@@ -367,9 +367,9 @@ N promise(const Spinners<N>& pair, const PlaneHint<N>& hint, const N& time, cons
   if (root > now.slope) ahead = min(ahead, N(N(2) * now.value / (root - now.slope)));
   const N fastest = max(pair.a.angle, pair.b.angle);
   if (fastest * ahead > N(1)) ahead = N(N(1) / fastest);
-  for (int k = 0; k < 12; ++k) {
+  for (int k = 0; k < 40; ++k) {  // in small steps, then in large ones: a corner may turn at once
     if (active(gap_jets(pair, hint, N(time + ahead), slack)).value > N(0)) return ahead;
-    ahead = N(ahead * N(0.7));
+    ahead = N(ahead * (k < 12 ? N(0.7) : N(0.2)));
   }
   return N(0);
 }
