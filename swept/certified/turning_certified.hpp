@@ -64,8 +64,10 @@ template <Shape A, Shape B> CertifiedToi certified_in_range(const Turning<A>& a,
   const Toi<double> toi = impact(ConservativeAdvancement<double>{finest, 256}, a, b);
   if (toi.status == ToiStatus::overlapping) return proven;
   proven.lower = toi.time;
-  if (toi.status == ToiStatus::apart) proven.verdict = ToiStatus::apart;
-  if (toi.status != ToiStatus::hit) return proven;
+  if (toi.status == ToiStatus::apart) {
+    proven.verdict = ToiStatus::apart;
+    return proven;
+  }
   for (double ahead = finest; proven.verdict == ToiStatus::gave_up; ahead *= 2) {
     const double time = std::min(1.0, toi.time + ahead);
     if (touches_for_certain(pair, a, b, time)) {

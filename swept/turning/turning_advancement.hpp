@@ -60,7 +60,8 @@ TurningInstant<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane
 
 /// Claims: never late, never misses, rounding included (docs/turning.md), whatever the angles.
 /// Error: early by at most what it takes to close a gap of `tolerance` times the speed bound |path| + sum of angle times the farthest
-/// point's distance from the axis; a miss nearer than that may be a hit, and so may one that rounding hides.
+/// point's distance from the axis; a miss nearer than that may be a hit, and so may one that rounding hides: of shapes without a radius half
+/// the digits of their size.
 /// Degenerate: no motion is `apart`, or `overlapping`; very many turns are `gave_up`, or a hit that rounding hides.
 /// Source: derived in docs/turning.md; the idea of advancement is Mirtich's, 1996.
 template <Scalar S, Shape A, Shape B>
@@ -106,7 +107,9 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
     }
     if (next.time >= T(1)) return {ToiStatus::apart, k};
     const T gained = next.time - now.time;
-    if (!(gained > T(0)) || (gap <= near && gained <= T(method.tolerance))) return hit;
+    if (gap <= near && gained <= T(method.tolerance)) return hit;
+    if (!(gained > T(0)) && gap <= pair.hidden) return hit;
+    if (!(gained > T(0))) return {ToiStatus::gave_up, k, rounded_down_to<S>(now.time)};
     now = next;
   }
   return {ToiStatus::gave_up, method.max_evaluations, rounded_down_to<S>(now.time)};

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include <thinwall/swept/methods/tolerance.hpp>
 #include <thinwall/swept/turning.hpp>
 
 namespace thinwall {
@@ -159,6 +160,7 @@ template <Scalar S> struct TurningPair {
   S cross_rate = 0;       ///< [rad^2] |u x v| + |u - v|^2 of the rotations u and v, where both are any
   S speed;                ///< [length] per step: no two points near each other faster
   S margin;               ///< [length] what rounding may take from a gap (docs/turning.md, "Rounding")
+  S hidden;  ///< [length] a gap that rounding may hide: without a radius the direction across it is lost before
   S first = 0, last = 1;  ///< [1] only between them do the balls meet within which the shapes turn; first > last: never
 
   template <Shape A, Shape B>
@@ -179,6 +181,7 @@ template <Scalar S> struct TurningPair {
       cross_rate = norm<S>(cross(a.rotation, b.rotation)) + (a.rotation - b.rotation).squaredNorm();
     constexpr S u = std::numeric_limits<S>::epsilon() / 2;
     margin = S(64) * u * (S(1) + turn / S(4)) * size;
+    hidden = reach > S(0) ? margin : std::max(margin, S(half_digits<S>() * size));
     when_balls_meet();
   }
 

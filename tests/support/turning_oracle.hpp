@@ -590,7 +590,8 @@ template <class A, class B> class TurningOracle {
     const std::vector<Triple<Ball>> balls_a = arms_at(proof.a, at), balls_b = arms_at(proof.b, at);
     Triple<N> wanted = Triple<N>{closest.point_b[0], closest.point_b[1], closest.point_b[2]} - center;
     const N enough = pair.a.radius + pair.b.radius + N(gap);
-    constexpr int rounds = std::is_same_v<N, double> ? 4096 : 24;
+    constexpr int rounds =
+        std::is_same_v<N, double> ? 1 << 17 : 24;  // a needle aslant in a sliver nears it by a thousandth each
     for (int round = 1; round <= rounds; ++round) {
       const std::vector<N> x = shares(pair.a, arms_a, wanted, N(1));
       const auto near = point(pair.a, arms_a, x);
