@@ -35,7 +35,7 @@ template <class T> bool has_valid_axes(const T&) { return true; }
 /// True if every length of a shape of doubles, divided by 2^e, is a double: nothing is lost below the range.
 template <class T> bool divides_exactly(const T& shape, int e) {
   const T back = scaled(scaled(shape, -e), e);
-  return std::memcmp(&back, &shape, sizeof(T)) == 0;
+  return std::memcmp(&back, &shape, sizeof(T)) == 0;  // NOLINT(bugprone-suspicious-memory-comparison): bit for bit
 }
 
 /// Two cores seen from A. Points are relative to the shapes' centers, so that nothing far from the origin is lost.
