@@ -51,7 +51,9 @@ std::vector<Substeps<double>> variants_of(const Substeps<double>&, std::span<con
 }
 
 template <class Method> std::string variant_name(const Method&) { return std::string(Method::name); }
-std::string variant_name(const Substeps<double>& method) { return fmt::format("{}_{}", method.name, method.n); }
+std::string variant_name(const Substeps<double>& method) {
+  return fmt::format("{}_{}", Substeps<double>::name, method.n);
+}
 
 template <class Cell, class Ask>
 void try_once(const Cell& cell, const RodMotion& motion, const Ask& ask, RodTally& tally) {
