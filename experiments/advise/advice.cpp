@@ -117,4 +117,14 @@ std::vector<Candidate> candidates(const Wish& wish) {
 
 Candidate certified_candidate() { return {"certified", 0, false, certified_theory, ask_certified}; }
 
+Advice advise(const Wish& wish) {
+  if (!wish.rod) {
+    const std::vector<Candidate> balls = candidates(wish);
+    return advise(wish, balls, measure_costs(wish.cell, balls));
+  }
+  constexpr std::int64_t queries = TimingEffort{}.queries;
+  const std::vector<Candidate> rods = rod_candidates(wish);
+  return advise(wish, rods, measure_costs(rod_steps(wish, queries, 1), rod_steps(wish, queries, 0), rods));
+}
+
 }  // namespace thinwall

@@ -133,6 +133,9 @@ std::optional<double> longest_step(const Wish& wish, const std::function<Theory(
 /// from its cost, because the intervals overlap, it is the one that is least late.
 Advice advise(const Wish& wish, std::span<const Candidate> candidates, std::span<const StepCost> costs);
 
+/// The same of all who can serve a ball, or a rod, once their costs are measured: about a second.
+Advice advise(const Wish& wish);
+
 // ---- Numbers in the words of the advice.
 
 std::string percent_text(double chance);       ///< "70 %", "0"

@@ -44,20 +44,15 @@ int print_advice(const AdviseText& text, const Call& call) {
   if (text.toml && text.toml->empty()) throw UsageError("--toml: '' is not allowed; a file, or - for the terminal");
   if (text.toml && !to_file && text.json) throw UsageError("--toml - and --json both want to be all that is printed");
   const Wish wish = read_wish(text.words);
-  const std::vector<Candidate> methods = wish.rod ? rod_candidates(wish) : candidates(wish);
   if (text.toml) {
-    const std::string config = check_config(wish, methods);
+    const std::string config = check_config(wish, candidates(wish));
     if (!to_file) {
       call.out << config;
       return exit_done;
     }
     write_own_file("--toml", *text.toml, config, "advise");
   }
-  constexpr std::int64_t queries = TimingEffort{}.queries;
-  const std::vector<StepCost> costs =
-      wish.rod ? measure_costs(rod_steps(wish, queries, 1), rod_steps(wish, queries, 0), methods)
-               : measure_costs(wish.cell, methods);
-  const Advice advice = advise(wish, methods, costs);
+  const Advice advice = advise(wish);
   if (text.json) {
     nlohmann::ordered_json reply = advice_json(advice);
     if (to_file) reply["toml"] = *text.toml;

@@ -39,6 +39,20 @@ def test_says_what_theory_says(advice: Any) -> None:
     assert repr(advice) == advice.text and re.sub(r"\s+", " ", advice.sentence) in re.sub(r"\s+", " ", advice.text)
 
 
+def test_a_rod() -> None:
+    """A spin shields on short steps: a quarter of a turn in 1/60 s."""
+    rod = tw.advise(speed=20, radius=0.02, length=0.6, spin_deg=5400, thickness=0.01, fps=60)
+    assert rod.conditions["length_m"] == 0.6 and rod.conditions["spin_deg_s"] == 5400
+    table = rod.table
+    assert rod.method == table["method"][0] and "linear_sweep" in list(table["method"])
+    assert not table["in_experiment"].any()
+    still = tw.advise(speed=20, radius=0.02, length=0.6, thickness=0.01, fps=60).table
+    chance = [t["chance"][list(t["method"]).index("end_of_step")] for t in (table, still)]
+    assert 0 <= chance[0] < chance[1] < 1
+    with pytest.raises(ValueError, match="rods are fired by"):
+        rod.toml
+
+
 def test_none_will_do(monkeypatch: pytest.MonkeyPatch) -> None:
     """A point at a sheet: without a chord to be in, and without pandas to say it."""
     monkeypatch.setitem(sys.modules, "pandas", None)
@@ -67,6 +81,9 @@ def test_copies(advice: Any) -> None:
         ({"radius": -1}, ValueError, "^radius: "),
         ({"angle_deg": 90}, ValueError, "^angle_deg: "),
         ({"miss": 2}, ValueError, "^miss: "),
+        ({"spin_deg": 10}, ValueError, "^spin_deg: a ball"),
+        ({"length": 0.001}, ValueError, "^length: a rod"),
+        ({"length": 1, "spin_deg": 1e9}, ValueError, "^spin_deg 1e9|^spin_deg 1000000000"),
         ({"late": -1}, ValueError, "^late: "),
         ({"step": 1}, ValueError, "^step and fps say the same thing twice"),
         ({"fps": None}, ValueError, r"^step \[s\] or fps"),

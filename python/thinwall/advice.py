@@ -81,13 +81,15 @@ def advise(
     step: float | None = None,
     fps: float | None = None,
     angle_deg: float = 0,
+    length: float | None = None,
+    spin_deg: float | None = None,
     miss: float = 0,
     late: float | None = None,
 ) -> Advice:
     """Names the cheapest method that is good enough for a speed, a wall and a step.
 
-    Chances and lateness are computed by formula, for one infinite wall, straight flight and no rotation; costs are measured on this
-    machine, in about a second. The same as ``thinwall advise``; docs/advise.md says how it chooses.
+    Chances and lateness are computed by formula, for one infinite wall and straight flight, of a ball or of a rod that tumbles about its
+    middle; costs are measured on this machine, in about a second. The same as ``thinwall advise``; docs/advise.md says how it chooses.
 
     Parameters
     ----------
@@ -103,6 +105,10 @@ def advise(
         [1/s] how many there are a second. One of the two.
     angle_deg : float, default 0
         [deg] Between the flight and the wall's normal, 0 to 89.9.
+    length : float, optional
+        [m] Of a rod in place of the ball, end to end: more than twice the radius, and <= 1000.
+    spin_deg : float, optional
+        [deg/s] Of the rod, >= 0, at most 100 turns a step; 0 if not given.
     miss : float, default 0
         [1] The largest acceptable chance that a shot tunnels, 0 to 1.
     late : float, optional
@@ -125,7 +131,7 @@ def advise(
     'closed_form'
     """
     given = {"speed": speed, "radius": radius, "thickness": thickness, "step": step, "fps": fps}
-    given |= {"angle": angle_deg, "miss": miss, "late": late}
+    given |= {"angle": angle_deg, "miss": miss, "late": late, "length": length, "spin": spin_deg}
     words = {name: None if value is None else _word(name, value) for name, value in given.items()}
     try:
         data, text = _lab.advice(words)
@@ -144,14 +150,18 @@ def advise(
     )
 
 
+_IN_DEGREES = ("angle", "spin")  # named so here
+
+
 def _said(error: ValueError) -> str:
     text = experiments.said(error, None)
-    return "angle_deg" + text[len("angle") :] if text.startswith("angle:") else text
+    name = text.split(":")[0].split(" ")[0]
+    return name + "_deg" + text[len(name) :] if name in _IN_DEGREES else text
 
 
 def _word(name: str, value: Any) -> str:
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise TypeError(f"{'angle_deg' if name == 'angle' else name}: {value!r} is not allowed; a number")
+        raise TypeError(f"{name + '_deg' if name in _IN_DEGREES else name}: {value!r} is not allowed; a number")
     return repr(float(value))
 
 

@@ -25,14 +25,12 @@ Wish wish_of(const std::map<std::string, Word>& words) {
     return found == words.end() ? Word() : found->second;
   };
   return read_wish({word("speed"), word("radius"), word("thickness"), word("angle"), word("step"), word("fps"),
-                    word("miss"), word("late")});
+                    word("miss"), word("late"), word("length"), word("spin")});
 }
 
 /// Every number as JSON, and all of it in words.
 std::pair<std::string, std::string> advice(const std::map<std::string, Word>& words) {
-  const Wish wish = wish_of(words);
-  const std::vector<Candidate> methods = candidates(wish);
-  const Advice made = advise(wish, methods, measure_costs(wish.cell, methods));
+  const Advice made = advise(wish_of(words));
   return {advice_json(made).dump(), advice_text(made)};
 }
 
