@@ -17,7 +17,7 @@ function(thinwall_explorer_test name missing)
   else()
     add_test(NAME explorer/${name} COMMAND ${ARGN} WORKING_DIRECTORY "${explorer}")
   endif()
-  set_tests_properties(explorer/${name} PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "^skipped: ")
+  set_tests_properties(explorer/${name} PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "^skipped: ")
 endfunction()
 
 thinwall_explorer_test(lint "${missing}" npm run --silent lint)

@@ -159,7 +159,7 @@ test('rods that spin pass as theory has it, and are counted as the program count
   await page.keyboard.press('Tab');
   const cells = () => page.$$eval('#rod-counts tbody tr', (all) => all.map((row) => [...row.cells].map((cell) => cell.innerText.trim())));
   await page.waitForFunction(() => [...document.querySelectorAll('#rod-counts tbody tr')].every((row) => row.cells[1].innerText === '20,000'), null,
-    { timeout: 60000 });
+    { timeout: 180000 });
   const all = await cells(), numbers = (text) => text.replaceAll(',', '').match(/-?[\d.]+(e-?\d+)?/g).map(Number);
   for (const [name, , , share, theory] of all) {
     if (theory === '') continue;
