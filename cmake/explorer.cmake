@@ -52,7 +52,7 @@ link_headers(nlohmann_json::nlohmann_json nlohmann)
 link_headers(Random123::Random123 Random123)
 
 # Random123 asks for a processor that it knows, and for 128 bits; libc++ for what C++17 removed, which Boost 1.74 still uses.
-set(flags --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -ffp-contract=off -DTHINWALL_HOT=inline -DFMT_HEADER_ONLY -D__riscv
+set(flags --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -ffp-contract=off -DTHINWALL_HOT=inline -DTHINWALL_DOUBLE_ALONE -DFMT_HEADER_ONLY -D__riscv
   -DR123_USE_GNU_UINT128=1 -DR123_USE_PHILOX_64BIT=1 -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION -DJSON_HAS_FILESYSTEM=0
   -DJSON_HAS_EXPERIMENTAL_FILESYSTEM=0 -nostdinc++ -isystem "${wasm_headers}" -isystem "${folder}/include" -w
   -include thinwall/experiments/explorer/one_thread.inl)

@@ -60,11 +60,6 @@ void check_page(const KeptResult& result, Faults& faults) {
 
 namespace {
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
 /// `1.5e-07` as `1.5e-7`.
 std::string short_exponents(const std::string& text) {
   std::string out;

@@ -121,12 +121,6 @@ Figure parse_figure(const std::string& text, const std::string& file) {
 
 namespace {
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-}
-
 std::set<std::string> ids_in(const std::string& svg) {
   std::set<std::string> ids;
   for (auto at = svg.find(" id="); at != std::string::npos; at = svg.find(" id=", at)) {

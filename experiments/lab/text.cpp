@@ -194,4 +194,9 @@ int line_of_deep_key(std::string_view text, int most) {
   return 0;
 }
 
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
 }  // namespace thinwall

@@ -71,6 +71,9 @@ std::string_view nearest_spelling(std::string_view word, std::span<const std::st
 /// The end of a complaint: `did you mean 'radius'? (allowed: angle, radius)`; if nothing is near, `allowed: angle, radius`.
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates);
 
+/// Every `from` in `text`, which is not empty, becomes `to`.
+void replace_all(std::string& text, std::string_view from, std::string_view to);
+
 // ---- What a TOML text nests too deeply, told before a parser sees it.
 
 /// The line, from 1, of the first key of more than `most` parts, as `a.b.c` has three; 0 if there is none. Nested arrays

@@ -77,8 +77,6 @@ using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<
 
 #ifdef THINWALL_TEST_WIDE_SCALARS  // the program tests_wide: the same tests once more
 using Scalars = ::testing::Types<long double, Wide>;
-#elif defined(THINWALL_SLOW_BUILD)  // sanitized: the code is the same for both, and compiling it is what takes long
-using Scalars = ::testing::Types<double>;
 #else
 using Scalars = ::testing::Types<float, double>;
 #endif
