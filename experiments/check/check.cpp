@@ -210,11 +210,11 @@ bool has_type(const std::string& field, const std::string& type) {
   return field == "true" || field == "false";
 }
 
-struct Field {
+struct TableField {
   std::string name, type;
 };
 
-std::vector<Field> check_fields(const json& resource, const std::string& where, Faults& faults) {
+std::vector<TableField> check_fields(const json& resource, const std::string& where, Faults& faults) {
   const json schema = resource.value("schema", json());
   const json fields = schema.is_object() ? schema.value("fields", json()) : json();
   if (!fields.is_array() || fields.empty()) {
@@ -223,7 +223,7 @@ std::vector<Field> check_fields(const json& resource, const std::string& where, 
   }
   if (schema.value("missingValues", json()) != json::array({""}))
     add(faults, package_file, "{}: 'missingValues' is not [\"\"]", where);
-  std::vector<Field> out;
+  std::vector<TableField> out;
   std::set<std::string> names;
   for (const json& field : fields) {
     const std::string here = fmt::format("{}, field {}", where, out.size() + 1);
@@ -243,7 +243,8 @@ std::vector<Field> check_fields(const json& resource, const std::string& where, 
   return out;
 }
 
-void check_rows(const std::string& path, const std::string& text, const std::vector<Field>& fields, Faults& faults) {
+void check_rows(const std::string& path, const std::string& text, const std::vector<TableField>& fields,
+                Faults& faults) {
   constexpr std::size_t most = 5;  // a file of other columns would name every row
   std::vector<CsvRow> rows;
   try {
@@ -253,7 +254,7 @@ void check_rows(const std::string& path, const std::string& text, const std::vec
     return;
   }
   std::vector<std::string> names;
-  for (const Field& field : fields) names.push_back(field.name);
+  for (const TableField& field : fields) names.push_back(field.name);
   if (rows.empty() || rows.front().fields != names) {
     faults.push_back(fmt::format("{}:1: its columns are not those of {}", path, package_file));
     return;
@@ -287,7 +288,7 @@ std::string check_resource(const json& resource, std::size_t number, const fs::p
   require_value(resource, "format", "csv", where, faults);
   require_value(resource, "encoding", "utf-8", where, faults);
   required_text(resource, "description", where, faults);
-  const std::vector<Field> fields = check_fields(resource, where, faults);
+  const std::vector<TableField> fields = check_fields(resource, where, faults);
   const std::string path = required_text(resource, "path", where, faults);
   if (path.starts_with('/') || path.find("..") != std::string::npos) {  // the specification forbids both
     add(faults, package_file, "{}: the path '{}' leaves the folder", where, one_line(path));

@@ -1,5 +1,5 @@
-// What every method of the list claims, on random motions of every pair that it serves: 72 000 in double, 30 000 in float.
-// RC_PARAMS="max_success=1000" makes a million of them.
+// What every method of the list claims, on random motions of every pair that it serves: 24 000 in double, 12 000 in float.
+// RC_PARAMS="max_success=1000" makes it ten times as many.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace thinwall::testing {
 namespace {
 
-TEST(Claims, are_kept_on_every_pair_in_double) { check_every_pair<double>(6000); }
+TEST(Claims, are_kept_on_every_pair_in_double) { check_every_pair<double>(2000); }
 
 }  // namespace
 }  // namespace thinwall::testing
@@ -18,7 +18,7 @@ TEST(Claims, are_kept_on_every_pair_in_double) { check_every_pair<double>(6000);
 namespace thinwall::testing {
 namespace {
 
-TEST(Claims, are_kept_on_every_pair_in_float) { check_every_pair<float>(2500); }
+TEST(Claims, are_kept_on_every_pair_in_float) { check_every_pair<float>(1000); }
 
 }  // namespace
 }  // namespace thinwall::testing

@@ -106,9 +106,9 @@ TEST(PublishedTurning, are_written_where_asked) {
   });
 }
 
-/// A part of them, the same for every pair; THINWALL_THOROUGH=40 is all.
+/// A part of them, the same for every pair; THINWALL_THOROUGH=160 is all.
 TEST(PublishedTurning, are_drawn_and_proven_again_to_the_byte) {
-  const int every = std::max(1, (slow_build ? 400 : 40) / static_cast<int>(thorough(1)));
+  const int every = std::max(1, 160 / static_cast<int>(thorough(1)));
   each_pair([&](const auto& pair) {
     std::ifstream in(std::string(THINWALL_TURNING_QUERIES) + "/" + pair.name + ".csv", std::ios::binary);
     std::string line;
