@@ -23,7 +23,6 @@
 namespace thinwall {
 namespace {
 
-using Clock = std::chrono::system_clock;
 
 constexpr std::chrono::milliseconds patience(500);  // for a unit to end when Ctrl-C is pressed; one may be long
 
@@ -120,7 +119,7 @@ RunRecord record_of(const ConfiguredRun& chosen, const RunWish& wish, const Call
                    .argv = call.argv,
                    .threads = wish.request.options.threads,
                    .units = units.size(),
-                   .started = Clock::now(),
+                   .started = std::chrono::system_clock::now(),
                    .finished = {},
                    .build = this_build(),
                    .machine = this_machine()};
@@ -210,14 +209,14 @@ int perform_run(const RunWish& given, const Call& call) try {
     call.err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
   }
   if (wish.shard) {
-    record.finished = Clock::now();
+    record.finished = std::chrono::system_clock::now();
     seal_shard(folder, identity, record);
     guard.reset();
     return shard_reply(wish, record, call);
   }
 
   const Outcome outcome = chosen.run->finish(results.results, results.seconds);
-  record.finished = Clock::now();
+  record.finished = std::chrono::system_clock::now();
   const auto notes = write_results(folder, record, outcome);
   guard.reset();
   for (const std::string& note : notes) call.err << note << "\n";
