@@ -23,7 +23,6 @@
 namespace thinwall {
 namespace {
 
-
 constexpr std::chrono::milliseconds patience(500);  // for a unit to end when Ctrl-C is pressed; one may be long
 
 std::string size_text(const RunRecord& run) {
