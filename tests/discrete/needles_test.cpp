@@ -1,0 +1,61 @@
+// Triangles almost without an area, whose plane roundings may turn by any angle: their distance from a point is that of the exact corners.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include <thinwall/discrete/triangle.hpp>
+
+#include "support/real.hpp"
+
+namespace thinwall::testing {
+namespace {
+
+using oracle::Real;
+using oracle::Vector;
+
+Real from_edge(const Vector& x, const Vector& start, const Vector& end) {
+  const Vector along = end - start;
+  const Real square = dot(along, along), wanted = square > 0 ? Real(dot(x - start, along) / square) : Real(0);
+  return length(x - (start + std::clamp<Real>(wanted, 0, 1) * along));
+}
+
+/// From every edge, and from the plane where the foot lies between the edges. 100 digits hold every product of the corners.
+Real distance_of(const Vector& x, const Vector& a, const Vector& b, const Vector& c) {
+  const Real from_edges = std::min({from_edge(x, a, b), from_edge(x, b, c), from_edge(x, c, a)});
+  const Vector normal = cross(b - a, c - a);
+  const auto within = [&](const Vector& start, const Vector& end) {
+    return dot(cross(normal, end - start), x - start) >= 0;
+  };
+  if (dot(normal, normal) == 0 || !within(a, b) || !within(b, c) || !within(c, a)) return from_edges;
+  return std::min(from_edges, Real(abs(dot(normal, x - a)) / length(normal)));
+}
+
+template <class S> class Needles : public ::testing::Test {};
+TYPED_TEST_SUITE(Needles, Scalars, ScalarNames);
+
+TYPED_TEST(Needles, are_as_far_as_their_corners_say) {
+  using S = TypeParam;
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  const auto vector = [&]() -> Vec3<S> { return {S(draw(engine)), S(draw(engine)), S(draw(engine))}; };
+  const auto at_most = [&](int bits) { return power<S>(-static_cast<int>(engine() % static_cast<unsigned>(bits))); };
+  constexpr int digits = std::numeric_limits<S>::digits;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3<S> a = vector() * S(i % 3 == 0 ? 0 : 1), b = vector();
+    const Vec3<S> c = a + (b - a) * S(0.7 + 0.3 * draw(engine)) + vector() * at_most(digits + 10);
+    const Vec3<S> x = a + (b - a) * S(draw(engine)) + vector() * at_most(digits + 10);
+    const S distance = separation(Triangle<S>{a, b, c}, Sphere<S>{x, S(0)}).distance;
+    const auto [X, A, B, C] =
+        std::tuple{oracle::lift_vector(x), oracle::lift_vector(a), oracle::lift_vector(b), oracle::lift_vector(c)};
+    const Real size = length(B - A) + length(C - A) + length(X - A);
+    ASSERT_LE(abs(oracle::lift(distance) - distance_of(X, A, B, C)), 4 * oracle::unit_roundoff<S>() * size) << i;
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::testing
