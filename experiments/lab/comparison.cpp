@@ -12,6 +12,7 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/sha256.hpp>
 
 namespace thinwall {
 

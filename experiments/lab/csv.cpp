@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 

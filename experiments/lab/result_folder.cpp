@@ -19,6 +19,7 @@
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {

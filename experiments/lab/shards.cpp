@@ -14,6 +14,7 @@
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {

@@ -18,6 +18,7 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
+#include <thinwall/experiments/lab/sha256.hpp>
 
 #include "support/program.hpp"
 #include "support/thorough.hpp"
