@@ -163,8 +163,11 @@ bool boxes_apart(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3
 /// The same as flat_entry, for lengths and displacements whose products of four are in range.
 template <Scalar S>
 Entry<S> flat_entry_in_range(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
-                             const S& last) {
+                             const S& latest) {
   const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p);
+  // An end so late that what is multiplied by it leaves the range is none; who asks compares the time with it.
+  const S farthest = latest * speed * std::max(S(1), S(largest(e1, e2) * largest(e1, e2)));
+  const S last = is_finite(S(farthest * farthest)) ? latest : std::numeric_limits<S>::infinity();
   const Vec3<S> normal = accurate_cross(e1, e2);
   const Vec3<S> moment = cross(v, p);
   const S side = v.dot(normal) < S(0) ? S(-1) : S(1);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/triangle.hpp>
 
 #include "support/real.hpp"
 
@@ -125,6 +126,16 @@ TYPED_TEST(Rays, a_plate_is_hit_on_either_side) {
   EXPECT_EQ(raycast(Ray<S>{{2, 0, 0}, {-2, 0, 0}}, plate)->normal, Vec3<S>(1, 0, 0));
   EXPECT_TRUE(raycast(Ray<S>{{1, -10, 0}, {0, 1, 0}}, plate).has_value());  // within its plane
   EXPECT_TRUE(raycast(Ray<S>{{0, S(1) / S(3), 0}, {S(1) / S(7), S(1) / S(11), 0}}, plate).has_value());  // inexact
+}
+
+TYPED_TEST(Rays, a_plate_is_met_on_its_edge_however_late_the_ray_ends) {
+  using S = TypeParam;
+  const Triangle<S> plate{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}};
+  for (int exponent = 0; exponent < std::numeric_limits<S>::max_exponent && exponent < 20000; exponent += 7) {
+    const auto hit = raycast(Ray<S>{{S(0.5), S(0.5), -5}, {0, 0, 8}, power<S>(exponent)}, plate);
+    ASSERT_TRUE(hit.has_value()) << exponent;
+    EXPECT_EQ(hit->t, S(0.625));
+  }
 }
 
 TYPED_TEST(Rays, not_a_number) {
