@@ -19,6 +19,16 @@ SHAPES["Turning"] = turning("Capsule", np.random.default_rng(3), ROWS, np.float3
 each_shape = pytest.mark.parametrize("rows", SHAPES.values(), ids=SHAPES)
 
 
+class Series:
+    """What pandas calls so, as far as it is looked at."""
+
+    def __init__(self, values):
+        self._values = values
+
+    def to_numpy(self):
+        return self._values
+
+
 def arrays(rows):
     return [*getattr(rows, "shape", rows)._arrays, *(rows._arrays if hasattr(rows, "shape") else ())]
 
@@ -92,6 +102,8 @@ REFUSED = [
     (lambda: tw.Sphere(np.zeros((4, 3), np.float16), 1.0), TypeError, r"center is an array of float16"),
     (lambda: tw.Sphere(np.zeros((4, 3), ">f8"), 1.0), TypeError, r"center is an array of >f8"),
     (lambda: tw.Sphere(V.astype(object), 1.0), TypeError, r"center is an array of object"),
+    (lambda: tw.Sphere(np.ma.masked_less(V, 0), 1.0), TypeError, r"center is a masked array; allowed is one without a mask"),
+    (lambda: tw.Sphere(V, Series(np.ones(4))), TypeError, r"radius is a Series; allowed is an array: convert it by \.to_numpy\(\)"),
     (lambda: tw.Sphere(V, np.zeros(4, np.float32)), TypeError, r"radius is an array of float32; allowed is float64, as the arrays"),
     (lambda: tw.Moving(tw.Sphere(V, 1.0), W), TypeError, r"Moving: displacement is an array of float32; allowed is float64"),
     (lambda: tw.Sphere(np.zeros((4, 2)), 1.0), ValueError, r"center is an array of shape \(4, 2\); allowed is shape \(3,\) or \(N, 3\)"),
@@ -100,9 +112,9 @@ REFUSED = [
     (lambda: tw.Sphere(np.zeros(()), 1.0), ValueError, r"shape \(\); allowed is shape \(3,\)"),
     (lambda: tw.Sphere(V, np.zeros((4, 1))), ValueError, r"radius is an array of shape \(4, 1\); allowed is shape \(\) or \(N,\)"),
     (lambda: tw.Obb(V, V, np.zeros((4, 3))), ValueError, r"axes is an array of shape \(4, 3\); allowed is shape \(3, 3\) or \(N, 3, 3\)"),
-    (lambda: tw.Sphere(V, np.zeros(5)), ValueError, r"radius is 5 rows; allowed is 4, as the arrays before it have, or 1"),
-    (lambda: tw.Moving(tw.Sphere(V, 1.0), np.zeros((5, 3))), ValueError, r"displacement is 5 rows; allowed is 4, as the shape has"),
-    (lambda: tw.Turning(tw.Sphere(V, 1.0), V, np.zeros((5, 3))), ValueError, r"rotation is 5 rows; allowed is 4"),
+    (lambda: tw.Sphere(V, np.zeros(5)), ValueError, r"radius is an array of 5 rows; allowed is 4, as the arrays before it have, or 1"),
+    (lambda: tw.Moving(tw.Sphere(V, 1.0), np.zeros((5, 3))), ValueError, r"displacement is an array of 5 rows; allowed is 4, as the shape has"),
+    (lambda: tw.Turning(tw.Sphere(V, 1.0), V, np.zeros((5, 3))), ValueError, r"rotation is an array of 5 rows; allowed is 4"),
     (lambda: tw.Sphere("abc", 1.0), TypeError, r"center is str 'abc'; allowed is an array, a number or a list"),
     (lambda: tw.Sphere(None, 1.0), TypeError, r"center is NoneType"),
     (lambda: tw.Sphere([0, 0, True], 1.0), TypeError, r"center is list"),

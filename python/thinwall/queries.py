@@ -314,7 +314,9 @@ def _options(query, method, known, options, dtype):
     chosen = _queries.Options()
     for name, value in options.items():
         if name not in known:
-            raise TypeError(f"{query}: " + _nearest(name, known, f"an option of {method!r}"))
+            near = difflib.get_close_matches(name.lower(), known, n=1, cutoff=0.5)
+            meant = f"; did you mean {near[0]!r}? It" if near else "; it"
+            raise TypeError(f"{query}: {method!r} has no option {name!r}{meant} has {', '.join(known)}")
         kind, allows, words = _OPTIONS[name]
         epsilon = float(np.finfo(dtype).eps)
         words = words.format(epsilon=epsilon)

@@ -34,13 +34,18 @@ class _Rows:
             if isinstance(value, np.generic):  # a scalar of NumPy's
                 value = np.asarray(value)
             if isinstance(value, np.ndarray):
+                if isinstance(value, np.ma.MaskedArray):
+                    self._refuse(name, "a masked array", "one without a mask: .filled(numpy.nan) makes INVALID rows of what it hides")
                 if value.dtype not in _FLOATS:
                     self._refuse(name, f"an array of {value.dtype}", "float64 or float32: convert it, as by .astype(float)")
                 if dtype is not None and value.dtype != dtype:
-                    self._refuse(name, f"an array of {value.dtype}", f"{dtype}, as the arrays before it are")
+                    self._refuse(name, f"an array of {value.dtype}", f"{dtype}, as the arrays before it are: convert one, as by .astype({dtype})")
                 dtype = value.dtype
+            elif hasattr(value, "to_numpy"):  # of pandas
+                self._refuse(name, f"a {type(value).__name__}", "an array: convert it by .to_numpy()")
             elif not _is_literal(value):
-                self._refuse(name, f"{type(value).__name__} {value!r:.60}", "an array, a number or a list of numbers")
+                allowed = "an array, a number or a list of numbers, those of Python's own"
+                self._refuse(name, f"{type(value).__name__} {value!r:.60}", allowed)
             arrays[name] = value
         self.dtype = np.dtype(np.float64 if dtype is None else dtype)
         rows = None
@@ -53,7 +58,7 @@ class _Rows:
                 self._refuse(name, f"an array of shape {_words(value.shape)}", f"shape {allowed}")
             if value.ndim > len(axes):
                 if rows not in (None, 1, len(value)) and len(value) != 1:
-                    self._refuse(name, f"{len(value)} rows", f"{rows}, as the arrays before it have, or 1")
+                    self._refuse(name, f"an array of {len(value)} rows", f"{rows}, as the arrays before it have, or 1")
                 rows = len(value) if rows in (None, 1) else rows
             arrays[name] = value
         self._arrays = tuple(arrays.values())
@@ -283,7 +288,7 @@ class _InMotion(_Rows):
         elif self._rows == 1:
             self._rows = shape._rows
         elif self._rows != shape._rows:
-            self._refuse("displacement", f"{self._rows} rows", f"{shape._rows}, as the shape has, or 1")
+            self._refuse("displacement", f"an array of {self._rows} rows", f"{shape._rows}, as the shape has, or 1")
 
     def _given(self):
         return (self.shape, *self._arrays)
