@@ -244,7 +244,7 @@ std::string quoted_after(const std::string& script, std::size_t at) {
 }
 
 /// The title and the labels of the axes, which the script sets as labels 1, 2 and 3.
-std::set<std::string> words_of(const std::string& script) {
+std::set<std::string> script_words(const std::string& script) {
   std::set<std::string> out;
   for (const char* label : {"\nset label 1 ", "\nset label 2 ", "\nset label 3 "}) {
     for (auto at = script.find(label); at != std::string::npos; at = script.find(label, at + 1))
@@ -266,7 +266,7 @@ void check_svg(const std::string& svg, const std::string& script, const std::str
     return;
   }
   const std::string shown = html_unescaped(svg);  // gnuplot escapes some of what could be
-  const std::set<std::string> words = words_of(script);
+  const std::set<std::string> words = script_words(script);
   if (words.size() < 3) faults.push_back(file + ": its script does not label both axes");
   for (const std::string& word : words) {
     if (shown.find(word) == std::string::npos)
