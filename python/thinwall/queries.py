@@ -45,8 +45,12 @@ def _one_of(classes):
     return ", ".join(names[:-1]) + f" or {names[-1]}" if len(names) > 1 else names[0]
 
 
+def _near(name, known):
+    return difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
+
+
 def _nearest(name, known, what):
-    near = difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
+    near = _near(name, known)
     meant = f"; did you mean {near[0]!r}?" if near else ""
     return f"{what} is {name!r}{meant} Allowed is {', '.join(known)}" if near else f"{what} is {name!r}; allowed is {', '.join(known)}"
 
@@ -314,7 +318,7 @@ def _options(query, method, known, options, dtype):
     chosen = _queries.Options()
     for name, value in options.items():
         if name not in known:
-            near = difflib.get_close_matches(name.lower(), known, n=1, cutoff=0.5)
+            near = _near(name.lower(), known)
             meant = f"; did you mean {near[0]!r}? It" if near else "; it"
             raise TypeError(f"{query}: {method!r} has no option {name!r}{meant} has {', '.join(known)}")
         kind, allows, words = _OPTIONS[name]
