@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include <thinwall/swept/methods/closed_form.hpp>
+#include <thinwall/swept/methods/conservative_advancement.hpp>
+#include <thinwall/swept/methods/speculative.hpp>
 
 namespace thinwall {
 
@@ -97,6 +99,12 @@ std::vector<const Racer*> fine_and_faster(const Heat& heat) {
 }
 
 bool keeps_contract(const Heat& heat) {
+  if (heat.set->turns) {
+    return std::ranges::all_of(heat.racers, [](const Racer& r) {
+      const bool claims_it = r.method == ConservativeAdvancement<double>::name || r.method == Speculative<double>::name;
+      return !claims_it || (r.missed == 0 && !(r.latest > 0));
+    });
+  }
   const Racer* exact = closed_form_of(heat);
   return exact == nullptr || (exact->is_sound() && exact->forward <= 4);
 }

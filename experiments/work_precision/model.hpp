@@ -88,6 +88,7 @@ constexpr std::string_view name(QueryClass kind) {
 struct QuerySet {
   std::string_view name;                  ///< as in the settings
   std::string_view title;                 ///< "a ball and a thin wall"
+  bool turns;                             ///< up to a quarter turn a step; there is no closed form then
   std::vector<std::string_view> methods;  ///< that serve the pair
   std::vector<Racer> (*in_float)(QueryClass kind, const RaceOptions& options);
   std::vector<Racer> (*in_double)(QueryClass kind, const RaceOptions& options);
@@ -133,7 +134,7 @@ const Racer* closed_form_of(const Heat& heat);
 std::vector<const Racer*> fine_and_faster(const Heat& heat);
 
 /// The closed form keeps its contract on every query of a heat: no wrong verdict, and no time off by more than 4 u kappa t.
-/// True, too, if it does not take part.
+/// True, too, if it does not take part. Of a set that turns: those that claim never to be late or miss are not and do not.
 bool keeps_contract(const Heat& heat);
 
 /// The result in words.

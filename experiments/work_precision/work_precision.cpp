@@ -17,6 +17,7 @@
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/work_precision/model.hpp>
 #include <thinwall/swept/methods.hpp>
+#include <thinwall/swept/turning/turning_methods.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -33,6 +34,17 @@ struct Row {
   std::optional<Estimate> slowdown{};  ///< against the closed form, if that takes part
 };
 const Racer& racer_of(const Row& row) { return *row.racer; }
+
+/// Of what moves straight, in the order of that list, then those for what turns alone.
+std::vector<std::string_view> all_methods() {
+  std::vector<std::string_view> names;
+  const auto add = [&]<class Method>(TypeTag<Method>) {
+    if (std::ranges::find(names, Method::name) == names.end()) names.push_back(Method::name);
+  };
+  for_each_type(Methods<double>{}, add);
+  for_each_type(TurningMethods<double>{}, add);
+  return names;
+}
 
 /// Every racer of every heat.
 std::vector<Row> all_rows(const std::vector<Heat>& heats) {
@@ -189,46 +201,62 @@ Series front_line(const Heat& heat) {
   return line;
 }
 
-/// One panel for each set of a class and scalar.
-std::vector<Panel> panels_of(const std::vector<Heat>& heats, QueryClass kind, std::string_view scalar, bool by_time) {
+/// What a picture is of.
+struct Shown {
+  QueryClass kind;
+  std::string_view scalar;
+  bool turns = false;
+  bool by_time = true;  ///< else by evaluations
+};
+
+/// One panel for each set.
+std::vector<Panel> panels_of(const std::vector<Heat>& heats, const Shown& what) {
+  const bool by_time = what.by_time;
   std::vector<Panel> panels;
   for (const Heat& heat : heats) {
-    if (heat.kind != kind || heat.scalar != scalar) continue;
+    if (heat.kind != what.kind || heat.scalar != what.scalar || heat.set->turns != what.turns) continue;
     Panel panel;
     panel.x_label = "error of the time of impact [step]: median, with a bar to the 99th percentile";
     panel.y_label = fmt::format("{}, {}", heat.set->name, by_time ? "ns a query" : "evaluations");
     panel.log_x = panel.log_y = true;
     panel.height = 0.9;
     if (by_time) panel.series.push_back(front_line(heat));
-    for_each_type(Methods<double>{},
-                  [&]<class Method>(TypeTag<Method>) { add_method(heat, Method::name, by_time, panel.series); });
+    for (const std::string_view method : all_methods()) add_method(heat, method, by_time, panel.series);
     const auto has_points = [](const Series& s) { return s.mark == Mark::points; };
     if (std::any_of(panel.series.begin(), panel.series.end(), has_points)) panels.push_back(std::move(panel));
   }
   return panels;
 }
 
-Figure figure(const std::vector<Heat>& heats, QueryClass kind, std::string_view scalar, bool by_time) {
-  const char* what = kind == QueryClass::hit ? "hits" : "grazes";
+Figure figure(const std::vector<Heat>& heats, const Shown& shown) {
+  const std::string what =
+      std::string(shown.turns ? "turning " : "") + (shown.kind == QueryClass::hit ? "hits" : "grazes");
   Figure figure;
-  figure.name = fmt::format("{}_{}_{}", what, scalar, by_time ? "time" : "evaluations");
-  figure.title = fmt::format("Error against {}: {} in {}", by_time ? "run time" : "evaluations", what, scalar);
+  figure.name = fmt::format("{}_{}_{}", what, shown.scalar, shown.by_time ? "time" : "evaluations");
+  std::ranges::replace(figure.name, ' ', '_');
+  figure.title =
+      fmt::format("Error against {}: {} in {}", shown.by_time ? "run time" : "evaluations", what, shown.scalar);
   figure.caption = fmt::format(
       "Each method along its option, from rough (right) to fine (left). {}A method that misses half of the contacts has no point; "
       "a bar that ends at 1 stands for one that misses more than 1 %. Errors below 1e-18 are drawn there.",
-      by_time
+      shown.by_time
           ? "Vertical bars, mostly hidden by their points: 95 % bootstrap intervals of the median time over interleaved "
             "rounds. The front joins the 99th percentile errors of those that nobody beats in both. "
           : "Evaluations are separations, overlap tests, rays or closed forms: a cost that no machine changes. ");
-  figure.panels = panels_of(heats, kind, scalar, by_time);
-  figure.is_timing = by_time;
+  figure.panels = panels_of(heats, shown);
+  figure.is_timing = shown.by_time;
   return figure;
 }
 
 std::vector<Figure> figures_of(const std::vector<Heat>& heats) {
-  std::vector<Figure> figures = {
-      figure(heats, QueryClass::hit, "double", true), figure(heats, QueryClass::graze, "double", true),
-      figure(heats, QueryClass::hit, "float", true), figure(heats, QueryClass::hit, "double", false)};
+  using enum QueryClass;
+  std::vector<Figure> figures;
+  for (const Shown& shown :
+       {Shown{hit, "double"}, Shown{graze, "double"}, Shown{hit, "float"},
+        Shown{.kind = hit, .scalar = "double", .by_time = false}, Shown{.kind = hit, .scalar = "double", .turns = true},
+        Shown{.kind = graze, .scalar = "double", .turns = true}}) {
+    figures.push_back(figure(heats, shown));
+  }
   std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
   return figures;
 }
@@ -262,19 +290,28 @@ std::string front_text(const Heat& heat) {
   return text + ". ";
 }
 
+/// Who does not see every contact, each at its finest.
+std::string missing_text(const Heat& heat) {
+  std::string miss;
+  for (const Racer* r : one_a_method(heat)) {
+    if (finishes(*r)) continue;
+    miss +=
+        fmt::format("{}{} ({} of {})", miss.empty() ? "" : ", ", full_name(*r), r->missed + r->gave_up, r->touching);
+  }
+  return miss.empty() ? miss : "Contacts are missed by " + miss + ". ";
+}
+
 /// By how much the others trail the closed form.
 std::string trailing_text(const Heat& heat) {
   const Racer* exact = closed_form_of(heat);
-  if (exact == nullptr) return "";
+  if (exact == nullptr) return heat.set->turns ? missing_text(heat) : "";
   const double fine = fine_error(heat.scalar);
-  std::string reach, coarse, miss;
+  std::string reach, coarse;
   for (const Racer* r : one_a_method(heat)) {
-    if (r == exact) continue;
+    if (r == exact || !finishes(*r)) continue;
     const Estimate ratio = slowdown(*r, *exact);
     const std::string name = full_name(*r);
-    if (!finishes(*r)) {
-      miss += fmt::format("{}{} ({} of {})", miss.empty() ? "" : ", ", name, r->missed + r->gave_up, r->touching);
-    } else if (r->time.p99 <= fine) {
+    if (r->time.p99 <= fine) {
       reach += fmt::format("{}{} {:.1f} times as long ({})", reach.empty() ? "" : ", ", name, ratio.median,
                            between("{:.1f}", ratio.interval));
     } else {
@@ -286,7 +323,7 @@ std::string trailing_text(const Heat& heat) {
   if (!reach.empty())
     text += fmt::format("For an error of at most {:g}, against the closed form's time, it takes {}. ", fine, reach);
   if (!coarse.empty()) text += "Of those that never get there, " + coarse + ". ";
-  if (!miss.empty()) text += "Contacts are missed by " + miss + ". ";
+  text += missing_text(heat);
   const std::vector<const Racer*> faster = fine_and_faster(heat);
   for (const Racer* r : faster) text += full_name(*r) + " is as fine and faster than the closed form. ";
   if (faster.empty() && heat.racers.size() > 1)
@@ -316,13 +353,24 @@ std::string summary_of(const std::vector<Heat>& heats, const std::vector<Row>& t
 
 /// The closed form's contract, race by race.
 std::string self_test_words(const std::vector<Heat>& heats) {
+  const auto turns = [](const Heat& heat) { return heat.set->turns; };
+  const auto turning = std::ranges::count_if(heats, turns);
+  const auto kept_turning = std::ranges::count_if(heats, [&](const Heat& h) { return turns(h) && keeps_contract(h); });
   std::string broken;
   for (const Heat& heat : heats) {
     if (!keeps_contract(heat))
       broken += fmt::format(" FAILED: {}, {} in {}.", heat.set->name, name(heat.kind), heat.scalar);
   }
-  return fmt::format("The closed form keeps its contract in {} of {} races.{}",
-                     std::ranges::count_if(heats, keeps_contract), heats.size(), broken);
+  std::string text;
+  if (std::cmp_less(turning, heats.size())) {
+    text = fmt::format("The closed form keeps its contract in {} of {} races.",
+                       std::ranges::count_if(heats, keeps_contract) - kept_turning, std::ssize(heats) - turning);
+  }
+  if (turning > 0) {
+    text += fmt::format("{}Of what turns, those that claim it are never late and never miss in {} of {}.",
+                        text.empty() ? "" : " ", kept_turning, turning);
+  }
+  return text + broken;
 }
 
 Outcome outcome_of(const std::vector<Heat>& heats) {
@@ -364,10 +412,9 @@ void check_served(const Settings& settings, const QuerySet& set, const Choice& s
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  std::vector<std::string_view> set_names, method_names;
+  std::vector<std::string_view> set_names;
   for (const QuerySet& set : query_sets()) set_names.push_back(set.name);
-  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) { method_names.push_back(Method::name); });
-  const Choice sets = choice_of(settings, "set", set_names), methods = choice_of(settings, "method", method_names);
+  const Choice sets = choice_of(settings, "set", set_names), methods = choice_of(settings, "method", all_methods());
   static constexpr std::array<std::string_view, 2> all_scalars = {"float", "double"};
   const std::vector<std::string> scalars = settings.choices("scalar", all_scalars);
 
@@ -417,6 +464,45 @@ std::string heat_text(const Heat& heat) {
   return fmt::format("Of {}, hits in {}: ", heat.set->title, heat.scalar) + front_text(heat) + trailing_text(heat);
 }
 
+namespace {
+
+/// Of what turns: what the front door of it reaches, at which price, and what leaving the spin out costs.
+std::string turning_answer(const std::vector<Heat>& heats) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::int64_t races = 0, sound = 0, missed = 0, touching = 0;
+  double error = 0, least = infinity, most = 0;
+  for (const Heat& heat : heats) {
+    if (heat.kind != QueryClass::hit || !heat.set->turns || heat.scalar != "double") continue;
+    for (const Racer* r : one_a_method(heat)) {
+      if (r->method == LinearSweep<double>::name) {
+        missed += r->missed;
+        touching += r->touching;
+      }
+      if (r->method != ConservativeAdvancement<double>::name) continue;
+      ++races;
+      if (!finishes(*r)) continue;
+      ++sound;
+      error = std::max(error, r->time.p99);
+      least = std::min(least, nanoseconds(*r).median);
+      most = std::max(most, nanoseconds(*r).median);
+    }
+  }
+  std::string text;
+  if (sound > 0) {
+    text += fmt::format(
+        " Of shapes that turn, conservative advancement misses nothing in {} of {} races: it comes to {:.0e} of a step in "
+        "{:.2g} to {:.2g} us a query.",
+        sound, races, error, least / 1000, most / 1000);
+  }
+  if (touching > 0) {
+    text += fmt::format(" A sweep that leaves the turn out misses {:.1f} % of the contacts.",
+                        100 * static_cast<double>(missed) / static_cast<double>(touching));
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string work_precision_answer(const std::vector<Heat>& heats) {
   std::int64_t races = 0, races_won = 0;
   std::string faster;
@@ -435,6 +521,8 @@ std::string work_precision_answer(const std::vector<Heat>& heats) {
       most = std::max(most, slowdown(*r, *exact).median);
     }
   }
+  const std::string turning = turning_answer(heats);
+  if (races == 0 && !turning.empty()) return turning.substr(1);
   if (races == 0) return "The closed form, which the others are held against, did not take part: see the tables.";
   std::string text = fmt::format(
       "In {} of {} races on hits no method is as fine as 1e-12 of a step (1e-6 in float) and faster than the closed form.{}",
@@ -443,7 +531,7 @@ std::string work_precision_answer(const std::vector<Heat>& heats) {
     text += fmt::format(" The other methods that get there take {:.1f} to {:.0f} times its time at equal error.", least,
                         most);
   }
-  return text;
+  return text + turning;
 }
 
 Experiment work_precision_experiment() {

@@ -8,6 +8,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/work_precision/model.hpp>
 #include <thinwall/swept/methods.hpp>
+#include <thinwall/swept/turning/turning_methods.hpp>
 
 #include "support/experiment_run.hpp"
 
@@ -30,6 +31,15 @@ std::unique_ptr<Run> race_run(std::string_view text) {
 std::vector<std::string> run_races(std::string_view text) { return results_of(race_run(text)->units()); }
 
 Outcome race_outcome(std::string_view text) { return outcome_of(*race_run(text)); }
+
+constexpr std::string_view few_turning_races = R"(
+  set = ["turning_rod_wall", "turning_box_box"]
+  scalar = ["double"]
+  queries = 40
+  rounds = 2
+  substeps = [8]
+  tolerance = [1e-6]
+)";
 
 /// A racer as none is, for the tests of how they are compared.
 Racer made_up(std::string method, double p99, std::vector<double> nanoseconds) {
@@ -148,6 +158,41 @@ TEST(WorkPrecision, errors_are_the_same_in_every_run) {
 
 Heat heat_of(std::vector<Racer> racers) { return {query_sets().data(), QueryClass::hit, "double", std::move(racers)}; }
 
+/// As methods claim, by a truth that is none of theirs: what leaves the turn out misses, and hits what is not there.
+TEST(WorkPrecision, what_turns_is_raced_against_its_own_truth) {
+  const std::vector<std::string> lines = run_races(few_turning_races);
+  ASSERT_EQ(lines.size(), 6u);
+  std::int64_t swept_past = 0, swept_into = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::map<std::string, Racer> racers;
+    for (const Racer& r : from_text<std::vector<Racer>>(lines[i])) racers[r.method] = r;
+    for_each_type(TurningMethods<double>{}, [&]<class Method>(TypeTag<Method>) {
+      EXPECT_TRUE(racers.contains(std::string(Method::name))) << Method::name;
+    });
+    const Racer& advancement = racers["conservative_advancement"];
+    if (i % 3 == 0) {
+      EXPECT_EQ(advancement.touching, 40) << "hits";
+    } else if (i % 3 == 1) {
+      EXPECT_EQ(advancement.touching, 0) << "misses";
+    } else {
+      EXPECT_TRUE(advancement.touching > 5 && advancement.touching < 35) << advancement.touching << " of 40 grazes";
+    }
+    EXPECT_EQ(advancement.missed, 0);
+    EXPECT_EQ(racers["speculative"].missed, 0);
+    if (i % 3 == 0) {
+      EXPECT_LE(advancement.latest, 0);
+      EXPECT_LE(advancement.time.median, 1e-5);
+      EXPECT_LE(racers["speculative"].latest, 0);
+      EXPECT_LE(racers["substeps"].latest, 1.0 / 8 + rounding);
+      EXPECT_GE(racers["substeps"].earliest, -rounding) << "a pose that touches is no earlier than first contact";
+    }
+    swept_past += racers["linear_sweep"].missed;
+    swept_into += racers["linear_sweep"].false_hits;
+  }
+  EXPECT_GT(swept_past, 0);
+  EXPECT_GT(swept_into, 0);
+}
+
 std::vector<std::string> names(const std::vector<const Racer*>& racers) {
   std::vector<std::string> all;
   for (const Racer* r : racers) all.push_back(r->method);
@@ -223,6 +268,26 @@ TEST(WorkPrecisionHeat, a_closed_form_that_errs_fails_the_self_test) {
   EXPECT_FALSE(keeps_contract(heat_of({exact})));
 }
 
+/// Where nothing has a closed form, the answer and the self-test are of what is never late.
+TEST(WorkPrecisionHeat, of_what_turns_who_claims_to_be_never_late_is_held_to_it) {
+  const auto turning = std::ranges::find_if(query_sets(), &QuerySet::turns);
+  ASSERT_NE(turning, query_sets().end());
+  Racer exact = made_up("conservative_advancement", 1e-9, {1500}), sweep = made_up("linear_sweep", 1e-2, {100});
+  exact.latest = -1e-12;
+  sweep.missed = 7;
+  Heat heat{&*turning, QueryClass::hit, "double", {exact, sweep}};
+  EXPECT_TRUE(keeps_contract(heat)) << "a linear sweep claims nothing";
+  EXPECT_EQ(
+      work_precision_answer({heat}),
+      "Of shapes that turn, conservative advancement misses nothing in 1 of 1 races: it comes to 1e-09 of a step in "
+      "1.5 to 1.5 us a query. A sweep that leaves the turn out misses 7.0 % of the contacts.");
+  heat.racers[0].latest = 1e-15;
+  EXPECT_FALSE(keeps_contract(heat)) << "late";
+  heat.racers[0].latest = -1e-12;
+  heat.racers[0].missed = 1;
+  EXPECT_FALSE(keeps_contract(heat)) << "missed";
+}
+
 TEST(WorkPrecisionResult, keeps_times_out_of_what_is_hashed) {
   const Outcome outcome = race_outcome(few_races);
   EXPECT_TRUE(outcome.self_test_passed);
@@ -266,6 +331,7 @@ TEST(WorkPrecisionResult, leaves_out_pictures_of_nothing) {  // gnuplot minds
 TEST(WorkPrecisionConfig, leaves_out_what_is_not_served_where_all_are_asked_for) {
   const auto run = race_run("set = [\"all\"]\nmethod = [\"swept_volume_ray\"]\nscalar = [\"double\"]");
   EXPECT_EQ(run->units().size(), 2u * 3) << "the two sets with a ball";
+  EXPECT_EQ(race_run("method = [\"linear_sweep\"]\nscalar = [\"double\"]")->units().size(), 3u * 3) << "what turns";
 }
 
 }  // namespace
