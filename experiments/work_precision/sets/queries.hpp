@@ -167,12 +167,21 @@ template <class Set, class S> auto timed_query(const RandomStream& stream, std::
   }
 }
 
-/// A ball of 1 to 10 cm and a wall of 2 m by 2 m, 0.1 mm to 10 cm thick.
-struct SphereWall {
-  using A = Sphere<double>;
-  using B = Aabb<double>;
-  static constexpr std::string_view name = "sphere_wall", title = "a small ball and a thin wall";
+/// What a set is of.
+template <class ShapeA, class ShapeB> struct Straight {
+  using A = ShapeA;
+  using B = ShapeB;
   static constexpr bool turns = false;
+};
+constexpr double quarter_turn = std::numbers::pi / 2;  // [rad]
+struct QuarterTurns {
+  static constexpr bool turns = true;
+  static constexpr double most_turn_a = quarter_turn, most_turn_b = quarter_turn;
+};
+
+/// A ball of 1 to 10 cm and a wall of 2 m by 2 m, 0.1 mm to 10 cm thick.
+struct SphereWall : Straight<Sphere<double>, Aabb<double>> {
+  static constexpr std::string_view name = "sphere_wall", title = "a small ball and a thin wall";
   static constexpr double key = 1;  // of its random numbers
 
   static A draw_a(QueryNumbers& u) { return {Vec3<double>::Zero(), u.between(0.01, 0.1)}; }
@@ -180,11 +189,8 @@ struct SphereWall {
 };
 
 /// Two balls of 0.1 to 1 m.
-struct SphereSphere {
-  using A = Sphere<double>;
-  using B = Sphere<double>;
+struct SphereSphere : Straight<Sphere<double>, Sphere<double>> {
   static constexpr std::string_view name = "sphere_sphere", title = "two balls";
-  static constexpr bool turns = false;
   static constexpr double key = 2;  // of its random numbers
 
   static A draw_a(QueryNumbers& u) { return {Vec3<double>::Zero(), u.between(0.1, 1)}; }
@@ -192,11 +198,8 @@ struct SphereSphere {
 };
 
 /// A capsule with a core of 0.2 to 2 m and a radius of 5 to 30 cm, and a box of 0.2 to 2 m a side, both turned any way.
-struct CapsuleBox {
-  using A = Capsule<double>;
-  using B = Obb<double>;
+struct CapsuleBox : Straight<Capsule<double>, Obb<double>> {
   static constexpr std::string_view name = "capsule_box", title = "a capsule and a box";
-  static constexpr bool turns = false;
   static constexpr double key = 3;  // of its random numbers
 
   static A draw_a(QueryNumbers& u) {
@@ -211,11 +214,8 @@ struct CapsuleBox {
 };
 
 /// Two boxes of 0.2 to 2 m a side, turned any way.
-struct BoxBox {
-  using A = Obb<double>;
-  using B = Obb<double>;
+struct BoxBox : Straight<Obb<double>, Obb<double>> {
   static constexpr std::string_view name = "box_box", title = "two boxes";
-  static constexpr bool turns = false;
   static constexpr double key = 4;  // of its random numbers
 
   static A draw_a(QueryNumbers& u) {
@@ -224,8 +224,6 @@ struct BoxBox {
   }
   static B draw_b(QueryNumbers& u) { return draw_a(u); }
 };
-
-constexpr double quarter_turn = std::numbers::pi / 2;  // [rad]
 
 /// A rod with a core of 0.2 to 1 m and a radius of 1 to 5 cm, and a wall that stands: of 2 m by 2 m, 0.1 mm to 10 cm thick.
 struct TurningRodWall {
@@ -245,18 +243,16 @@ struct TurningRodWall {
 };
 
 /// The same capsules and boxes as where nothing turns.
-struct TurningCapsuleBox : CapsuleBox {
+struct TurningCapsuleBox : CapsuleBox, QuarterTurns {
   static constexpr std::string_view name = "turning_capsule_box", title = "a capsule and a box that turn";
-  static constexpr bool turns = true;
-  static constexpr double most_turn_a = quarter_turn, most_turn_b = quarter_turn;
+  using QuarterTurns::turns;
   static constexpr double key = 6;  // of its random numbers
 };
 
 /// The same boxes as where nothing turns.
-struct TurningBoxBox : BoxBox {
+struct TurningBoxBox : BoxBox, QuarterTurns {
   static constexpr std::string_view name = "turning_box_box", title = "two boxes that turn";
-  static constexpr bool turns = true;
-  static constexpr double most_turn_a = quarter_turn, most_turn_b = quarter_turn;
+  using QuarterTurns::turns;
   static constexpr double key = 7;  // of its random numbers
 };
 
