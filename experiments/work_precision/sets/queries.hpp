@@ -64,12 +64,12 @@ template <class Set> struct Pass {
     const auto moving_a =
         on_stretch<Set::turns>(a, spin_a, before * reach, length * reach, start, along * (length * reach));
     const auto moving_b = on_stretch<Set::turns>(b, spin_b, before * reach, length * reach, none, none);
-    const Toi<double> toi = [&] {
-      if constexpr (Set::turns)
-        return time_of_impact(ConservativeAdvancement<double>{1e-10}, moving_a, moving_b);
-      else
-        return time_of_impact(moving_a, moving_b);
-    }();
+    Toi<double> toi;
+    if constexpr (Set::turns) {
+      toi = time_of_impact(ConservativeAdvancement<double>{1e-10}, moving_a, moving_b);
+    } else {
+      toi = time_of_impact(moving_a, moving_b);
+    }
     if (toi.status == ToiStatus::apart) return {};
     return (length * toi.time + before) * reach;
   }
