@@ -111,7 +111,7 @@ template <class A, class B, class Ask> Tally judge_motions(std::size_t count, co
   return tally;
 }
 
-const std::size_t motions = thorough(slow_build ? 250 : 2'500);  ///< a pair: of all eight 20 000, in ten seconds of one core
+const std::size_t motions = thorough(slow_build ? 250 : 2'500);  ///< a pair, of eight: ten seconds of one core
 
 template <class A, class B> Tally judge_pair() {
   return judge_motions<A, B>(motions, [](const Turning<A>& a, const Turning<B>& b, Tally& tally) {
