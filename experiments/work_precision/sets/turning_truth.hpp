@@ -56,8 +56,8 @@ class TurningTruth {
       }
     }
 
-    Vec<R> turned(const Vec<R>& v, R time) const {
-      const R c = std::cos(angle * time), s = std::sin(angle * time);
+    Vec<R> turned(const Vec<R>& v, R at) const {
+      const R c = std::cos(angle * at), s = std::sin(angle * at);
       return combination(R(1), combination(c, v, s, cross(axis, v)), (1 - c) * dot(axis, v), axis);
     }
   };
