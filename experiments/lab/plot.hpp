@@ -7,7 +7,7 @@
 ///       plot(cells).x("step_ratio", Axis::log).y("residual").by("method")}};
 ///
 /// A series for each value of the `by` column, in the order of the rows; bars where the y column has an interval; rows without x or y
-/// are left out. A method looks the same in every figure: figures/plot_style.hpp.
+/// are left out. A method looks the same in every figure: lab/method_looks.hpp.
 
 #include <functional>
 #include <string>

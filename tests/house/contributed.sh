@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# contributed.sh PROGRAM FOLDER: does what CONTRIBUTING.md promises of an experiment follow from its text?
+# contributed.sh PROGRAM FOLDER BLOCKS SOURCE: does what CONTRIBUTING.md promises of an experiment follow from its text? BLOCKS holds the
+# files of its example.
 set -euo pipefail
-program=$1 folder=$2
+program=$1 folder=$2 blocks=$3 source=$4
 fail() {
   echo "contributed: $*" >&2
   exit 1
@@ -9,6 +10,12 @@ fail() {
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
+
+if command -v clang-format-16 >/dev/null; then
+  clang-format-16 --dry-run --Werror --style="file:$source/.clang-format" "$blocks/experiments/chord/chord.cpp" || fail "the example is not formatted"
+fi
+"$program" run "$blocks/tests/results/small/chord.toml" --out small >small.log
+"$program" report small --check >check.log 2>&1 || fail "$(cat check.log)"
 
 "$program" run chord --out whole >whole.log
 grep -q '^chords,longer\|,chords,longer,share,lower,upper,theory$' whole/data/cells.csv || fail "its columns are $(head -n 1 whole/data/cells.csv)"
