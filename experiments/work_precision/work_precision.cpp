@@ -351,24 +351,25 @@ std::string summary_of(const std::vector<Heat>& heats, const std::vector<Row>& t
              "finest; missing: infinite. False share: of misses, asked apart, that it calls a hit.");
 }
 
-/// The closed form's contract, race by race.
+/// What is kept of the contracts, of straight motion and of what turns, and which races break one.
 std::string self_test_words(const std::vector<Heat>& heats) {
-  const auto turns = [](const Heat& heat) { return heat.set->turns; };
-  const auto turning = std::ranges::count_if(heats, turns);
-  const auto kept_turning = std::ranges::count_if(heats, [&](const Heat& h) { return turns(h) && keeps_contract(h); });
-  std::string broken;
-  for (const Heat& heat : heats) {
-    if (!keeps_contract(heat))
-      broken += fmt::format(" FAILED: {}, {} in {}.", heat.set->name, name(heat.kind), heat.scalar);
-  }
-  std::string text;
-  if (std::cmp_less(turning, heats.size())) {
-    text = fmt::format("The closed form keeps its contract in {} of {} races.",
-                       std::ranges::count_if(heats, keeps_contract) - kept_turning, std::ssize(heats) - turning);
-  }
-  if (turning > 0) {
-    text += fmt::format("{}Of what turns, those that claim it are never late and never miss in {} of {}.",
-                        text.empty() ? "" : " ", kept_turning, turning);
+  std::string text, broken;
+  for (const bool turns : {false, true}) {
+    std::int64_t races = 0, kept = 0;
+    for (const Heat& heat : heats) {
+      if (heat.set->turns != turns) continue;
+      ++races;
+      if (keeps_contract(heat)) {
+        ++kept;
+      } else {
+        broken += fmt::format(" FAILED: {}, {} in {}.", heat.set->name, name(heat.kind), heat.scalar);
+      }
+    }
+    if (races == 0) continue;
+    text += fmt::format("{}{} in {} of {}{}.", text.empty() ? "" : " ",
+                        turns ? "Of what turns, those that claim it are never late and never miss"
+                              : "The closed form keeps its contract",
+                        kept, races, turns ? "" : " races");
   }
   return text + broken;
 }

@@ -128,20 +128,24 @@ template <class Set> auto draw_of_class(QueryNumbers& u, QueryClass kind, double
   }
 }
 
+/// Nothing touches at the start, what hits does so later, and what misses never; a graze may do either.
+inline bool is_of_class(oracle::Verdict verdict, QueryClass kind) {
+  if (verdict == oracle::Verdict::overlapping) return false;
+  return kind == QueryClass::graze || (verdict == oracle::Verdict::hit) == (kind == QueryClass::hit);
+}
+
 /// The truth, from the shapes' own numbers. Nothing if they overlap at the start, or are not of the class.
 template <class A, class B>
 std::optional<TimedQuery<Moving<A>, Moving<B>>> with_truth(const Moving<A>& a, const Moving<B>& b, QueryClass kind) {
   const Digits50 tolerance = ldexp(Digits50(1), -140);
   const auto problem = oracle::pose<Digits50>(a, b);
   const auto truth = oracle::first_contact(problem, Digits50(0), tolerance);
-  const bool touches = truth.verdict == oracle::Verdict::hit;
-  if (truth.verdict == oracle::Verdict::overlapping) return {};
-  if (kind != QueryClass::graze && touches != (kind == QueryClass::hit)) return {};
+  if (!is_of_class(truth.verdict, kind)) return {};
   using S = typename A::Scalar;
   const Vec3<S> path = a.displacement - b.displacement;
   return TimedQuery<Moving<A>, Moving<B>>{a,
                                           b,
-                                          touches,
+                                          truth.verdict == oracle::Verdict::hit,
                                           static_cast<long double>(truth.time),
                                           static_cast<double>(truth.conditioning),
                                           static_cast<double>(safe_norm(path))};
@@ -150,12 +154,13 @@ template <class A, class B>
 std::optional<TimedQuery<Turning<A>, Turning<B>>> with_truth(const Turning<A>& a, const Turning<B>& b,
                                                              QueryClass kind) {
   const oracle::TurningTruth truth(a, b);
-  const oracle::Verdict verdict = truth.verdict;
-  const bool touches = verdict == oracle::Verdict::hit;
-  if (verdict == oracle::Verdict::overlapping) return {};
-  if (kind != QueryClass::graze && touches != (kind == QueryClass::hit)) return {};
-  return TimedQuery<Turning<A>, Turning<B>>{
-      a, b, touches, truth.time, std::numeric_limits<double>::infinity(), static_cast<double>(truth.speed)};
+  if (!is_of_class(truth.verdict, kind)) return {};
+  return TimedQuery<Turning<A>, Turning<B>>{a,
+                                            b,
+                                            truth.verdict == oracle::Verdict::hit,
+                                            truth.time,
+                                            std::numeric_limits<double>::infinity(),
+                                            static_cast<double>(truth.speed)};
 }
 
 /// Query `i` of the stream, in S.
