@@ -41,6 +41,13 @@ template <class A, class B> double rounding(const Turning<A>& a, const Turning<B
   return 0x1p-43 * turns * (1 + magnitude(a) + magnitude(b));
 }
 
+/// [length] what a method may call near: its tolerance, or what rounding hides, without a radius half the digits of all sizes.
+template <class A, class B> double nearness(const Turning<A>& a, const Turning<B>& b, double tolerance) {
+  const bool has_radius = skin_radius(a.shape) + skin_radius(b.shape) > 0;
+  const double hidden = has_radius ? 0 : half_digits<double>() * (magnitude(a) + magnitude(b));
+  return std::max({tolerance * (fastest(a) + fastest(b)), rounding(a, b), hidden});
+}
+
 template <class A> std::string shown(const Turning<A>& m) {
   const oracle::Spinner<double> body(m);
   std::ostringstream out;
@@ -62,7 +69,6 @@ template <class A> std::string shown(const Turning<A>& m) {
 template <class A, class B>
 std::string wrong_with(const Turning<A>& a, const Turning<B>& b, const Toi<double>& toi, double tolerance) {
   TurningOracle<A, B> oracle(a, b);
-  const double allowed = std::max(tolerance * (fastest(a) + fastest(b)), rounding(a, b));
   if (toi.status == ToiStatus::invalid) return "invalid";
   if (!(toi.time >= 0 && toi.time <= 1)) return "a time out of range";
   if (toi.status == ToiStatus::overlapping) {
@@ -70,7 +76,8 @@ std::string wrong_with(const Turning<A>& a, const Turning<B>& b, const Toi<doubl
     return oracle.within(0, rounding(a, b)) ? "" : "overlapping what is apart";
   }
   if (toi.status == ToiStatus::apart && toi.time != 1) return "apart before the end";
-  if (toi.status == ToiStatus::hit && !oracle.within(toi.time, allowed)) return "a hit of what is not near";
+  if (toi.status == ToiStatus::hit && !oracle.within(toi.time, nearness(a, b, tolerance)))
+    return "a hit of what is not near";
   if (toi.time == 0) return "";
   const auto proven = static_cast<double>(oracle.free_until(toi.time));
   if (proven >= toi.time) return "";
