@@ -239,10 +239,15 @@ THINWALL_HOT ClearContact clear_contact(const Capsule<double>& first, const Caps
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Capsule<double>& capsule) {
-  const packed::Lanes a = packed::lanes(capsule.a), core = packed::lanes(capsule.b) - a;
-  const packed::Lanes p = packed::lanes(ray.origin) - a, v = packed::lanes(ray.direction);
-  const ClearSegmentEntry entry = clear_segment_entry(p, v, core, packed::both(capsule.radius));
-  return clear_ray_hit(entry.entry, p, v, ray.max_t, a + core * all(entry.on), capsule.radius);
+  using packed::Lanes, packed::all, packed::lanes, packed::twice;
+  const ClearSegmentEntry entry =
+      clear_segment_entry(twice(ray.origin) - packed::side_by_side(capsule.a, capsule.b), twice(ray.direction),
+                          twice(capsule.b) - twice(capsule.a), packed::both(capsule.radius));
+  if (entry.passes) return ClearRayHit::miss();
+  const Lanes a = lanes(capsule.a), v = lanes(ray.direction), p = lanes(ray.origin) - a;
+  const Lanes on_core = (lanes(capsule.b) - a) * all(entry.on);
+  const ClearEntry at{entry.clear, entry.time, unit((p - on_core) + v * all(entry.time))};
+  return clear_ray_hit(at, p, v, ray.max_t, a + on_core, capsule.radius);
 }
 
 }  // namespace thinwall

@@ -187,14 +187,19 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const ClearFrame frame(box.axes);
   const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents),
               start = packed::lanes(ray.origin) - center;
-  const Lanes p = frame.into(start), v = frame.into(packed::lanes(ray.direction));
-  const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
-  const packed::LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
-  const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(slabs.first), h), all(0) - h));
-  const Lanes noise = clear_noise(start, h);
-  const bool in_range = all_of(all(1 / packed::most_length) <= noise * all(0x1p48));
-  const bool sure = both(both(frame.clear(), in_range), slabs.clear_of(all(0), noise, ray.max_t));
-  return {both(sure, ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first, center + frame.out_of(on_box),
+  const Lanes p = frame.into(start), v = frame.into(packed::lanes(ray.direction)), noise = clear_noise(start, h);
+  const Lanes P = against(p, v), W = abs(v), near = P - h, far = P + h;
+  const ClearOrder order(near, far, W, noise, ray.max_t);
+  const bool in_range = all_of((all(1 / packed::most_length) <= noise * all(0x1p48)) & (all(0) <= h) &
+                               (abs(p) + W + h <= all(packed::most_length)));
+  const bool sure = both(both(frame.clear(), in_range), ray.max_t >= 0);
+  if (both(order.misses, sure)) return ClearRayHit::miss();
+  const Lanes enter = near / W;
+  const packed::Pair first = largest_of(enter);
+  const packed::LanesMask axis = packed::lowest(bits(all(first) <= enter));
+  const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
+  const bool outside = any_of(noise + noise < abs(p) - h);
+  return {both(sure, both(order.meets, outside)), true, first, center + frame.out_of(on_box),
           frame.out_of(keep(axis, against(all(1), v)))};
 }
 

@@ -34,6 +34,9 @@ struct ClearRayHit {
   packed::Pair t;
   packed::Lanes point, normal;
 
+  /// Clear whatever the ray's validity, as nothing is met either way.
+  THINWALL_HOT static ClearRayHit miss() { return {true, false, packed::both(0), packed::all(0), packed::all(0)}; }
+
   THINWALL_HOT std::optional<RayHit<double>> ray_hit() const {
     std::optional<RayHit<double>> made(std::in_place);
     made->t = value(t);

@@ -111,18 +111,25 @@ struct ClearSlabs {
     clear = both(both(all_of(in_range), any_of(outside)),
                  all_of(apart & ((last < first) | (both(packed::least_time) < first))));
   }
+};
 
-  /// The same where every length is off by up to `noise` > 0, as it is once p and v have been turned.
-  THINWALL_HOT bool clear_of(const packed::Lanes& R, const packed::Lanes& noise, double until) const {
-    using packed::Lanes, packed::Pair, packed::all, packed::both;
-    const Lanes near = low - R, far = high + R, zero = all(0);
-    const Pair first_least = largest_of(max((near - noise) / W, zero)),
-               first_most = largest_of(max((near + noise) / W, zero));
-    const Pair last_least = smallest_of(min((far - noise) / W, all(until))),
-               last_most = smallest_of(min((far + noise) / W, all(until)));
-    const packed::LanesMask outside = R + noise + noise < abs(P) - (high - P);
-    return both(both(clear, any_of(outside)), all_of((first_most < last_least) | (last_most < first_least)));
+/// Whether a path is in a box's slabs at one time, where every length is off by up to `noise` > 0, as it is once p and v have been turned:
+/// at one, at none, or neither is clear. It enters slab i before it leaves slab j if near_i W_j < far_j W_i; nothing is divided.
+struct ClearOrder {
+  bool meets, misses;
+
+  THINWALL_HOT ClearOrder(const packed::Lanes& near, const packed::Lanes& far, const packed::Lanes& speed,
+                          const packed::Lanes& noise, double until) {
+    using packed::Lanes, packed::LanesMask, packed::all;
+    const Lanes W = max(speed, all(least_speed)), end = min(all(until), all(most_time)) * W, next = yzx(W);
+    const Lanes near_least = near - noise, near_most = near + noise, far_least = far - noise, far_most = far + noise;
+    const LanesMask in_order = (near_most * next < yzx(far_least) * W) & (yzx(near_most) * W < far_least * next);
+    const LanesMask apart = (yzx(far_most) * W < near_least * next) | (far_most * next < yzx(near_least) * W);
+    meets = all_of(in_order & (near_most < end) & (all(0) < far_least));
+    misses = any_of(apart | (end < near_least) | (far_most < all(0)));
   }
+  static constexpr double least_speed = 0x1p-1000,
+                          most_time = 0x1p800;  ///< what moves less stays where it is: their product is no length
 };
 
 /// What roundings move a place of a path past a box by, at most: those of turning it into the box's axes, three a component, too.
@@ -142,7 +149,9 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const Lanes X = slabs.P - all(slabs.first) * slabs.W, noise = clear_noise(p, h);
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
   const LanesMask is_round = (noise * all(0x1p20) < all(R)) & (all(1 / packed::most_length) <= all(R));
-  const bool clear = turned ? slabs.clear_of(all(R), noise, ClearEntry::never) : slabs.clear;
+  const LanesMask outside_noise = all(R) + noise + noise < abs(p) - h;
+  const ClearOrder order(slabs.low - all(R), slabs.high + all(R), slabs.W, noise, ClearEntry::never);
+  const bool clear = both(slabs.clear, !turned || (both(any_of(outside_noise), order.meets || order.misses)));
   ClearEntry entry{both(clear, both(all_of(is_round), (axes | bits(misses)) != 0)),
                    select(misses, both(ClearEntry::never), slabs.first), clear_face_normal(axes, v)};
   if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss

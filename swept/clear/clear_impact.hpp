@@ -102,15 +102,18 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Sphere<double>>& sphere,
                                    double gap) {
-  using packed::Lanes, packed::all, packed::both, packed::lanes;
+  using packed::Lanes, packed::all, packed::both, packed::lanes, packed::twice;
   const double r = sphere.shape.radius, s = capsule.shape.radius;
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
   const Lanes p = center - a, v = path - lanes(capsule.displacement), core = lanes(capsule.shape.b) - a;
-  const ClearEntry entry = clear_segment_entry(p, v, core, both(r + s + gap)).entry;
-  const bool in_time =
-      clear_of_end(entry.time, both(0) - dot(entry.normal, v), sum(abs(p) + abs(core)) * both(0x1p-44));
-  return {both(entry.clear, both(clear_sizes(r, s, gap), in_time)), entry.time, entry.normal,
-          (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
+  const ClearSegmentEntry entry =
+      clear_segment_entry(twice(sphere.shape.center) - packed::side_by_side(capsule.shape.a, capsule.shape.b),
+                          twice(sphere.displacement) - twice(capsule.displacement),
+                          twice(capsule.shape.b) - twice(capsule.shape.a), both(r + s + gap));
+  const Lanes time = all(entry.time), normal = unit((p - core * all(entry.on)) + v * time);
+  const bool in_time = clear_of_end(entry.time, both(0) - dot(normal, v), sum(abs(p) + abs(core)) * both(0x1p-44));
+  return {both(entry.clear, both(clear_sizes(r, s, gap), in_time)), entry.time, normal,
+          (center + path * time) - normal * all(r + gap / 2)};
 }
 
 /// Two boxes, `a` by its half extents and its axes, and the answer from a to b.

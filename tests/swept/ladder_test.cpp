@@ -465,28 +465,54 @@ TEST(LadderAtOneInstant, overlaps_agree) {
   EXPECT_GE(clear, cases);
 }
 
+/// 1 if the clear rung answers, which must agree with the careful one.
+template <class Shape> std::size_t ray_agrees_if_clear(const Ray<double>& ray, const Shape& shape) {
+  const ClearRayHit rung = clear_raycast(ray, shape);
+  if (!rung.clear) return 0;
+  const auto clear = rung.ray_hit(), careful = careful_raycast(ray, shape), door = raycast(ray, shape);
+  EXPECT_EQ(clear.has_value(), careful.has_value());
+  EXPECT_EQ(clear.has_value(), door.has_value());
+  if (!clear || !careful || !door) return 1;
+  const double size = magnitude(ray) + magnitude(shape);
+  EXPECT_NEAR(clear->t, careful->t, 4 * u * size / std::abs(careful->normal.dot(ray.direction)));
+  EXPECT_EQ(clear->t, door->t);
+  return 1;
+}
+
 TEST(LadderAtOneInstant, rays_agree) {
   Shaker<double> draw(23);
-  const auto agrees = [](const Ray<double>& ray, const auto& shape) {
-    const ClearRayHit rung = clear_raycast(ray, shape);
-    if (!rung.clear) return 0U;
-    const auto clear = rung.ray_hit(), careful = careful_raycast(ray, shape), door = raycast(ray, shape);
-    EXPECT_EQ(clear.has_value(), careful.has_value());
-    EXPECT_EQ(clear.has_value(), door.has_value());
-    if (!clear || !careful || !door) return 1U;
-    const double size = magnitude(ray) + magnitude(shape);
-    EXPECT_NEAR(clear->t, careful->t, 4 * u * size / std::abs(careful->normal.dot(ray.direction)));
-    EXPECT_EQ(clear->t, door->t);
-    return 1U;
-  };
   std::size_t clear = 0;
   for (std::size_t i = 0; i < cases; ++i) {
     const Ray<double> ray{draw.vector() * 2, draw.vector(), draw.pick(0, 1) == 0 ? infinity : 1.0};
-    clear += agrees(ray, drawn(draw, TypeTag<Ball>{})) + agrees(ray, drawn(draw, TypeTag<Box>{})) +
-             agrees(ray, drawn(draw, TypeTag<Turned>{})) + agrees(ray, drawn(draw, TypeTag<Rod>{})) +
-             agrees(ray, drawn(draw, TypeTag<Flat>{}));
+    clear +=
+        ray_agrees_if_clear(ray, drawn(draw, TypeTag<Ball>{})) + ray_agrees_if_clear(ray, drawn(draw, TypeTag<Box>{})) +
+        ray_agrees_if_clear(ray, drawn(draw, TypeTag<Turned>{})) +
+        ray_agrees_if_clear(ray, drawn(draw, TypeTag<Rod>{})) + ray_agrees_if_clear(ray, drawn(draw, TypeTag<Flat>{}));
   }
   EXPECT_GE(clear, 4 * cases);
+}
+
+// Aimed at a shape or beside it, from near or from where roundings are as large as it is; and nearly along a rod, or a box's axis.
+TEST(LadderAtOneInstant, rays_from_anywhere_agree) {
+  Shaker<double> draw(37);
+  std::size_t clear = 0;
+  const auto ask = [&](const auto& shape, const V& axis) {
+    const V direction =
+        draw.pick(0, 1) == 0 ? draw.vector() : V(axis + draw.vector() * power<double>(-draw.pick(0, 60)));
+    const V target = center(shape) + draw.vector() * (draw.pick(0, 1) == 0 ? 1.0 : 0.1);
+    const V origin = target - direction * power<double>(draw.pick(-4, 60));
+    clear += ray_agrees_if_clear(Ray<double>{origin, direction * power<double>(draw.pick(-40, 40))}, shape);
+  };
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Rod rod = drawn(draw, TypeTag<Rod>{});
+    const Turned turned = drawn(draw, TypeTag<Turned>{});
+    ask(rod, rod.b - rod.a);
+    ask(turned, turned.axes.col(0));
+    ask(Turned{turned.center, turned.half_extents, Mat3<double>::Identity()}, V::UnitX());
+    ask(drawn(draw, TypeTag<Box>{}), V::UnitY());
+    ask(drawn(draw, TypeTag<Ball>{}), V::UnitZ());
+  }
+  EXPECT_GE(clear, cases);
 }
 
 // A size near 1 would be 0 for the gap between these plates, and let them touch.
