@@ -96,7 +96,9 @@ struct Engine {
   double most_path = std::numeric_limits<double>::infinity();  ///< [m] it moves nothing further in a step
   std::string why_most_path = {};                              ///< ... and what in it says so
 
-  std::string remedy = {};  ///< what brings it, an imperative; empty: its Debian package and a build option
+  std::string version = {};    ///< of the package, where the engine knows it
+  std::string integrity = {};  ///< its hash, as the lock file of what is installed has it: "sha512-..."
+  std::string remedy = {};     ///< what brings it, an imperative; empty: its Debian package and a build option
 
   bool is_there() const { return modes != nullptr; }
 };

@@ -11,6 +11,7 @@
 #include <thinwall/experiments/engines/stages.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -148,6 +149,29 @@ Table timings_table(const Rows& rows) {
       value("volleys", "1", "Timed apart, in turn with the other engines.",
             [](const Row& r) { return r.nanoseconds.size(); }));
   return timing(table("timings", "Time a step; making the world is not in it.", columns, rows));
+}
+
+/// One row an engine that took part.
+Table packages_table(const EnginePlan& plan) {
+  std::vector<Engine> engines;
+  for (const EngineSetup& setup : plan.setups) {
+    if (engines.empty() || engines.back().name != setup.engine.name) engines.push_back(setup.engine);
+  }
+  const auto version = [](const Engine& engine) {
+    if (!engine.version.empty()) return engine.version;
+    const BuildRecord build = this_build();
+    if (engine.package.empty()) return build.version;
+    for (const auto& [library, its_version] : build.libraries) {
+      if (library == engine.called) return its_version;
+    }
+    return std::string();
+  };
+  return table("packages", "What each engine came from.",
+               columns_of<Engine>(text("engine", "The physics engine.", &Engine::called),
+                                  text("package", "Of Debian or npm; empty: this program.", &Engine::package),
+                                  text("version", "Of the package.", version),
+                                  text("integrity", "The npm package's hash.", &Engine::integrity)),
+               engines);
 }
 
 // What the pictures show.
@@ -449,8 +473,8 @@ Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<S
   const std::vector<SelfTest> tests = tests_of(rows, stages);
   return {.answer = answer_of(rows),
           .summary = summary_of(plan, rows, stages),
-          .tables = {told_table(rows), stages_table(stages), cells_table(rows), timings_table(rows),
-                     stage_timings_table(stages)},
+          .tables = {told_table(rows), stages_table(stages), cells_table(rows), packages_table(plan),
+                     timings_table(rows), stage_timings_table(stages)},
           .figures = figures_of(rows),
           .sections = {{"The engines", engines_text(plan)},
                        {"The stages", stages_text(plan, stages)},

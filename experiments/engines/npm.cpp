@@ -100,18 +100,31 @@ const std::vector<NpmEngine>& list() {
   return all;
 }
 
-/// The version that package.json asks for, and whether npm has brought it.
 json read_json(const fs::path& file) {
   std::ifstream in(file);
   return json::parse(in, nullptr, false);
 }
 
+/// Of an object's object's ... string; empty if there is none.
+std::string text_in(const json& object, std::initializer_list<std::string> path) {
+  const json* at = &object;
+  for (const std::string& key : path) {
+    if (!at->is_object() || !at->contains(key)) return {};
+    at = &at->at(key);
+  }
+  return at->is_string() ? at->get<std::string>() : "";
+}
+
+/// The version that package.json asks for, if npm has brought it.
 std::string installed_version(const fs::path& scripts, const std::string& package) {
-  const json asked = read_json(scripts / "package.json"),
-             there = read_json(scripts / "node_modules" / package / "package.json");
-  if (!asked.is_object() || !there.is_object()) return {};
-  const std::string version = there.value("version", "");
-  return asked.value("dependencies", json::object()).value(package, "") == version ? version : "";
+  const std::string version = text_in(read_json(scripts / "node_modules" / package / "package.json"), {"version"});
+  return text_in(read_json(scripts / "package.json"), {"dependencies", package}) == version ? version : "";
+}
+
+/// What npm noted, when it brought the package, of what it had checked it against.
+std::string integrity(const fs::path& scripts, const std::string& package) {
+  return text_in(read_json(scripts / "node_modules" / ".package-lock.json"),
+                 {"packages", "node_modules/" + package, "integrity"});
 }
 
 /// What serve.mjs calls a shape, and where a fixed one stays.
@@ -259,6 +272,8 @@ std::vector<Engine> npm_engines(const fs::path& scripts) {
                      .called = one.called,
                      .package = one.package,
                      .made_of = fmt::format("{} Version {} of {}.", one.made_of, version, one.package),
+                     .version = version,
+                     .integrity = integrity(scripts, one.package),
                      .remedy = "run `npm ci` in experiments/engines/npm, configure with -DTHINWALL_PEERS=ON"};
     if (!version.empty()) engine.modes = [&one, scripts](const EngineChoices&) { return modes_of(one, scripts); };
     engines.push_back(std::move(engine));

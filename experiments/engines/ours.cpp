@@ -21,7 +21,7 @@ class OwnWorld final : public EngineWorld {
   BodyState ball() const override { return body(1); }
   BodyState body(std::uint32_t id) const {
     const Body& body = *world_.find(id);
-    return {position(body), body.velocity};
+    return {position(body), body.velocity, body.angular_velocity};
   }
 
  private:
@@ -37,10 +37,12 @@ class OwnWorld final : public EngineWorld {
               throw std::invalid_argument("a world has no meshes");
             } else {
               body.shape = moved(s, state.position);
+              body.turns = std::is_same_v<Shape, Capsule<double>> && !is_static;  // a ball keeps its spin
             }
           },
           shape);
       body.velocity = state.velocity;
+      if (body.turns) body.angular_velocity = state.spin;
       body.restitution = 1;
       body.is_static = is_static;
     };
@@ -87,7 +89,8 @@ EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
                 return std::make_unique<OwnWorld>(stage_of(scene), std::span(&ball, 1), options);
               },
           .play = [options](const EngineStage& stage, std::span<const std::vector<BodyState>> starts,
-                            std::int64_t steps) { return play_own(options, stage, starts, steps); }};
+                            std::int64_t steps) { return play_own(options, stage, starts, steps); },
+          .turns = true};
 }
 
 std::vector<EngineMode> own_modes(const EngineChoices& choices) {

@@ -279,7 +279,8 @@ std::vector<CellCount> own_counts(const std::vector<StageRow>& rows) {
     if (!row.setup->is_ours()) continue;
     const StageTally& t = row.tally;
     const std::string label = row.setup->label() + " on stages";
-    if (row.theory) counts.push_back({label, "double", t.shots, t.passed + t.lost, *row.theory});
+    if (row.theory && !row.kind->spins)  // of what spins it is the least
+      counts.push_back({label, "double", t.shots, t.passed + t.lost, *row.theory});
     if (row.setup->mode.exact) counts.push_back({label, "double", t.shots, t.passed + t.lost + t.disturbed, 0});
   }
   return counts;

@@ -101,7 +101,7 @@ TEST(EngineStages, along_a_wall_count_what_is_lost_along_it) {
 TEST(EngineStages, are_played_without_fault_by_ours_where_it_sweeps_and_to_theory_where_it_looks_at_poses) {
   const EnginePlan plan = stage_plan("engine = ['thinwall']", 500);
   std::vector<StageRow> rows = played(plan);
-  EXPECT_EQ(rows.size(), 4U * 6) << "four modes; no mesh, and nothing that turns";
+  EXPECT_EQ(rows.size(), 4U * 7) << "four modes; no mesh";
   EXPECT_TRUE(all_passed(self_test(own_counts(rows))));
   std::int64_t passed = 0;
   for (const StageRow& row : rows) {

@@ -323,8 +323,12 @@ TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
   EXPECT_FALSE(jolt_is_there());
   write("node_modules/jolt-physics/package.json", R"({"version": "2.0.0"})");
   EXPECT_TRUE(jolt_is_there());
+  EXPECT_EQ(engine_called(npm_engines(scripts.path()), "jolt").integrity, "");
+  write("node_modules/.package-lock.json", R"({"packages": {"node_modules/jolt-physics": {"integrity": "sha512-x"}}})");
   const std::vector<Engine> engines = npm_engines(scripts.path());
   const Engine& jolt = engine_called(engines, "jolt");
+  EXPECT_EQ(jolt.version, "2.0.0");
+  EXPECT_EQ(jolt.integrity, "sha512-x");
   const EngineTally tally = fire(meter_cell, jolt.modes({}).front(), 0, 5, 1);  // there is no script
   EXPECT_EQ(tally.unanswered, 5);
   EXPECT_EQ(tally.shots, 0);
