@@ -58,7 +58,8 @@ template <Scalar S> S middle_closest_parameter_to_box(const Vec3<S>& p, const Ve
 /// Half the derivative of the squared distance from p + s * d to the box [-h, h], and by how much it grows with s.
 template <Scalar S> struct BoxSlope {
   S slope = 0, growth = 0;
-  int sides = 0;  ///< which of the box's sides the point is beyond, three values an axis
+  int sides = 0;                                 ///< which of the box's sides the point is beyond, three values an axis
+  S least = std::numeric_limits<S>::infinity();  ///< [length] by which it is, at least
 
   BoxSlope(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h, const S& s) {
     for (int i = 0; i < 3; ++i) {
@@ -66,6 +67,7 @@ template <Scalar S> struct BoxSlope {
       const int side = static_cast<int>(x > h[i]) - static_cast<int>(x < -h[i]);
       slope += (x - std::min(h[i], std::max(S(-h[i]), x))) * d[i];
       growth += d[i] * d[i] * S(side * side);
+      if (side != 0) least = std::min(least, S(largest(x) - h[i]));
       sides = 3 * sides + side;
     }
   }
@@ -82,6 +84,9 @@ template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& 
     return closest_parameter_to_box(times_power_of_two(p, -e), times_power_of_two(d, -e), times_power_of_two(h, -e));
   }
   const BoxSlope<S> start(p, d, h, S(0)), end(p, d, h, S(1));
+  const S noise =
+      gap_noise(size);  // a place so near a side has a slope of rounding, not of a face that d hardly leans from
+  if (start.least <= noise || end.least <= noise) return middle_closest_parameter_to_box(p, d, h);
   if (start.slope > S(0)) return S(0);
   if (end.slope < S(0)) return S(1);
   if (start.slope < S(0) && end.slope > S(0)) {
@@ -92,6 +97,7 @@ template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& 
       const S next = s - here.slope / here.growth;
       if (!(next > low && next < high)) break;
       const BoxSlope<S> there(p, d, h, next);
+      if (there.least <= noise) break;
       if (there.sides == here.sides) return next;
       s = next;
       here = there;
@@ -176,6 +182,7 @@ template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec
   const S s = closest_parameter_to_box(x, d, h);
   const Vec3<S> nearest = x + d * s;
   const int end = segment_part(s);
+  const S size = largest(x, d, h);
   CorePart<S> part;
   part.gap = excess_of(nearest, h);
   part.id = end;
@@ -191,7 +198,21 @@ template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec
     fixed_axis = i;
     ++outside;
   }
-  if (outside > 0 && largest(part.gap) <= gap_noise(largest(x, d, h))) {  // where it enters the box, to rounding?
+  // Above the inside of a face no one place of a segment that leans is nearest: it is where the face ends, to rounding.
+  if (outside == 1 && end == 0 && d[fixed_axis] != S(0)) {
+    const int i = (fixed_axis + 1) % 3, j = (fixed_axis + 2) % 3;
+    const auto inside = [&](int axis) { return d[axis] != S(0) ? S(h[axis] - largest(nearest[axis])) : size; };
+    const int ends = inside(i) < inside(j) ? i : j;
+    if (d[ends] != S(0)) {
+      constexpr std::array<int, 3> digit = {9, 3, 1};  // of the axis in `id`
+      const bool below = nearest[ends] < S(0);
+      part.id += digit[static_cast<std::size_t>(ends)] * (below ? 1 : 2);
+      corner[ends] = below ? S(-h[ends]) : h[ends];
+      free_axis = ends == i ? j : i;
+      ++outside;
+    }
+  }
+  if (outside > 0 && largest(part.gap) <= gap_noise(size)) {  // where it enters the box, to rounding?
     const auto [first, last] = stretch_between_faces(x, d, h);
     if (first <= last) outside = 0;
   }
@@ -213,12 +234,12 @@ template <Scalar S> CorePart<S> closest_on_swept_box(const Vec3<S>& x, const Vec
     part.direction = edge;
     if (end == 0) {
       const Vec3<S> beside = cross(safe_unit(swept), part.gap);  // zero above the inside of a face
-      const bool sliver = largest(swept) <= gap_noise(largest(d)) || largest(beside) > gap_noise(largest(x, d, h));
+      const bool sliver = largest(swept) <= gap_noise(largest(d)) || largest(beside) > gap_noise(size);
       part.kind = sliver ? CorePart<S>::edge : CorePart<S>::face;
       if (!sliver) part.direction = swept;
-      if (sliver && largest(d) > 2 * h[free_axis]) {  // edge and segment parallel, to rounding: the longer one is left
-        part.direction = d;
+      if (sliver) {  // edge and segment parallel, to rounding, or the edge's end: of the two lines there the longer one's
         part.origin = x - part.gap;
+        if (largest(d) > 2 * h[free_axis]) part.direction = d;
       }
     }
   } else if (end == 0 && d != Vec3<S>::Zero()) {
