@@ -1,6 +1,8 @@
 #include <thinwall/experiments/lab/judge.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -10,25 +12,33 @@ namespace {
 
 constexpr double coverage_level = 0.95, false_alarms = 0.001, central = 1 - false_alarms;
 
+/// Of a count of which theory is sure, infinite.
+double residual_of(const CellCount& cell) {
+  if (cell.theory != 0 && cell.theory != 1) return standard_residual(cell.counted, cell.trials, cell.theory);
+  const std::int64_t certain = cell.theory == 0 ? 0 : cell.trials;
+  return cell.counted == certain ? 0 : std::numeric_limits<double>::infinity();
+}
+
 void add(SelfTest& test, const CellCount& cell) {
+  const double residual = residual_of(cell);
   if (cell.theory == 0 || cell.theory == 1) {
     ++test.certain_cells;
-    const std::int64_t certain = cell.theory == 0 ? 0 : cell.shots;
-    if (cell.tunneled != certain) ++test.certain_wrong;
-  } else if (can_be_judged(cell.shots, cell.theory)) {
+    if (residual != 0) ++test.certain_wrong;
+  } else if (can_be_judged(cell.trials, cell.theory)) {
     ++test.judged_cells;
-    if (wilson(cell.tunneled, cell.shots, coverage_level).contains(cell.theory)) ++test.covered;
-    const double residual = standard_residual(cell.tunneled, cell.shots, cell.theory);
+    if (wilson(cell.counted, cell.trials, coverage_level).contains(cell.theory)) ++test.covered;
     test.chi_square += residual * residual;
   } else {
     ++test.other_cells;
+    return;
   }
+  if (!test.farthest || std::abs(residual) > std::abs(residual_of(*test.farthest))) test.farthest = cell;
 }
 
 }  // namespace
 
-bool can_be_judged(std::int64_t shots, double theory) {
-  const double n = static_cast<double>(shots);
+bool can_be_judged(std::int64_t trials, double theory) {
+  const double n = static_cast<double>(trials);
   return 5 <= n * theory && n * theory <= n - 5;
 }
 
@@ -51,14 +61,13 @@ bool SelfTest::passed() const {
 std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
   std::vector<SelfTest> tests;
   for (const CellCount& cell : cells) {
-    auto found = std::find_if(tests.begin(), tests.end(), [&](const SelfTest& test) {
-      return test.method == cell.method && test.scalar == cell.scalar;
-    });
+    auto found = std::find_if(tests.begin(), tests.end(),
+                              [&](const SelfTest& test) { return test.name == cell.name && test.part == cell.part; });
     if (found == tests.end()) {
       tests.emplace_back();
       found = tests.end() - 1;
-      found->method = cell.method;
-      found->scalar = cell.scalar;
+      found->name = cell.name;
+      found->part = cell.part;
     }
     add(*found, cell);
   }
@@ -80,14 +89,19 @@ bool all_passed(const std::vector<SelfTest>& tests) {
 std::string self_test_text(const std::vector<SelfTest>& tests) {
   std::string text;
   for (const SelfTest& t : tests) {
-    text += fmt::format("{}, {}: {} cells certain, {} wrong", t.method, t.scalar, t.certain_cells, t.certain_wrong);
+    text += fmt::format("{}, {}: {} cells certain, {} wrong", t.name, t.part, t.certain_cells, t.certain_wrong);
     if (t.judged_cells > 0) {
       text += fmt::format(
           "; {} of {} intervals hold the theory (allowed {} to {}), chi-square {:.1f} (allowed {:.1f} to {:.1f})",
           t.covered, t.judged_cells, t.covered_allowed.lower, t.covered_allowed.upper, t.chi_square,
           t.chi_square_allowed.lower, t.chi_square_allowed.upper);
     }
-    text += t.passed() ? ".\n\n" : ": FAILED.\n\n";
+    if (!t.passed()) {
+      const CellCount& cell = *t.farthest;
+      text += fmt::format(": FAILED; farthest off is a cell with {} of {} where {:.6g} are expected", cell.counted,
+                          cell.trials, static_cast<double>(cell.trials) * cell.theory);
+    }
+    text += ".\n\n";
   }
   return text;
 }
@@ -117,7 +131,7 @@ Table self_test_table(const std::vector<SelfTest>& tests) {
     const bool judged = t.judged_cells > 0;
     const auto count = [&](double x) { return judged ? Value(static_cast<std::int64_t>(x)) : Value(); };
     const auto number = [&](double x) { return judged ? Value(x) : Value(); };
-    table.rows.push_back({t.method, t.scalar, t.certain_cells, t.certain_wrong, t.judged_cells, t.covered,
+    table.rows.push_back({t.name, t.part, t.certain_cells, t.certain_wrong, t.judged_cells, t.covered,
                           count(t.covered_allowed.lower), count(t.covered_allowed.upper), number(t.chi_square),
                           number(t.chi_square_allowed.lower), number(t.chi_square_allowed.upper), t.other_cells,
                           t.passed()});

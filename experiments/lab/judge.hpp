@@ -1,6 +1,6 @@
 #pragma once
 /// Do measured counts agree with theory, over many cells at once? A theory that is wrong, or a measurement that is,
-/// fails here; chance alone fails a right one once in a thousand times, however many methods and scalars it has.
+/// fails here; chance alone fails a right one once in a thousand times, however many names and parts it has.
 
 #include <cstdint>
 #include <optional>
@@ -14,31 +14,33 @@ namespace thinwall {
 
 /// What came out of one cell, and what should.
 struct CellCount {
-  std::string method, scalar;
-  std::int64_t shots;     ///< > 0
-  std::int64_t tunneled;  ///< in [0, shots]
-  double theory;          ///< [1] probability in [0, 1]
+  std::string name, part;  ///< cells of one name and part are judged together: a method at a scalar, or a rule's misses
+  std::int64_t trials;     ///< > 0
+  std::int64_t counted;    ///< in [0, trials]
+  double theory;           ///< [1] probability in [0, 1] of being counted
 };
 
-/// The verdict on one method at one scalar.
+/// The verdict on one name and part.
 struct SelfTest {
-  std::string method, scalar;
+  std::string name, part;
   std::int64_t certain_cells = 0;        ///< theory is 0 or 1: the count must be exactly that
   std::int64_t certain_wrong = 0;        ///< ... and is not
-  std::int64_t judged_cells = 0;         ///< at least 5 expected to tunnel, and 5 not to
+  std::int64_t judged_cells = 0;         ///< at least 5 expected to be counted, and 5 not to
   std::int64_t covered = 0;              ///< ... whose 95 % Wilson interval holds the theory
   Interval covered_allowed = {0, 0};     ///< the middle of Binomial(judged_cells, 0.95)
   double chi_square = 0;                 ///< sum of squared standard residuals over the judged cells
   Interval chi_square_allowed = {0, 0};  ///< the middle of its distribution
   std::int64_t other_cells = 0;          ///< too few expected to judge alone
+  std::optional<CellCount> farthest =
+      {};  ///< the first of those that are certain and wrong, or else the largest residual
   bool passed() const;
 };
 
-/// By method and scalar, in the order of their first cell. With n of them judged each of the two ranges leaves out 1 in 2000 n,
+/// By name and part, in the order of their first cell. With n of them judged each of the two ranges leaves out 1 in 2000 n,
 /// so that all together fail a right run no more than once in 1000 (Bonferroni; methods may share their shots).
 std::vector<SelfTest> self_test(const std::vector<CellCount>& cells);
 
-/// A paragraph for each: "closed_form, double: 864 cells certain, 0 wrong."
+/// A paragraph for each: "closed_form, double: 864 cells certain, 0 wrong." One that failed names its cell that is farthest off.
 std::string self_test_text(const std::vector<SelfTest>& tests);
 
 Table self_test_table(const std::vector<SelfTest>& tests);
@@ -55,7 +57,7 @@ struct ResidualTest {
   bool passed() const;
 };
 
-/// True if at least five shots are expected to tunnel and five not to: a cell that can be judged by its residual.
-bool can_be_judged(std::int64_t shots, double theory);
+/// True if at least five trials are expected to be counted and five not to: a cell that can be judged by its residual.
+bool can_be_judged(std::int64_t trials, double theory);
 
 }  // namespace thinwall

@@ -211,7 +211,7 @@ std::string self_test_words(const std::vector<PlanRace>& races, const std::vecto
   for (const SelfTest& test : gate_self_test(shots)) {
     words +=
         fmt::format("{}: {} cells certain, {} of them wrong, {} of {} others hold the theory ({:g} to {:g} allowed); ",
-                    test.method, test.certain_cells, test.certain_wrong, test.covered, test.judged_cells,
+                    test.name, test.certain_cells, test.certain_wrong, test.covered, test.judged_cells,
                     test.covered_allowed.lower, test.covered_allowed.upper);
   }
   std::int64_t early = 0;

@@ -31,7 +31,7 @@ constexpr const char* report_examples = R"(  thinwall report results/thin_wall
 
 constexpr const char* report_footer =
     R"(--check reads every file: hashes, missing and unknown files, each CSV against datapackage.json, the report, the figures,
-resolved.toml and cite.bib. Each fault is a line; one is enough for exit code 1.
+resolved.toml and cite.bib. Each fault is a line; one is enough for exit code 1. A failed self-test is no fault of the folder, and is said.
 --figures draws plots/NAME.pdf; with tex, plots/NAME-latex.tex and NAME-latex.pdf, to \input in LaTeX (graphicx, color).
 They are not part of the result: the manifest does not name them.
 )";
@@ -65,17 +65,20 @@ std::string result_text(const KeptResult& result) {
 int check(const ReportText& text, const Call& call) {
   if (!fs::is_directory(text.target)) read_result(text.target);  // says why it cannot
   const std::vector<std::string> faults = check_result(text.target);
+  const bool whole = faults.empty(), doubtful = whole && !read_result(text.target).self_test_passed;
   if (text.json) {
-    const ordered_json reply = {{"folder", text.target}, {"whole", faults.empty()}, {"faults", faults}};
+    ordered_json reply = {{"folder", text.target}, {"whole", whole}, {"faults", faults}};
+    if (whole) reply["self_test_passed"] = !doubtful;
     call.out << reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
   } else {
     for (const std::string& fault : faults) call.out << fault << "\n";
     call.out << fmt::format("{}: {}\n", one_line(text.target),
-                            faults.empty()       ? "whole: no fault was found"
+                            doubtful             ? "whole, but its self-test failed: do not cite its numbers"
+                            : whole              ? "whole: no fault was found"
                             : faults.size() == 1 ? "1 fault"
                                                  : fmt::format("{} faults", faults.size()));
   }
-  return faults.empty() ? exit_done : exit_failed;
+  return whole ? exit_done : exit_failed;
 }
 
 int report(const ReportText& text, const Call& call) {

@@ -37,6 +37,7 @@ def test_says_what_the_manifest_says(folder: Path) -> None:
     assert result.experiment == "thin_wall" and result.seed == 1 and result.self_test_passed is True
     assert result.config["speed"] == [10, 40]
     assert result.manifest == manifest
+    assert manifest["program"]["version"] == tw.__version__
     assert result.bibtex == (folder / "cite.bib").read_text() and "@misc{thinwall_thin_wall_" in result.bibtex
     assert {path.name for path in result.figures.values()} == {path.name for path in (folder / "plots").glob("*.svg")}
     assert all(path.is_file() for path in (*result.figures.values(), result.report))

@@ -7,6 +7,7 @@
 array([False, False,  True])
 """
 
+from ._version import __version__
 from .queries import (
     DecidedBy,
     ToiStatus,
@@ -46,6 +47,7 @@ __all__ = [
     "ToiStatus",
     "Triangle",
     "Turning",
+    "__version__",
     "at_rest",
     "certified_time_of_impact",
     "contact",

@@ -27,3 +27,5 @@ from .results import Result as Result
 from .results import read as read
 from .scenes import compare as compare
 from .scenes import world as world
+
+__version__: str

@@ -131,7 +131,7 @@ std::vector<CellCount> simulated(std::uint64_t seed, double (*claimed)(double)) 
     const double truth = 0.05 + 0.004 * static_cast<double>(i);
     CellCount cell = {"method", "double", 500, 0, claimed(truth)};
     for (std::uint64_t shot = 0; shot < 500; ++shot)
-      cell.tunneled += uniform(random_words({seed, i}, shot, 0)[0]) < truth;
+      cell.counted += uniform(random_words({seed, i}, shot, 0)[0]) < truth;
     cells.push_back(cell);
   }
   return cells;
@@ -173,7 +173,7 @@ TEST(SelfTest, fails_a_theory_that_is_five_percent_off) {
 /// Phases spread evenly by mistake give counts that agree too well.
 TEST(SelfTest, fails_counts_that_are_too_good) {
   auto cells = simulated(1, [](double truth) { return truth; });
-  for (CellCount& cell : cells) cell.tunneled = std::llround(500 * cell.theory);
+  for (CellCount& cell : cells) cell.counted = std::llround(500 * cell.theory);
   const auto tests = self_test(cells);
   EXPECT_EQ(tests[0].covered, 200);
   EXPECT_FALSE(tests[0].passed());
@@ -199,7 +199,18 @@ TEST(SelfTest, keeps_methods_and_scalars_apart) {
   ASSERT_EQ(tests.size(), 3U);
   EXPECT_TRUE(tests[0].passed());
   EXPECT_FALSE(tests[1].passed());
-  EXPECT_EQ(tests[2].method, "b");
+  EXPECT_EQ(tests[2].name, "b");
+}
+
+TEST(SelfTest, names_the_cell_that_is_farthest_off_where_it_fails) {
+  const auto text = [](const std::vector<CellCount>& cells) { return self_test_text(self_test(cells)); };
+  EXPECT_NE(text({{"m", "double", 1000, 500, 0.5}, {"m", "double", 1000, 400, 0.5}, {"m", "double", 1000, 530, 0.5}})
+                .find("FAILED; farthest off is a cell with 400 of 1000 where 500 are expected"),
+            std::string::npos);
+  EXPECT_NE(text({{"m", "double", 1000, 400, 0.5}, {"m", "double", 90, 0, 0}, {"m", "double", 80, 2, 0}})
+                .find("with 2 of 80 where 0 are expected"),
+            std::string::npos);
+  EXPECT_EQ(text({{"m", "double", 1000, 512, 0.5}, {"m", "double", 10, 0, 0}}).find("farthest"), std::string::npos);
 }
 
 TEST(SelfTest, table_has_a_value_for_every_column) {

@@ -211,6 +211,8 @@ TEST_F(ToyRunTest, reports_a_failed_self_test) {
   EXPECT_NE(reply.err.find("the self-test failed"), std::string::npos);
   EXPECT_NE(read_text(out + "/report.html").find("The self-test failed"), std::string::npos);
   EXPECT_EQ(run().status, 1) << "and still does when asked again";
+  EXPECT_EQ(call({"report", out, "--check"}).out, out + ": whole, but its self-test failed: do not cite its numbers\n");
+  EXPECT_EQ(nlohmann::json::parse(call({"report", out, "--check", "--json"}).out).at("self_test_passed"), false);
 }
 
 TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
