@@ -84,8 +84,8 @@ template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& 
     return closest_parameter_to_box(times_power_of_two(p, -e), times_power_of_two(d, -e), times_power_of_two(h, -e));
   }
   const BoxSlope<S> start(p, d, h, S(0)), end(p, d, h, S(1));
-  const S noise =
-      gap_noise(size);  // a place so near a side has a slope of rounding, not of a face that d hardly leans from
+  const S noise = gap_noise(size);
+  // So near a side the slope is that of a rounding, not that of a face from which d hardly leans.
   if (start.least <= noise || end.least <= noise) return middle_closest_parameter_to_box(p, d, h);
   if (start.slope > S(0)) return S(0);
   if (end.slope < S(0)) return S(1);

@@ -154,12 +154,10 @@ Table timings_table(const Rows& rows) {
 /// One row an engine that took part.
 Table packages_table(const EnginePlan& plan) {
   std::vector<Engine> engines;
-  for (const EngineSetup& setup : plan.setups) {
-    if (engines.empty() || engines.back().name != setup.engine.name) engines.push_back(setup.engine);
-  }
-  const auto version = [](const Engine& engine) {
+  const auto name = [](const EngineSetup& setup) { return setup.engine.name; };
+  for (const Group<EngineSetup>& group : group_by(plan.setups, name)) engines.push_back(group[0]->engine);
+  const auto version = [build = this_build()](const Engine& engine) {
     if (!engine.version.empty()) return engine.version;
-    const BuildRecord build = this_build();
     if (engine.package.empty()) return build.version;
     for (const auto& [library, its_version] : build.libraries) {
       if (library == engine.called) return its_version;

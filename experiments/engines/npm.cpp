@@ -105,26 +105,23 @@ json read_json(const fs::path& file) {
   return json::parse(in, nullptr, false);
 }
 
-/// Of an object's object's ... string; empty if there is none.
-std::string text_in(const json& object, std::initializer_list<std::string> path) {
-  const json* at = &object;
-  for (const std::string& key : path) {
-    if (!at->is_object() || !at->contains(key)) return {};
-    at = &at->at(key);
-  }
-  return at->is_string() ? at->get<std::string>() : "";
+/// Empty if no text stands there.
+std::string text_in(const json& value, const json::json_pointer& path) {
+  return value.contains(path) && value.at(path).is_string() ? value.at(path).get<std::string>() : "";
 }
 
 /// The version that package.json asks for, if npm has brought it.
 std::string installed_version(const fs::path& scripts, const std::string& package) {
-  const std::string version = text_in(read_json(scripts / "node_modules" / package / "package.json"), {"version"});
-  return text_in(read_json(scripts / "package.json"), {"dependencies", package}) == version ? version : "";
+  const json asked = read_json(scripts / "package.json"),
+             there = read_json(scripts / "node_modules" / package / "package.json");
+  const std::string version = text_in(there, json::json_pointer("/version"));
+  return text_in(asked, json::json_pointer("/dependencies") / package) == version ? version : "";
 }
 
 /// What npm noted, when it brought the package, of what it had checked it against.
 std::string integrity(const fs::path& scripts, const std::string& package) {
   return text_in(read_json(scripts / "node_modules" / ".package-lock.json"),
-                 {"packages", "node_modules/" + package, "integrity"});
+                 json::json_pointer("/packages") / ("node_modules/" + package) / "integrity");
 }
 
 /// What serve.mjs calls a shape, and where a fixed one stays.

@@ -23,16 +23,15 @@ struct CellCount {
 /// The verdict on one name and part.
 struct SelfTest {
   std::string name, part;
-  std::int64_t certain_cells = 0;        ///< theory is 0 or 1: the count must be exactly that
-  std::int64_t certain_wrong = 0;        ///< ... and is not
-  std::int64_t judged_cells = 0;         ///< at least 5 expected to be counted, and 5 not to
-  std::int64_t covered = 0;              ///< ... whose 95 % Wilson interval holds the theory
-  Interval covered_allowed = {0, 0};     ///< the middle of Binomial(judged_cells, 0.95)
-  double chi_square = 0;                 ///< sum of squared standard residuals over the judged cells
-  Interval chi_square_allowed = {0, 0};  ///< the middle of its distribution
-  std::int64_t other_cells = 0;          ///< too few expected to judge alone
-  std::optional<CellCount> farthest =
-      {};  ///< the first of those that are certain and wrong, or else the largest residual
+  std::int64_t certain_cells = 0;          ///< theory is 0 or 1: the count must be exactly that
+  std::int64_t certain_wrong = 0;          ///< ... and is not
+  std::int64_t judged_cells = 0;           ///< at least 5 expected to be counted, and 5 not to
+  std::int64_t covered = 0;                ///< ... whose 95 % Wilson interval holds the theory
+  Interval covered_allowed = {0, 0};       ///< the middle of Binomial(judged_cells, 0.95)
+  double chi_square = 0;                   ///< sum of squared standard residuals over the judged cells
+  Interval chi_square_allowed = {0, 0};    ///< the middle of its distribution
+  std::int64_t other_cells = 0;            ///< too few expected to judge alone
+  std::optional<CellCount> farthest = {};  ///< the first that is certain and wrong, or else the largest residual
   bool passed() const;
 };
 
