@@ -148,7 +148,7 @@ template <Scalar S> PrismPart<S> closest_on_core_and_triangle(const Capsule<S>& 
   const Vec3<S> x = capsule.a - triangle.a, core = capsule.b - capsule.a;
   const Vec3<S> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
   const S size = largest(x, core, e1, e2);
-  const int e = products_in_range(size) ? 0 : binary_exponent(size);
+  const int e = safe_exponent(size);
   if (e == 0) return closest_on_swept_triangle(x, core, e1, e2);
   PrismPart<S> closest = closest_on_swept_triangle(times_power_of_two(x, -e), times_power_of_two(core, -e),
                                                    times_power_of_two(e1, -e), times_power_of_two(e2, -e));

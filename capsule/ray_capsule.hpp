@@ -14,21 +14,13 @@
 
 namespace thinwall {
 
+/// Requires lengths and displacements whose products of four are in range.
 template <Scalar S>
-Entry<S> rounded_segment_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R);
-
-/// First time at which p + v t is within R of the segment s * d, s in [0, 1].
-template <Scalar S> Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+Entry<S> rounded_segment_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d) {
   using std::sqrt;
-  if (!products_in_range(largest(p, d, R)) || !products_in_range(largest(v))) {
-    const Entry<S> rescaled = rounded_segment_entry_rescaled(p, v, d, R);
-    return rescaled;
-  }
   Entry<S> entry;
-  if (within<S>(p - d * closest_parameter(p, d), R)) {
-    entry.inside = true;
-    return entry;
-  }
+  entry.inside = within<S>(p - d * closest_parameter(p, d), R);
+  if (entry.inside || v == Vec3<S>::Zero()) return entry;
   Vec3<S> axis = d;
   S axis_square = d.squaredNorm(), end = axis_square;  // x.axis at the end of the segment
   if (!square_in_range(axis_square)) {                 // very short beside the rest, but its direction counts
@@ -62,21 +54,9 @@ template <Scalar S> Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<
   return cap.inside ? entry : cap;
 }
 
-/// The same where a product of lengths or displacements would overflow or underflow.
-template <Scalar S>
-THINWALL_COLD Entry<S> rounded_segment_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d,
-                                                      const S& R) {
-  const int length_exponent = binary_exponent(largest(p, d, R)), speed_exponent = binary_exponent(largest(v));
-  if (length_exponent == 0 && speed_exponent == 0) {  // nothing at rest, or no number
-    Entry<S> entry;
-    entry.inside = within<S>(p - d * closest_parameter(p, d), R);
-    return entry;
-  }
-  Entry<S> entry =
-      rounded_segment_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                               times_power_of_two(d, -length_exponent), times_power_of_two(R, -length_exponent));
-  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
-  return entry;
+/// First time at which p + v t is within R of the segment s * d, s in [0, 1].
+template <Scalar S> Entry<S> rounded_segment_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const S& R) {
+  return entry_at_safe_scale<S>(&rounded_segment_entry_in_range<S>, p, v, R, d);
 }
 
 }  // namespace thinwall

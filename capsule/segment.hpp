@@ -16,10 +16,8 @@ template <Scalar S> S clamp01(const S& x) { return std::min(S(1), std::max(S(0),
 /// The s in [0, 1] for which s * d is closest to w; 0 where d is too short to tell.
 template <Scalar S> S closest_parameter(const Vec3<S>& w, const Vec3<S>& d) {
   const S size = largest(w, d);
-  if (!products_in_range(size) && binary_exponent(size) != 0) {
-    const int e = binary_exponent(size);
+  if (const int e = safe_exponent(size); e != 0)
     return closest_parameter(times_power_of_two(w, -e), times_power_of_two(d, -e));
-  }
   const S length_square = d.squaredNorm();
   return length_square > S(0) ? clamp01(S(w.dot(d) / length_square)) : S(0);
 }
@@ -39,8 +37,7 @@ template <Scalar S> struct SegmentPair {
 /// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.9, for the order of the clamps.
 template <Scalar S> SegmentPair<S> closest_on_segments(const Vec3<S>& r, const Vec3<S>& d1, const Vec3<S>& d2) {
   const S size = largest(r, d1, d2);
-  if (!products_in_range(size) && binary_exponent(size) != 0) {
-    const int e = binary_exponent(size);
+  if (const int e = safe_exponent(size); e != 0) {
     SegmentPair<S> pair =
         closest_on_segments(times_power_of_two(r, -e), times_power_of_two(d1, -e), times_power_of_two(d2, -e));
     pair.gap = r + (d2 * pair.t - d1 * pair.s);

@@ -79,10 +79,8 @@ template <Scalar S> struct BoxSlope {
 /// Error: the point is off by a few u (|p| + |d| + |h|). Source: derived here.
 template <Scalar S> S closest_parameter_to_box(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
   const S size = largest(p, d, h);
-  if (!products_in_range(size) && binary_exponent(size) != 0) {
-    const int e = binary_exponent(size);
+  if (const int e = safe_exponent(size); e != 0)
     return closest_parameter_to_box(times_power_of_two(p, -e), times_power_of_two(d, -e), times_power_of_two(h, -e));
-  }
   const BoxSlope<S> start(p, d, h, S(0)), end(p, d, h, S(1));
   const S noise = gap_noise(size);
   // So near a side the slope is that of a rounding, not that of a face from which d hardly leans.

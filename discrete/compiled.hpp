@@ -19,7 +19,7 @@ namespace thinwall {
   THINWALL_INSTANTIATION Vec3<S> unit_out_of_range<S>(const Vec3<S>&);                                     \
   THINWALL_INSTANTIATION Vec3<S> arbitrary_normal<S>(const Vec3<S>&);                                      \
   THINWALL_INSTANTIATION S accurate_discriminant<S>(const Vec3<S>&, const Vec3<S>&, const S&);             \
-  THINWALL_INSTANTIATION Entry<S> ball_entry_rescaled<S>(const Vec3<S>&, const Vec3<S>&, const S&);        \
+  THINWALL_INSTANTIATION Entry<S> ball_entry<S>(const Vec3<S>&, const Vec3<S>&, const S&);                 \
   THINWALL_INSTANTIATION CoreGap<S> gap_from_box<S>(const Vec3<S>&, const Vec3<S>&);                       \
   THINWALL_INSTANTIATION bool boxes_overlap<S>(const BoxPair<S>&);                                         \
   THINWALL_INSTANTIATION BoxPoints<S> closest_points<S>(const BoxPair<S>&);                                \

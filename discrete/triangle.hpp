@@ -104,7 +104,7 @@ template <Scalar S> Vec3<S> plane_normal(const Triangle<S>& t) {
 template <Scalar S> Vec3<S> gap_from_triangle(const Vec3<S>& x, const Triangle<S>& t) {
   const Vec3<S> e1 = t.b - t.a, e2 = t.c - t.a;
   const S size = largest(x, e1, e2);
-  const int e = products_in_range(size) ? 0 : binary_exponent(size);
+  const int e = safe_exponent(size);
   if (e == 0) return closest_on_triangle(x, e1, e2).gap;
   const CorePart<S> part =
       closest_on_triangle(times_power_of_two(x, -e), times_power_of_two(e1, -e), times_power_of_two(e2, -e));

@@ -9,9 +9,7 @@ namespace thinwall {
 
 // NOLINTBEGIN(bugprone-macro-parentheses): what they are given are types.
 #define THINWALL_OF_SCALAR(S)                                                                                        \
-  THINWALL_INSTANTIATION Entry<S> walk_around_box<S>(const SlabTimes<S>&, const Vec3<S>&, const Vec3<S>&, const S&); \
-  THINWALL_INSTANTIATION Entry<S> rounded_box_entry_rescaled<S>(const Vec3<S>&, const Vec3<S>&, const Vec3<S>&,      \
-                                                                const S&);                                           \
+  THINWALL_INSTANTIATION Entry<S> rounded_box_entry<S>(const Vec3<S>&, const Vec3<S>&, const Vec3<S>&, const S&);    \
   THINWALL_INSTANTIATION Entry<S> rounded_boxes_entry<S>(const MovingBoxPair<S>&, const S&);                         \
   THINWALL_INSTANTIATION Entry<S> sharp_boxes_entry<S>(MovingBoxPair<S>&);                                           \
   THINWALL_INSTANTIATION Entry<S> capsule_box_entry<S>(const Vec3<S>&, const Vec3<S>&, const S&, const Vec3<S>&,     \

@@ -53,8 +53,8 @@ template <Scalar S> Manifold<S> boxes_manifold_in_range(const BoxPair<S>& pair) 
 /// The same at any scale.
 template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
   const S size = largest(pair.between, pair.half_a, pair.half_b);
-  if (products_in_range(size)) return boxes_manifold_in_range(pair);
-  const int e = binary_exponent(size);
+  const int e = safe_exponent(size);
+  if (e == 0) return boxes_manifold_in_range(pair);
   const BoxPair<S> near{times_power_of_two(pair.half_a, -e), times_power_of_two(pair.half_b, -e),
                         times_power_of_two(pair.between, -e), pair.axes};
   return changed(boxes_manifold_in_range(near), [&](const Contact<S>& c) { return scaled(c, e); });

@@ -78,7 +78,7 @@ THINWALL_COLD S accurate_edge_discriminant(const Vec3<S>& p, const Vec3<S>& v, c
   return difference.high / axis.squaredNorm();
 }
 
-/// Requires p, v, R whose products of four are in range (products_in_range), v not zero. accurate() is the discriminant in
+/// Requires p, v, R whose products of four are in range (products_in_range). accurate() is the discriminant in
 /// twice the digits.
 template <Scalar S, class Accurate>
 Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
@@ -104,27 +104,39 @@ template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>&
 template <Scalar S> struct Entry {
   Vec3<S> normal = Vec3<S>::Zero();             ///< unit, out of the body, where the point is at `time`
   S time = std::numeric_limits<S>::infinity();  ///< [1] >= 0; infinity: never
-  bool inside = false;                          ///< already so at time 0, touching included
-  bool gave_up = false;                         ///< out of rounds; `time` is proven free
+  S not_before = 0;  ///< [1] where known: from when it is behind all planes of the body but the last,
+  S not_after = std::numeric_limits<S>::infinity();  ///< [1] and until when
+  bool inside = false;                               ///< already so at time 0, touching included
+  bool gave_up = false;                              ///< out of rounds; `time` is proven free
   bool graze = false;  ///< a few roundings of the coordinates may turn a miss into a hit, or back
   int rounds = 1;      ///< how many closed forms were solved
+
+  void come_later(const S& by) {
+    time += by;
+    not_before += by;
+    not_after += by;
+  }
 };
 
-template <Scalar S> Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R);
+/// entry_of(p, v, R, spans...) asked at a scale whose products of four are in range.
+template <Scalar S, class EntryOf, class... Spans>
+Entry<S> entry_at_safe_scale(const EntryOf& entry_of, const Vec3<S>& p, const Vec3<S>& v, const S& R,
+                             const Spans&... spans) {
+  const SafeScale<S> scale(largest(p, R, spans...), largest(v));
+  if (scale.is_one()) return entry_of(p, v, R, spans...);
+  Entry<S> entry = entry_of(scale.length(p), scale.displacement(v), scale.length(R), scale.length(spans)...);
+  entry.time = scale.time_back(entry.time);
+  entry.not_before = scale.time_back(entry.not_before);
+  entry.not_after = scale.time_back(entry.not_after);
+  return entry;
+}
 
-/// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
-/// v = 0 never enters.
+/// Requires lengths and displacements whose products of four are in range. accurate() is the discriminant in twice the digits.
 template <Scalar S, class Accurate>
-Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
+Entry<S> ball_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
   Entry<S> entry;
-  if (within(p, R)) {
-    entry.inside = true;
-    return entry;
-  }
-  if (!products_in_range(largest(p, R)) || !products_in_range(largest(v))) {
-    const Entry<S> rescaled = ball_entry_rescaled(p, v, R);
-    return rescaled;  // by way of a copy, or the compiler would keep the other answers in memory
-  }
+  entry.inside = within(p, R);
+  if (entry.inside) return entry;
   const Chord<S> chord = chord_through_ball(p, v, R, accurate);
   if (!chord.exists || chord.approach <= S(0)) return entry;
   entry.time = chord.entry_time();  // positive, as the excess is
@@ -132,18 +144,20 @@ Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accura
   return entry;
 }
 
+/// Degenerate: R = 0 is a point, hit only where the line runs exactly through it (normal against the motion);
+/// v = 0 never enters.
 template <Scalar S> Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
-  return ball_entry(p, v, R, [&] { return accurate_discriminant(p, v, R); });
+  const auto in_range = [](const Vec3<S>& from, const Vec3<S>& along, const S& reach) {
+    return ball_entry_in_range(from, along, reach, [&] { return accurate_discriminant(from, along, reach); });
+  };
+  return entry_at_safe_scale<S>(in_range, p, v, R);
 }
 
-/// The same where a product of lengths or displacements would overflow or underflow.
-template <Scalar S> THINWALL_COLD Entry<S> ball_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
-  const int length_exponent = binary_exponent(largest(p, R)), speed_exponent = binary_exponent(largest(v));
-  if (largest(v) == S(0) || (length_exponent == 0 && speed_exponent == 0)) return {};
-  Entry<S> entry = ball_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                                 times_power_of_two(R, -length_exponent));
-  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
-  return entry;
+/// The same by a better accurate(), for as long as products are in range.
+template <Scalar S, class Accurate>
+Entry<S> ball_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Accurate& accurate) {
+  const bool in_range = SafeScale<S>(largest(p, R), largest(v)).is_one();
+  return in_range ? ball_entry_in_range(p, v, R, accurate) : ball_entry(p, v, R);
 }
 
 }  // namespace thinwall

@@ -205,15 +205,11 @@ Entry<S> flat_entry_in_range(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v
 template <Scalar S>
 Entry<S> flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                     const S& last) {
-  const S length = largest(p, e1, e2), speed = largest(v);
-  const int length_exponent = products_in_range(length) ? 0 : binary_exponent(length);
-  const int speed_exponent = products_in_range(speed) ? 0 : binary_exponent(speed);
-  if (length_exponent == 0 && speed_exponent == 0) return flat_entry_in_range(shape, p, v, e1, e2, last);
-  Entry<S> entry =
-      flat_entry_in_range<S>(shape, times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                             times_power_of_two(e1, -length_exponent), times_power_of_two(e2, -length_exponent),
-                             times_power_of_two(last, speed_exponent - length_exponent));
-  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
+  const SafeScale<S> scale(largest(p, e1, e2), largest(v));
+  if (scale.is_one()) return flat_entry_in_range(shape, p, v, e1, e2, last);
+  Entry<S> entry = flat_entry_in_range<S>(shape, scale.length(p), scale.displacement(v), scale.length(e1),
+                                          scale.length(e2), scale.time(last));
+  entry.time = scale.time_back(entry.time);
   return entry;
 }
 

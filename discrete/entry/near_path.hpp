@@ -9,20 +9,20 @@
 
 namespace thinwall {
 
-/// The path p + v t, of which only what lies within `reach` of the origin matters. A start less than `far` reaches away is
+/// The path p + v t, of which only what lies within `reach` of the origin matters. A start less than four reaches away is
 /// left where it is.
 /// Error: `start` is p + v * base_time to a rounding of its own.
 template <Scalar S> struct NearPath {
   Vec3<S> start;
   S base_time = 0;  ///< [1] >= 0: there is no contact before
 
-  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach, const S& far = S(4)) : start(p) {
-    if (largest(p) < far * reach) return;
-    if (products_in_range(largest(p)) && products_in_range(largest(v))) {
-      begin_later(p, v, reach);
-    } else {
-      rescaled(p, v, reach);
-    }
+  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach) : start(p) {
+    if (largest(p) < 4 * reach) return;
+    const SafeScale<S> scale(largest(p), largest(v));
+    begin_later(scale.length(p), scale.displacement(v), scale.length(reach));
+    if (scale.is_one() || base_time == S(0)) return;
+    start = scale.length_back(start);
+    base_time = scale.time_back(base_time);
   }
 
  private:
@@ -34,15 +34,6 @@ template <Scalar S> struct NearPath {
     if (!(earlier > S(0)) || !is_finite(earlier)) return;
     base_time = earlier;
     for (int i = 0; i < 3; ++i) start[i] = (exact_product(v[i], earlier) + DoubleWord<S>{p[i], S(0)}).high;
-  }
-  THINWALL_COLD void rescaled(const Vec3<S>& p, const Vec3<S>& v, const S& reach) {
-    const int length_exponent = binary_exponent(largest(p)), speed_exponent = binary_exponent(largest(v));
-    if (largest(v) == S(0) || (length_exponent == 0 && speed_exponent == 0)) return;
-    const NearPath path(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                        times_power_of_two(reach, -length_exponent), S(0));
-    if (path.base_time == S(0)) return;
-    start = times_power_of_two(path.start, length_exponent);
-    base_time = times_power_of_two(path.base_time, length_exponent - speed_exponent);
   }
 };
 

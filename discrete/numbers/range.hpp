@@ -65,6 +65,23 @@ template <Scalar S> THINWALL_HOT bool products_in_range(const S& x) {
          x <= constant_power_of_two<S, std::numeric_limits<S>::max_exponent / 5>();
 }
 
+/// The exponent e of the power of two for which x / 2^e has products in range; 0 where x itself has, or is zero.
+template <Scalar S> int safe_exponent(const S& x) { return products_in_range(x) ? 0 : binary_exponent(x); }
+
+/// One power of two for all lengths of a question and one for its displacements, which bring their products in range.
+template <Scalar S> struct SafeScale {
+  int length_exponent, speed_exponent;
+
+  SafeScale(const S& longest, const S& fastest)
+      : length_exponent(safe_exponent(longest)), speed_exponent(safe_exponent(fastest)) {}
+  bool is_one() const { return length_exponent == 0 && speed_exponent == 0; }
+  template <class T> T length(const T& x) const { return times_power_of_two(x, -length_exponent); }
+  template <class T> T displacement(const T& v) const { return times_power_of_two(v, -speed_exponent); }
+  S time(const S& t) const { return times_power_of_two(t, speed_exponent - length_exponent); }
+  template <class T> T length_back(const T& x) const { return times_power_of_two(x, length_exponent); }
+  S time_back(const S& t) const { return times_power_of_two(t, length_exponent - speed_exponent); }
+};
+
 /// A square that stands for its root: neither overflowed nor gnawed at by underflow.
 template <Scalar S> THINWALL_HOT bool square_in_range(const S& square) {
   constexpr int lower = std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits;

@@ -81,9 +81,10 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
 }
 
 /// As against an aligned box, in the box's own axes; and the time once more by the plane of contact, whose normal n is the world's, and g in
-/// the box's: turned coordinates have three roundings each, and those that do not count along the normal go.
+/// the box's: turned coordinates have three roundings each, and those that do not count along the normal go. Not clear where the plane
+/// moves it by more than these roundings, as that of a long face does whose normal is off, or so far along that the ball curves.
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
-  using packed::Lanes, packed::Pair, packed::all, packed::both, packed::lanes;
+  using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
   const ClearFrame frame(box.shape.axes);
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), h = lanes(box.shape.half_extents);
@@ -93,10 +94,14 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   const Pair toward = two_sums(n * p, n * v), sums = two_sums(n * n, abs(g) * h), length = root(firsts(sums));
   const Pair closing = both(0) - seconds(toward);
   const Pair plane = (firsts(toward) - (both(r + gap) * length + seconds(sums))) / closing;
-  const Pair time = select(entry.time < both(ClearEntry::never), max(plane, both(0)), both(ClearEntry::never));
-  const bool in_time = clear_of_end(time, closing, sum(abs(p) + h) * both(0x1p-44));
+  const PairMask misses = both(ClearEntry::never) <= entry.time;
+  const Pair time = select(misses, both(ClearEntry::never), max(plane, both(0)));
+  const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - entry.time);
+  const bool settled = all_of(
+      misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= both((r + gap) * 0x1p-26))));
+  const bool in_time = clear_of_end(time, closing, size * both(0x1p-44));
   const Lanes normal = n / all(length);
-  return {both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), in_time)), time, normal,
+  return {both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), both(settled, in_time))), time, normal,
           (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 

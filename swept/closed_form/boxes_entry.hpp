@@ -57,6 +57,8 @@ template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   moving.axis_a = shared.decided_by < 3 ? shared.decided_by : shared.decided_by < 6 ? -1 : (shared.decided_by - 6) / 3;
   moving.axis_b = shared.decided_by < 3 ? -1 : shared.decided_by % 3;
   entry.time = std::max(S(0), shared.first);
+  entry.not_before = shared.second;
+  entry.not_after = shared.last;
   const Vec3<S> n = pair.direction(moving.axis_a, moving.axis_b);
   entry.normal = safe_unit(moving.motion.dot(n) > S(0) ? Vec3<S>(-n) : n);
   return entry;

@@ -24,7 +24,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(sphere, capsule);
   const NearPath<T> path(sphere.shape.center - shape.a, motion, reach + largest(core));
   Entry<T> entry = rounded_segment_entry<T>(path.start, motion, core, reach);
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   return toi_of(capsule, sphere, gap, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
@@ -42,7 +42,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Mo
     entry = flat_entry<T>(FlatShape::parallelogram, start, motion, core_a, -core_b, T(1));
   } else {
     entry = core_entry_at_any_scale(&closest_on_parallelogram<T>, path.start, motion, reach, core_a, core_b);
-    entry.time += path.base_time;
+    entry.come_later(path.base_time);
   }
   return toi_of(a, b, T(method.min_separation), entry, [&](const T& time) { return middle_point(a, b, time); });
 }
@@ -57,7 +57,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
   Entry<T> entry = flipped(own);
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   return toi_of(capsule, box, gap, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            (point_on_box<T>(path.start + motion * own.time, core, h) + own.normal * (gap / 2));
@@ -74,7 +74,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Vec3<T> start = into(box.shape, path.start), own_motion = into(box.shape, motion);
   const Entry<T> own = capsule_box_entry<T>(start, own_motion, reach, core, h);
   Entry<T> entry = own;
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   entry.normal = -out_of(box.shape, own.normal);
   return toi_of_turned(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
@@ -94,7 +94,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Vec3<T> core = shape.b - shape.a;
   const NearPath<T> path(shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
   Entry<T> entry = core_entry_at_any_scale<T>(closest, path.start, motion, reach, core, e1, e2);
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   return toi_of(capsule, triangle, T(method.min_separation), flipped(entry),
                 [&](const T& time) { return middle_point(capsule, triangle, time); });
 }

@@ -11,7 +11,8 @@
 ///
 /// Not for a graze: where the motion hardly closes the gap, the second order is not small. Nor where it would move the shapes by
 /// more than `trust`: a corner met without a radius has an answer but no plane of its own, a face that hardly closes would be
-/// reached when another has passed, and the plane of a normal that is not quite a long face's is early by what it is off.
+/// reached when another has passed, and the plane of a normal that is not quite a long face's is early by what it is off. Nor to where
+/// it is not behind the body's other planes.
 /// Source: derived in docs/closed_forms.md.
 
 #include <limits>
@@ -52,7 +53,8 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
   const T size = entry.normal.cwiseAbs().dot(sizes) + gap, tiny = entry.time * constant_power_of_two<T, -40>();
   const T trusted = T(trust) * std::numeric_limits<T>::epsilon() * size;
-  const bool by_rounding = shift <= W(tiny) && shift * closing <= W(trusted);
+  const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
+  const bool by_rounding = shift <= W(tiny) && std::max(W(shift * closing), W(outside * largest(motion))) <= W(trusted);
   entry.graze = !(closing > W(0)) || !second_order_is_small || !by_rounding;
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));

@@ -138,20 +138,6 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   return answer;
 }
 
-/// entry_of(p, v, R, spans...) asked at a scale whose products of four are in range.
-template <Scalar S, class EntryOf, class... Spans>
-Entry<S> entry_at_safe_scale(const EntryOf& entry_of, const Vec3<S>& p, const Vec3<S>& v, const S& R,
-                             const Spans&... spans) {
-  const S length = largest(p, R, spans...), speed = largest(v);
-  const int length_exponent = products_in_range(length) ? 0 : binary_exponent(length);
-  const int speed_exponent = products_in_range(speed) ? 0 : binary_exponent(speed);
-  if (length_exponent == 0 && speed_exponent == 0) return entry_of(p, v, R, spans...);
-  Entry<S> entry = entry_of(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                            times_power_of_two(R, -length_exponent), times_power_of_two(spans, -length_exponent)...);
-  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
-  return entry;
-}
-
 /// core_entry for a core spanned by vectors, at any scale; closest(x, spans...) gets all of them at a scale that is safe.
 template <Scalar S, class Closest, class... Spans>
 Entry<S> core_entry_at_any_scale(const Closest& closest, const Vec3<S>& p, const Vec3<S>& v, const S& R,

@@ -62,6 +62,12 @@ template <Scalar S> struct SlabTimes {
     first = std::max(S(0), first);
   }
 
+  /// A face of axis i is met: not before the point is in the other slabs, nor after it leaves one.
+  void meet(Entry<S>& entry, int i) const {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    entry.not_before = std::max(enter[j], enter[k]);
+    entry.not_after = std::min(leave[j], leave[k]);
+  }
   /// When the point enters the widened slab of axis i, rounded no more than its parts.
   S entry_time(int i, const Vec3<S>& p, const Vec3<S>& v, const S& R) const {
     using std::copysign;
@@ -83,9 +89,6 @@ template <Scalar S> SlabTimes<S> slab_times(const Vec3<S>& p, const Vec3<S>& v, 
   const S noise = 8 * std::numeric_limits<S>::epsilon() * std::max(times.first, largest(times.last));
   return largest(S(times.last - times.first)) > noise ? times : divided_slab_times(p, v, h, R);
 }
-
-template <Scalar S>
-Entry<S> rounded_box_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R);
 
 /// The walk from region to region, after the slabs have shown no miss.
 template <Scalar S>
@@ -113,6 +116,7 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
       int axis = 0;
       slabs.enter.maxCoeff(&axis);
       entry.time = now;
+      slabs.meet(entry, axis);
       entry.normal = axis_vector<S>(axis, v[axis] > S(0));
       return entry;
     }
@@ -138,17 +142,12 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
   return entry;
 }
 
-/// First time at which p + v t is within R of the box [-h, h].
-template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
+/// Requires lengths and displacements whose products of four are in range.
+template <Scalar S>
+Entry<S> rounded_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& h) {
   Entry<S> entry;
-  if (within(excess_of(p, h), R)) {
-    entry.inside = true;
-    return entry;
-  }
-  if (!products_in_range(largest(p, h, R)) || !products_in_range(largest(v))) {
-    const Entry<S> rescaled = rounded_box_entry_rescaled(p, v, h, R);
-    return rescaled;
-  }
+  entry.inside = within(excess_of(p, h), R);
+  if (entry.inside || v == Vec3<S>::Zero()) return entry;
   const SlabTimes<S> slabs = slab_times(p, v, h, R);
   entry.graze = slabs.close;
   if (!(slabs.first <= slabs.last)) return entry;
@@ -156,25 +155,16 @@ template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& 
   for (int i = 0; i < 3; ++i) {
     on_face = on_face && (i == slabs.axis || (slabs.first >= slabs.enter[i] && slabs.first < slabs.leave[i]));
   }
-  if (!on_face) {
-    const Entry<S> walked = walk_around_box(slabs, p, v, R);
-    return walked;
-  }
+  if (!on_face) return walk_around_box(slabs, p, v, R);
   entry.time = slabs.entry_time(slabs.axis, p, v, R);
+  slabs.meet(entry, slabs.axis);
   entry.normal = axis_vector<S>(slabs.axis, v[slabs.axis] > S(0));
   return entry;
 }
 
-/// The same where a product of lengths or displacements would overflow or underflow.
-template <Scalar S>
-THINWALL_COLD Entry<S> rounded_box_entry_rescaled(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
-  const int length_exponent = binary_exponent(largest(p, h, R)), speed_exponent = binary_exponent(largest(v));
-  if (largest(v) == S(0) || (length_exponent == 0 && speed_exponent == 0)) return {};
-  Entry<S> entry =
-      rounded_box_entry<S>(times_power_of_two(p, -length_exponent), times_power_of_two(v, -speed_exponent),
-                           times_power_of_two(h, -length_exponent), times_power_of_two(R, -length_exponent));
-  entry.time = times_power_of_two(entry.time, length_exponent - speed_exponent);
-  return entry;
+/// First time at which p + v t is within R of the box [-h, h].
+template <Scalar S> Entry<S> rounded_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
+  return entry_at_safe_scale<S>(&rounded_box_entry_in_range<S>, p, v, R, h);
 }
 
 }  // namespace thinwall

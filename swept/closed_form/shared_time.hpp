@@ -13,6 +13,7 @@ namespace thinwall {
 template <Scalar S> struct SharedTime {
   S first = -std::numeric_limits<S>::infinity();  ///< [1] from when; at most 0: they overlap at the start
   S last = std::numeric_limits<S>::infinity();    ///< [1] until when; before `first`: never
+  S second = first;                               ///< [1] from when but for that axis
   int decided_by = -1;                            ///< number of the axis that decided `first`
   S first_leave = last, last_enter = first;       ///< the other ends of the intervals that decided them
 
@@ -24,6 +25,7 @@ template <Scalar S> struct SharedTime {
     const S ahead = copysign(reach, speed);
     const S enter = (-ahead - distance) / speed, leave = (ahead - distance) / speed;
     if (enter > first) decided_by = axis;
+    second = enter > first ? first : enter > second ? enter : second;
     first_leave = enter > first ? leave : first_leave;
     first = enter > first ? enter : first;
     last_enter = leave < last ? enter : last_enter;

@@ -49,7 +49,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
   const Vec3<T> motion = relative_displacement(sphere, box);
   const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
   Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   entry.normal = out_of(frame, entry.normal);
   return toi_of_turned(method, box, sphere, entry,
                        [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
@@ -85,7 +85,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
                           into(b.shape, motion)};
   Entry<T> entry = boxes_entry(moving, gap);
   const Vec3<T> touching = moving.touching_point(entry, gap);
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   entry.normal = world_normal(a.shape, b.shape, moving, entry);
   return toi_of_turned(method, a, b, entry, [&](const T& time) -> Vec3<T> {
     return (a.shape.center + a.displacement * time) + out_of(a.shape, touching);
@@ -102,7 +102,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
                           into(a.shape, motion)};
   Entry<T> entry = boxes_entry(moving, gap);
   const Vec3<T> touching = moving.touching_point(entry, gap);
-  entry.time += path.base_time;
+  entry.come_later(path.base_time);
   return toi_of_turned(method, a, b, flipped(entry),
                        [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
 }
@@ -128,7 +128,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, 
     entry = flat_entry<T>(FlatShape::triangle, sphere.shape.center - t.a, motion, e1, e2, T(1));
   } else {
     entry = sphere_triangle_entry<T>(path.start, motion, reach, e1, e2);
-    entry.time += path.base_time;
+    entry.come_later(path.base_time);
   }
   return toi_of(triangle, sphere, gap, entry,
                 [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
