@@ -162,6 +162,9 @@ template <Scalar S> PrismPart<S> closest_on_core_and_triangle(const Capsule<S>& 
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Triangle<S>& triangle, const S& reach) {
+  if (reach == S(0))
+    return segment_meets_triangle<S>(capsule.a - triangle.a, capsule.b - capsule.a, triangle.b - triangle.a,
+                                     triangle.c - triangle.a);
   const CorePart<S> part = closest_on_core_and_triangle(capsule, triangle).part;
   return part.contains_point() || within(part.gap, reach);
 }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include <thinwall/capsule/segment.hpp>
+#include <thinwall/discrete/entry/flat_entry.hpp>
 #include <thinwall/discrete/shape.hpp>
 #include <thinwall/discrete/triangle.hpp>
 
@@ -22,6 +23,13 @@ template <Scalar S> struct PrismPart {
   Vec3<S> on_triangle = Vec3<S>::Zero();
   S s = 0;
 };
+
+/// True if the segment x + s * d, s in [0, 1], meets the triangle (0, e1, e2): exactly, unless a product underflows.
+template <Scalar S>
+bool segment_meets_triangle(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
+  const Entry<S> along = flat_entry<S>(FlatShape::triangle, x, d, e1, e2, S(1));
+  return along.inside || along.time <= S(1);
+}
 
 /// How far apart the direction of `gap` shows the segment x + s * d and the triangle (0, e1, e2) to be, times its length.
 template <Scalar S>

@@ -1,6 +1,7 @@
 #pragma once
 /// When a moving segment comes within R of a box: the walk of core_entry.hpp over the parts of their Minkowski sum, begun
-/// where the shadows on six axes first overlap. Most misses have no such time, and most hits need one part.
+/// where the shadows on six axes first overlap. Most misses have no such time, and most hits need one part. Where R is zero that
+/// time is the answer: the six axes are the normals of the sum's faces.
 
 #include <thinwall/capsule/segment_box.hpp>
 #include <thinwall/swept/closed_form/core_entry.hpp>
@@ -9,31 +10,53 @@
 namespace thinwall {
 
 /// When the shadows of the segment p + v t + s * d, s in [0, 1], rounded by R, and of the box [-h, h] overlap on the three
-/// axes of the box and their products with d. Reaches are widened by more than rounding: no contact lies outside.
+/// axes of the box and their products with d: exact where R is zero.
 template <Scalar S>
 SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h,
                                     const S& R) {
   using std::sqrt;
   const Vec3<S> middle = p + d / S(2);
-  const S noise = gap_noise(largest(middle, d, S(h.sum() + R)));
   SharedTime<S> shared;
-  for (int i = 0; i < 3; ++i) shared.narrow(i, middle[i], v[i], h[i] + largest(d[i]) / S(2) + R + noise);
+  for (int i = 0; i < 3; ++i) shared.narrow(i, middle[i], v[i], h[i] + largest(d[i]) / S(2) + R);
   if (!shared.ever()) return shared;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const S n_j = -d[k], n_k = d[j], length = sqrt(n_j * n_j + n_k * n_k);
     shared.narrow(3 + i, middle[j] * n_j + middle[k] * n_k, v[j] * n_j + v[k] * n_k,
-                  h[j] * largest(n_j) + h[k] * largest(n_k) + (R + noise) * length);
+                  h[j] * largest(n_j) + h[k] * largest(n_k) + R * length);
   }
   return shared;
+}
+
+/// When a segment without a radius meets the box: the shadows on six axes are all there is.
+template <Scalar S>
+Entry<S> sharp_segment_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h) {
+  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(0));
+  Entry<S> entry;
+  entry.graze = shared.close();
+  if (!shared.ever() || shared.decided_by < 0) return entry;
+  entry.time = std::max(S(0), shared.first);
+  entry.not_before = shared.second;
+  entry.not_after = shared.last;
+  const int i = shared.decided_by % 3;
+  const Vec3<S> axis = Vec3<S>::Unit(i), n = shared.decided_by < 3 ? axis : safe_unit(cross(axis, d));
+  entry.normal = v.dot(n) > S(0) ? Vec3<S>(-n) : n;
+  return entry;
 }
 
 /// Requires lengths and displacements whose products of four are in range.
 template <Scalar S>
 Entry<S> capsule_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d,
                                     const Vec3<S>& h) {
-  const S size = largest(p, R, d, h);
-  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, R);
+  const S size = largest(p, R, d, h), noise = gap_noise(largest(p, d, S(h.sum() + R)));
+  if (R == S(0)) {
+    const CorePart<S> part = closest_on_swept_box(p, d, h);
+    if (!part.contains_point() && part.gap != Vec3<S>::Zero()) return sharp_segment_box_entry(p, v, d, h);
+    Entry<S> entry;
+    entry.inside = true;
+    return entry;
+  }
+  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(R + noise));  // no contact lies outside
   if (!shared.ever()) return {};
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(

@@ -3,6 +3,7 @@
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/swept/closed_form/capsule_box_entry.hpp>
+#include <thinwall/swept/closed_form/capsule_triangle_entry.hpp>
 #include <thinwall/swept/closed_form/closed_form_parts.hpp>
 #include <thinwall/swept/closed_form/core_entry.hpp>
 
@@ -56,6 +57,9 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(capsule, box);
   const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
+  if constexpr (has_wider<T>) {
+    if (reach == T(0) && own.graze) return toi_by_wider<ClosedForm<S>, Capsule<T>, Aabb<T>, T>(method, capsule, box);
+  }
   Entry<T> entry = flipped(own);
   entry.come_later(path.base_time);
   return toi_of(capsule, box, gap, entry, [&](const T& time) -> Vec3<T> {
@@ -85,16 +89,18 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Triangle<T>>& triangle) {
   const Triangle<T>& t = triangle.shape;
-  const auto closest = [](const Vec3<T>& x, const Vec3<T>& d, const Vec3<T>& e1, const Vec3<T>& e2) {
-    return closest_on_swept_triangle(x, d, e1, e2).part;
-  };
   const Vec3<T> e1 = t.b - t.a, e2 = t.c - t.a, motion = relative_displacement(capsule, triangle);
   const T reach = capsule.shape.radius + T(method.min_separation);
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, t.a, reach + largest(e1, e2));
   const Vec3<T> core = shape.b - shape.a;
   const NearPath<T> path(shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
-  Entry<T> entry = core_entry_at_any_scale<T>(closest, path.start, motion, reach, core, e1, e2);
-  entry.come_later(path.base_time);
+  Entry<T> entry;
+  if (reach == T(0)) {
+    entry = sharp_segment_triangle_entry<T>(shape.a - t.a, motion, core, e1, e2);
+  } else {
+    entry = capsule_triangle_entry<T>(path.start, motion, reach, core, e1, e2);
+    entry.come_later(path.base_time);
+  }
   return toi_of(capsule, triangle, T(method.min_separation), flipped(entry),
                 [&](const T& time) { return middle_point(capsule, triangle, time); });
 }
