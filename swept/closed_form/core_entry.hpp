@@ -101,6 +101,16 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     const bool inside_soon = !decided && closest(p + v * S(time + 4 * noise / speed)).distance() < R;
     return inside_soon ? hit(time, Vec3<S>::Zero()) : miss(nearest);
   };
+  // A path along an edge passes a corner where the edge begins, to rounding, and may close in on that.
+  int passed = 0;
+  const auto goes_on = [&](const CorePart<S>& nearest, const S& time) {
+    const S soon = speed == S(0) ? time : S(time + 4 * noise / speed);
+    const CorePart<S> next = closest(p + v * soon);
+    if (next.id == nearest.id || !(next.closing_speed(v) > S(0)) || ++passed > 4) return false;
+    free = now = soon;
+    part = next;
+    return true;
+  };
   int touches = 0;
   bool touched = false;                      // in contact at `now`, to rounding
   Vec3<S> touched_normal = Vec3<S>::Zero();  // of the part that led there
@@ -109,12 +119,19 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     if (touched && largest(closing) <= speed_noise)
       return hit(now, part.outward());  // along it: no other time is any better
     if (touched && part.contains_point() && !(closing > S(0))) return hit(now, touched_normal);  // its side is rounding
-    if (!(closing > S(0))) return miss_unless_soon_inside(part, now);  // convex: what recedes does not come back
+    if (!(closing > S(0))) {  // convex: what recedes does not come back
+      if (!touched && goes_on(part, now)) continue;
+      return miss_unless_soon_inside(part, now);
+    }
     const PartEntry<S> entry = part_entry(part, p, v, R);
     const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
     if (!is_finite(target)) return answer;
     const CorePart<S> there = closest(p + v * target);
-    if (there.id == part.id) return entry.exists ? hit(target, entry.normal) : miss_unless_soon_inside(there, target);
+    if (there.id == part.id) {
+      if (entry.exists) return hit(target, entry.normal);
+      if (goes_on(there, target)) continue;
+      return miss_unless_soon_inside(there, target);
+    }
     const S ahead = there.distance() - R;
     if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
     const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
