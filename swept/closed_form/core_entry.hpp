@@ -101,13 +101,16 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     const bool inside_soon = !decided && closest(p + v * S(time + 4 * noise / speed)).distance() < R;
     return inside_soon ? hit(time, Vec3<S>::Zero()) : miss(nearest);
   };
-  // A path along an edge passes a corner where the edge begins, to rounding, and may close in on that.
+  // A path along an edge passes a corner where the edge begins, to rounding, and may close in on that; and so with a face.
   int passed = 0;
   const auto goes_on = [&](const CorePart<S>& nearest, const S& time) {
-    const S soon = speed == S(0) ? time : S(time + 4 * noise / speed);
+    const S across = nearest.kind == CorePart<S>::edge ? largest(cross(v, safe_unit(nearest.direction))) : speed;
+    const S soon = time + 4 * noise / across;
+    if (!is_finite(soon) || ++passed > 4) return false;
     const CorePart<S> next = closest(p + v * soon);
-    if (next.id == nearest.id || !(next.closing_speed(v) > S(0)) || ++passed > 4) return false;
-    free = now = soon;
+    if (next.id == nearest.id || !(next.closing_speed(v) > S(0))) return false;
+    free = next.distance() > R ? soon : time;  // convex: it has come nearer all the while
+    now = soon;
     part = next;
     return true;
   };
@@ -144,7 +147,8 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       part = there;
       continue;
     }
-    const S next = now + (part.distance() - R) / closing;  // Newton: never past the first contact
+    const S step = (part.distance() - R) / closing, next = now + step;  // Newton: never past the first contact
+    if (touched && largest(step) * speed > noise) return hit(now, part.outward());  // what is left is rounding
     if (!(next > free) || next == now) return hit(std::max(free, next), part.outward());
     free = now = next;
     touched = false;
