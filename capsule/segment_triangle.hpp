@@ -44,26 +44,27 @@ template <Scalar S>
 PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
   const Vec3<S> normal = accurate_cross(e1, e2);
+  const S rounding = gap_noise(largest(x, d, e1, e2)) / 4;
   PrismPart<S> best;
   S least = std::numeric_limits<S>::infinity();
   const auto is_better = [&](const Vec3<S>& gap) {
-    const S square = gap.squaredNorm(), rounding = 4 * std::numeric_limits<S>::epsilon();
-    const bool ties = square <= least * (1 + rounding) && square >= least * (1 - rounding);
-    if (ties) return parted_along(gap, x, d, e1, e2) > parted_along(best.part.gap, x, d, e1, e2);
-    return square < least;
+    const S distance = gap.norm();
+    const bool ties = largest(S(distance - least)) <= rounding && std::min(distance, least) > 16 * rounding;
+    if (!ties) return distance < least;
+    return parted_along(gap, x, d, e1, e2) * least > parted_along(best.part.gap, x, d, e1, e2) * distance;
   };
   for (int end = 0; end < 2; ++end) {
     const Vec3<S> tip = end == 0 ? x : Vec3<S>(x + d);
     const CorePart<S> face = closest_on_triangle(tip, e1, e2);
     if (face.kind != CorePart<S>::face || !is_better(face.gap)) continue;
-    least = face.gap.squaredNorm();
+    least = face.gap.norm();
     best = {
         {end, CorePart<S>::face, end == 0 ? Vec3<S>::Zero() : Vec3<S>(-d), normal, face.gap}, tip - face.gap, S(end)};
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const SegmentPair<S> pair = closest_on_segments<S>(x - from[k], along[k], d);
     if (!is_better(pair.gap)) continue;
-    least = pair.gap.squaredNorm();
+    least = pair.gap.norm();
     CorePart<S> side = closest_on_parallelogram<S>(x - from[k], along[k], d);
     side.origin += from[k];
     side.id += 10 * (static_cast<int>(k) + 1);
