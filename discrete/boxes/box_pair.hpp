@@ -348,11 +348,12 @@ template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
 template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
   BoxPoints<S> best;
   S least = std::numeric_limits<S>::infinity();
+  const S rounding = box_noise(pair) / 4;
   const auto overlap = [&](const Vec3<S>& n) { return pair.overlap(safe_unit(n)); };
   const auto consider = [&](const Vec3<S>& on_a, const Vec3<S>& on_b) {
     const Vec3<S> gap = on_b - on_a;
-    const S distance = safe_norm(gap), rounding = 4 * std::numeric_limits<S>::epsilon() * distance;
-    const bool ties = largest(S(distance - least)) <= rounding;
+    const S distance = safe_norm(gap);
+    const bool ties = largest(S(distance - least)) <= rounding && std::min(distance, least) > 4 * rounding;
     if (ties ? overlap(gap) < overlap(best.on_b - best.on_a) : distance < least) {
       least = distance;
       best = {on_a, on_b};
@@ -443,14 +444,39 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
   return gap;
 }
 
-/// The same with the normal of a plane that parts the boxes by all of the gap. Beside nearly parallel faces or edges many
-/// points are as near as rounding can tell, and the line through two of them may lean: then an axis parts them more.
+/// The direction n out of the box [-h, h] at a point of its surface, without what rounding has put in: at a corner it does not lean inwards,
+/// on an edge or a face not along it.
+template <Scalar S> Vec3<S> leaning_outwards(const Vec3<S>& n, const Vec3<S>& point, const Vec3<S>& h, const S& noise) {
+  Vec3<S> outwards = n;
+  for (int i = 0; i < 3; ++i) {
+    const bool on_side = largest(point[i]) >= h[i] - noise, leans_in = (n[i] > S(0)) != (point[i] > S(0));
+    if (h[i] > noise && (!on_side || leans_in)) outwards[i] = 0;
+  }
+  return outwards;
+}
+
+/// The same with the normal of a plane that parts the boxes by all of the gap, and how far it parts them. Beside nearly parallel
+/// faces or edges many points are as near as rounding can tell, and the line through two of them may lean: then an axis parts
+/// them more, or that line without what it leans.
 template <Scalar S> CoreGap<S> parting_gap(const BoxPair<S>& pair) {
   CoreGap<S> gap = box_gap(pair);
-  if (gap.distance > S(0)) {
-    const LeastOverlap<S> axis = least_overlap(pair);
-    if (axis.overlap < pair.overlap(gap.normal)) gap.normal = axis.normal;
+  if (!(gap.distance > S(0))) return gap;
+  S least = pair.overlap(gap.normal);
+  const auto consider = [&](const Vec3<S>& n) {
+    if (n == Vec3<S>::Zero() || !(pair.overlap(n) < least)) return;
+    least = pair.overlap(n);
+    gap.normal = n;
+  };
+  const S noise = box_noise(pair);
+  const Vec3<S> on_b = pair.axes.transpose() * gap.local_b;
+  Vec3<S> n = gap.normal;
+  for (int round = 0; round < 2; ++round) {
+    n = -(pair.axes * leaning_outwards<S>(-(pair.axes.transpose() * n), on_b, pair.half_b, noise));
+    n = safe_unit(leaning_outwards(n, gap.local_a, pair.half_a, noise));
+    consider(n);
   }
+  consider(least_overlap(pair).normal);
+  gap.distance = -least;
   return gap;
 }
 
