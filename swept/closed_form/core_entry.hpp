@@ -136,7 +136,8 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       return miss_unless_soon_inside(there, target);
     }
     const S ahead = there.distance() - R;
-    if (ahead == S(0) && R == S(0)) return hit(target, entry.normal);
+    const bool is_there = entry.exists && entry.time <= free && ahead <= noise;  // what is left is rounding
+    if (is_there || (ahead == S(0) && R == S(0))) return hit(target, entry.normal);
     const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
     const bool touching = ahead <= S(0) && ahead >= -noise && ++touches < 4;  // to rounding: let that part have its say
     if (before || touching) {
