@@ -9,15 +9,15 @@
 
 namespace thinwall {
 
-/// The path p + v t, of which only what lies within `reach` of the origin matters. A start less than four reaches away is
+/// The path p + v t, of which only what lies within `reach` of the origin matters. A start less than `far` reaches away is
 /// left where it is.
 /// Error: `start` is p + v * base_time to a rounding of its own.
 template <Scalar S> struct NearPath {
   Vec3<S> start;
   S base_time = 0;  ///< [1] >= 0: there is no contact before
 
-  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach) : start(p) {
-    if (largest(p) < 4 * reach) return;
+  NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach, const S& far = S(4)) : start(p) {
+    if (largest(p) < far * reach) return;
     const SafeScale<S> scale(largest(p), largest(v));
     begin_later(scale.length(p), scale.displacement(v), scale.length(reach));
     if (scale.is_one() || base_time == S(0)) return;
