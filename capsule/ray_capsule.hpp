@@ -51,7 +51,11 @@ Entry<S> rounded_segment_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, cons
     }
   }
   const Entry<S> cap = ball_entry<S>(far_end ? Vec3<S>(p - d) : p, v, R);
-  return cap.inside ? entry : cap;
+  if (is_finite(cap.time)) return cap;
+  // Met and left beyond the end, or, but for a rounding, beside it: they are one where it crosses the end's plane.
+  const S at_end = ((far_end ? end : S(0)) - along) / v.dot(axis), noise = gap_noise(largest(p, d, R));
+  entry.graze = within<S>(cross<S>(p + v * at_end, axis), (R + S(1 << 20) * noise) * length);
+  return entry;
 }
 
 /// First time at which p + v t is within R of the segment s * d, s in [0, 1].

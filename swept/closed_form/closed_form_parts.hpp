@@ -116,6 +116,16 @@ THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, cons
   return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, wide(a), wide(b)));
 }
 
+/// The same for a walk around a core, which a miss by little leaves in doubt.
+template <class Method, class A, class B, Scalar T, class Point>
+Toi<T> toi_of_walk(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
+                   const Point& point) {
+  if constexpr (has_wider<T>) {
+    if (found.graze) return toi_by_wider<Method, A, B, T>(method, a, b);
+  }
+  return toi_of(a, b, T(method.min_separation), found, point);
+}
+
 /// The same for a pair whose coordinates were turned into a box's axes: three roundings more each, and axes that are
 /// orthonormal to rounding only. A hit is settled where that moves it by no more than a backward error of 4 u; all else, a graze too,
 /// is asked in the wider scalar.

@@ -92,7 +92,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   };
   const S speed = largest(v), noise = gap_noise(largest(p, S(R + size))), speed_noise = gap_noise(speed);
   const auto miss = [&](const CorePart<S>& nearest) {
-    answer.graze = nearest.distance() - R <= noise;
+    answer.graze = nearest.distance() - R <= S(1 << 20) * noise;
     return answer;
   };
   // This near, the side it is seen from is rounding: what has it inside a moment later did not recede.

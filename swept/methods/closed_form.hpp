@@ -130,8 +130,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, 
     entry = sphere_triangle_entry<T>(path.start, motion, reach, e1, e2);
     entry.come_later(path.base_time);
   }
-  return toi_of(triangle, sphere, gap, entry,
-                [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_of_walk(method, triangle, sphere, entry,
+                     [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 }  // namespace thinwall
