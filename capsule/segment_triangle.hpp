@@ -24,7 +24,13 @@ template <Scalar S> struct PrismPart {
   S s = 0;
 };
 
-/// True if the segment x + s * d, s in [0, 1], meets the triangle (0, e1, e2): exactly, unless a product underflows.
+/// The faces of the prism decide exactly whether it is met.
+template <Scalar S> bool prism_is_exact(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
+  const S size = largest(x, d, e1, e2);
+  return counts_beside(largest(d), size) && counts_beside(largest(e1, e2), size);
+}
+
+/// True if the segment x + s * d, s in [0, 1], meets the triangle (0, e1, e2), whose prism is exact.
 template <Scalar S>
 bool segment_meets_triangle(const Vec3<S>& x, const Vec3<S>& d, const Vec3<S>& e1, const Vec3<S>& e2) {
   const Entry<S> along = flat_entry<S>(FlatShape::triangle, x, d, e1, e2, S(1));

@@ -65,6 +65,11 @@ template <Scalar S> THINWALL_HOT bool products_in_range(const S& x) {
          x <= constant_power_of_two<S, std::numeric_limits<S>::max_exponent / 5>();
 }
 
+/// Not so short beside `size` that their products vanish at a scale that is safe for both; or no length at all.
+template <Scalar S> bool counts_beside(const S& x, const S& size) {
+  return x == S(0) || x >= size * constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 5>();
+}
+
 /// The exponent e of the power of two for which x / 2^e has products in range; 0 where x itself has, or is zero.
 template <Scalar S> int safe_exponent(const S& x) { return products_in_range(x) ? 0 : binary_exponent(x); }
 

@@ -92,7 +92,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Vec3<T> core = shape.b - shape.a;
   const NearPath<T> path(shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
   Entry<T> entry;
-  if (reach == T(0)) {
+  if (reach == T(0) && prism_is_exact<T>(shape.a - t.a, core, e1, e2)) {
     entry = sharp_segment_triangle_entry<T>(shape.a - t.a, motion, core, e1, e2);
   } else {
     entry = capsule_triangle_entry<T>(path.start, motion, reach, core, e1, e2);
