@@ -253,7 +253,13 @@ template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& g
   }
   R conditioning = 0;
   for (int round = 0; round < 400; ++round) {
-    if (!(gap.closing > 0)) return impact;
+    if (!(gap.closing > 0)) {  // where cores touch to the last digits the side they do it from is rounding
+      if (round == 0 || gap.core - problem.reach > 4096 * tolerance * gap.scale) return impact;
+      impact.verdict = Verdict::hit;
+      impact.time = time;
+      impact.conditioning = conditioning;
+      return impact;
+    }
     conditioning = gap.scale / gap.closing;
     const R next = time + (gap.core - problem.reach) / gap.closing;
     if (next > 1) return impact;  // the tangent bounds the separation from below, all the way to the end
