@@ -29,9 +29,8 @@ TYPED_TEST(Brushing, meets_the_contract_where_little_decides) {
       const Toi<double> toi = time_of_impact(a, b);
       const auto fault = fuzz::judge_impact(fuzz::exhibit(a, b), toi.status, toi.time, 4);
       if (!fault) continue;
-      if (++faults <= 10)
-        ADD_FAILURE() << fault->property << ": " << fault->details << ", seed " << seed << ", sizes from 2^"
-                      << smallest;
+      if (++faults > 10) continue;
+      ADD_FAILURE() << fault->property << ": " << fault->details << ", seed " << seed << ", sizes from 2^" << smallest;
     }
   }
   EXPECT_EQ(faults, 0U) << "of " << 2 * motions;
