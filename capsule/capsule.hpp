@@ -162,9 +162,11 @@ template <Scalar S> PrismPart<S> closest_on_core_and_triangle(const Capsule<S>& 
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Triangle<S>& triangle, const S& reach) {
-  const Vec3<S> x = capsule.a - triangle.a, core = capsule.b - capsule.a;
-  const Vec3<S> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
-  if (reach == S(0) && prism_is_exact(x, core, e1, e2)) return segment_meets_triangle(x, core, e1, e2);
+  if (reach == S(0)) {
+    const Vec3<S> x = capsule.a - triangle.a, core = capsule.b - capsule.a;
+    const Vec3<S> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+    if (prism_is_exact(x, core, e1, e2)) return segment_meets_triangle(x, core, e1, e2);
+  }
   const CorePart<S> part = closest_on_core_and_triangle(capsule, triangle).part;
   return part.contains_point() || within(part.gap, reach);
 }

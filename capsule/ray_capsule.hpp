@@ -53,8 +53,8 @@ Entry<S> rounded_segment_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, cons
   const Entry<S> cap = ball_entry<S>(far_end ? Vec3<S>(p - d) : p, v, R);
   if (is_finite(cap.time)) return cap;
   // Met and left beyond the end, or, but for a rounding, beside it: they are one where it crosses the end's plane.
-  const S at_end = ((far_end ? end : S(0)) - along) / v.dot(axis), noise = gap_noise(largest(p, d, R));
-  entry.graze = within<S>(cross<S>(p + v * at_end, axis), (R + S(1 << 20) * noise) * length);
+  const S at_end = ((far_end ? end : S(0)) - along) / v.dot(axis);
+  entry.graze = within<S>(cross<S>(p + v * at_end, axis), (R + near_miss(largest(p, d, R))) * length);
   return entry;
 }
 

@@ -53,24 +53,25 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
   const S rounding = gap_noise(largest(x, d, e1, e2)) / 4;
   PrismPart<S> best;
   S least = std::numeric_limits<S>::infinity();
-  const auto is_better = [&](const Vec3<S>& gap) {
+  const auto becomes_best = [&](const Vec3<S>& gap) {
     const S distance = gap.norm();
     const bool ties = largest(S(distance - least)) <= rounding && std::min(distance, least) > 16 * rounding;
-    if (!ties) return distance < least;
-    return parted_along(gap, x, d, e1, e2) * least > parted_along(best.part.gap, x, d, e1, e2) * distance;
+    const bool better =
+        ties ? parted_along(gap, x, d, e1, e2) * least > parted_along(best.part.gap, x, d, e1, e2) * distance
+             : distance < least;
+    if (better) least = distance;
+    return better;
   };
   for (int end = 0; end < 2; ++end) {
     const Vec3<S> tip = end == 0 ? x : Vec3<S>(x + d);
     const CorePart<S> face = closest_on_triangle(tip, e1, e2);
-    if (face.kind != CorePart<S>::face || !is_better(face.gap)) continue;
-    least = face.gap.norm();
+    if (face.kind != CorePart<S>::face || !becomes_best(face.gap)) continue;
     best = {
         {end, CorePart<S>::face, end == 0 ? Vec3<S>::Zero() : Vec3<S>(-d), normal, face.gap}, tip - face.gap, S(end)};
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const SegmentPair<S> pair = closest_on_segments<S>(x - from[k], along[k], d);
-    if (!is_better(pair.gap)) continue;
-    least = pair.gap.norm();
+    if (!becomes_best(pair.gap)) continue;
     CorePart<S> side = closest_on_parallelogram<S>(x - from[k], along[k], d);
     side.origin += from[k];
     side.id += 10 * (static_cast<int>(k) + 1);

@@ -19,8 +19,12 @@ template <Scalar S> struct NearPath {
   NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach, const S& far = S(4)) : start(p) {
     if (largest(p) < far * reach) return;
     const SafeScale<S> scale(largest(p), largest(v));
+    if (scale.is_one()) {
+      begin_later(p, v, reach);
+      return;
+    }
     begin_later(scale.length(p), scale.displacement(v), scale.length(reach));
-    if (scale.is_one() || base_time == S(0)) return;
+    if (base_time == S(0)) return;
     start = scale.length_back(start);
     base_time = scale.time_back(base_time);
   }

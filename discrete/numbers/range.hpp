@@ -96,6 +96,9 @@ template <Scalar S> THINWALL_HOT bool square_in_range(const S& square) {
 /// A gap this small between cores of this size is round-off: it has a length but no direction.
 template <Scalar S> S gap_noise(const S& size) { return 16 * std::numeric_limits<S>::epsilon() * size; }
 
+/// A miss by no more, which a wider scalar may see as a hit: it is asked there.
+template <Scalar S> S near_miss(const S& size) { return S(1 << 20) * gap_noise(size); }
+
 template <Scalar S> THINWALL_COLD S norm_out_of_range(const Vec3<S>& v) {
   using std::sqrt;
   const S size = largest(v);

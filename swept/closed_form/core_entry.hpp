@@ -90,9 +90,10 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
     return answer;
   };
-  const S speed = largest(v), noise = gap_noise(largest(p, S(R + size))), speed_noise = gap_noise(speed);
+  const S sizes = largest(p, S(R + size)), noise = gap_noise(sizes);
+  const S speed = largest(v), speed_noise = gap_noise(speed);
   const auto miss = [&](const CorePart<S>& nearest) {
-    answer.graze = nearest.distance() - R <= S(1 << 20) * noise;
+    answer.graze = nearest.distance() - R <= near_miss(sizes);
     return answer;
   };
   // This near, the side it is seen from is rounding: what has it inside a moment later did not recede.

@@ -2,25 +2,24 @@
 /// Motions of two shapes past each other that little decides: faces, edges and cores parallel but for 2^-50 to 2^-1, parts that touch
 /// to rounding where they pass, sizes decades apart, and speeds across that are as small.
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 
 #include <thinwall/discrete/type_list.hpp>
 #include <thinwall/swept/reach_along.hpp>
 
+#include "support/portable_draw.hpp"
 #include "support/shaker.hpp"
 
 namespace thinwall::testing {
 
 /// The same motions by every compiler: nothing is drawn in an order that the language leaves open.
-class BrushingDraw {
+class BrushingDraw : PortableDraw {
   using V = Vec3<double>;
 
  public:
   /// Sizes are 2^smallest or more, and at most 2.
-  BrushingDraw(std::uint64_t seed, int smallest) : engine_(seed), smallest_(smallest) {}
+  BrushingDraw(std::uint64_t seed, int smallest) : PortableDraw(seed), smallest_(smallest) {}
 
   template <class A, class B> Motion<A, B> motion() {
     Mat3<double> frame = one_in(3) ? turned(-1, 1) : nearly_upright();
@@ -43,11 +42,6 @@ class BrushingDraw {
   }
 
  private:
-  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
-  bool one_in(int n) { return below(n) == 0; }
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
   /// A power of two, or that and its half, of either sign.
   double power(int low, int high) {
     const double size = std::ldexp(one_in(2) ? 1.0 : between(1, 2), low + below(high - low + 1));
@@ -99,16 +93,16 @@ class BrushingDraw {
 
   /// Where B's center passes A's along n: where they touch, or their cores, all but that, or somewhere beside.
   template <class A, class B> double passing(const A& a, const B& b, const V& n, bool touching) {
-    const double cores = reach_along<double>(a, n) + reach_along<double>(b, -n) - (skin_radius(a) + skin_radius(b));
-    const double way = one_in(2) ? cores : cores + (skin_radius(a) + skin_radius(b)), side = one_in(2) ? 1 : -1;
+    const double skins = skin_radius(a) + skin_radius(b);
+    const double cores = reach_along<double>(a, n) + reach_along<double>(b, -n) - skins;
+    const double way = one_in(2) ? cores : cores + skins, side = one_in(2) ? 1 : -1;
     const int how = touching ? 0 : below(4);
-    if (touching && skin_radius(a) + skin_radius(b) > 0) return side * (cores + (skin_radius(a) + skin_radius(b)));
+    if (touching && skins > 0) return side * (cores + skins);
     if (how == 1) return side * way * (1 + power(-52, -4));
     if (how == 2) return between(-way, way);
     return how == 3 ? 0 : side * way;
   }
 
-  std::mt19937_64 engine_;
   int smallest_;
 };
 

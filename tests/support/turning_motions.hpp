@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string_view>
 #include <utility>
 
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/discrete/type_list.hpp>
 
+#include "support/portable_draw.hpp"
 #include "support/spinner.hpp"
 
 namespace thinwall::testing {
@@ -47,15 +47,10 @@ enum class Aim {
 inline constexpr std::array<std::string_view, 4> aim_names = {"none", "near_miss", "dip", "at_the_end"};
 
 /// The same motions by every compiler: nothing is drawn in an order that the language leaves open.
-class MotionDraw {
+class MotionDraw : public PortableDraw {
  public:
-  explicit MotionDraw(std::uint64_t seed) : engine_(seed) {}
+  using PortableDraw::PortableDraw;
 
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
-  bool one_in(int n) { return below(n) == 0; }
   Vec3<double> direction() {
     Vec3<double> v;
     do {
@@ -172,8 +167,6 @@ class MotionDraw {
       when = time;
     }
   }
-
-  std::mt19937_64 engine_;
 };
 
 }  // namespace thinwall::testing

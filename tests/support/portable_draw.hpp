@@ -1,0 +1,23 @@
+#pragma once
+/// The same random numbers by every compiler, which the distributions of the standard library do not promise.
+
+#include <cstdint>
+#include <random>
+
+namespace thinwall::testing {
+
+class PortableDraw {
+ public:
+  explicit PortableDraw(std::uint64_t seed) : engine_(seed) {}
+
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
+  bool one_in(int n) { return below(n) == 0; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace thinwall::testing
