@@ -1,4 +1,4 @@
-#include <thinwall/experiments/thin_wall/theory.hpp>
+#include <thinwall/experiments/thin_wall/methods.hpp>
 
 namespace thinwall {
 

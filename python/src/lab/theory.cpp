@@ -11,8 +11,8 @@
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/spinning_rod/model.hpp>
+#include <thinwall/experiments/thin_wall/methods.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
-#include <thinwall/experiments/thin_wall/theory.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 
 namespace thinwall {
