@@ -245,14 +245,14 @@ THINWALL_HOT ClearContact clear_contact(const Capsule<double>& first, const Caps
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Capsule<double>& capsule) {
   using packed::Lanes, packed::all, packed::lanes, packed::twice;
-  const ClearSegmentEntry entry =
-      clear_segment_entry(twice(ray.origin) - packed::side_by_side(capsule.a, capsule.b), twice(ray.direction),
-                          twice(capsule.b) - twice(capsule.a), packed::both(capsule.radius));
-  if (entry.passes) return ClearRayHit::miss();
+  const auto ends = twice(ray.origin) - packed::side_by_side(capsule.a, capsule.b), along = twice(ray.direction);
+  const ClearSide line(ends, along, twice(capsule.b) - twice(capsule.a), packed::both(capsule.radius));
+  if (all_of(line.passes() & line.aslant() & line.in_range())) return ClearRayHit::miss();
+  const ClearSegmentEntry entry = clear_segment_entry(line, ends, along);
   const Lanes a = lanes(capsule.a), v = lanes(ray.direction), p = lanes(ray.origin) - a;
   const Lanes on_core = (lanes(capsule.b) - a) * all(entry.on);
-  const ClearEntry at{entry.clear, entry.time, unit((p - on_core) + v * all(entry.time))};
-  return clear_ray_hit(at, p, v, ray.max_t, a + on_core, capsule.radius);
+  const ClearEntry at{all_of(entry.clear), entry.time, unit((p - on_core) + v * all(entry.time))};
+  return clear_ray_hit(at, firsts(line.square), line.speed, ray.max_t, a + on_core, capsule.radius);
 }
 
 }  // namespace thinwall

@@ -1,8 +1,8 @@
 #pragma once
 /// The clear cases of segment_box.hpp: what of a segment is nearest to a box, without a jump.
 
-#include <thinwall/discrete/clear/clear_box_axes.hpp>
 #include <thinwall/discrete/clear/clear_nearest.hpp>
+#include <thinwall/discrete/clear/vectors.hpp>
 
 namespace thinwall {
 
@@ -14,7 +14,13 @@ struct ClearSegmentBox {
   packed::Pair size;
 
   THINWALL_HOT ClearSegmentBox(const packed::Lanes& core, const packed::Lanes& half, const packed::Lanes& motion)
-      : d(core), h(half), v(motion), per_d(packed::all(1) / core), size(sum(abs(core) + half)), D(core), H(half) {}
+      : d(core),
+        h(half),
+        v(motion),
+        per_d(packed::all(1) / core),
+        size(sum(abs(core) + half)),
+        D(spread(core)),
+        H(spread(half)) {}
 
   THINWALL_HOT packed::Lanes low() const { return packed::all(0) - h - max(d, packed::all(0)); }
   THINWALL_HOT packed::Lanes high() const { return h - min(d, packed::all(0)); }
@@ -23,20 +29,28 @@ struct ClearSegmentBox {
     return firsts(both) - min(seconds(both), packed::both(0));
   }
 
-  THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
+  /// Which part it is of: the faces it is outside of, turned towards the box, and whether it is on the segment's side.
+  struct Part {
+    ClearNearest nearest;
+    packed::LanesMask outside;
+    packed::Lanes faces;
+    packed::Pair dd;
+    packed::PairMask side;
+  };
+
+  THINWALL_HOT Part part(const packed::Lanes& x) const {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
     const Lanes none = all(0), one = all(1), back = none - h;
     const Lanes in = max(min((back - x) * per_d, one), none), out = max(min((h - x) * per_d, one), none);
-    const ClearSpread X(x);
+    const packed::Vectors<Lanes> X = spread(x);
     const Lanes slope_in = slope(X, in), slope_out = slope(X, out);
     const Pair low = largest_of(max(keep(slope_in <= none, in), keep(slope_out <= none, out)));
     const Pair high = smallest_of(min(select(none <= slope_in, in, one), select(none <= slope_out, out, one)));
     const Pair between = (low + high) * both(0.5);  // of a stretch that is all as near, where low is beyond high
     const Lanes there = x + d * all(between);
     const LanesMask outside = h < abs(there);
-    const Lanes out_d = keep(outside, d), out_v = keep(outside, v);
-    const Pair of_d = two_sums(out_d * out_d, out_d * (x + against(h, there))),
-               of_v = two_sums(out_v * out_v, out_v * out_d);
+    const Lanes out_d = keep(outside, d), out_v = keep(outside, v), faces = against(h, there);
+    const Pair of_d = two_sums(out_d * out_d, out_d * (x + faces)), of_v = two_sums(out_v * out_v, out_v * out_d);
     const Pair dd = firsts(of_d);
     const Pair least = min(max((both(0) - seconds(of_d)) / dd, low), high);
     const PairMask level = dd <= both(0);
@@ -44,13 +58,29 @@ struct ClearSegmentBox {
     const PairMask side = (both(0) < s) & (s < both(1)) & (both(0) < dd);
     const Lanes moved = x + d * all(s), on = max(min(moved, h), back);
     const Pair speed = firsts(of_v) - keep(side, seconds(of_v) * seconds(of_v) / dd);
-    return {on - d * all(s), moved - on, speed, s};
+    return {{on - d * all(s), moved - on, speed, s}, outside, faces, dd, side};
+  }
+  /// Whether at another place it is of the same part still, and then where: the part's own place is in it, and none beside it is nearer. The
+  /// distance is convex along the segment.
+  THINWALL_HOT bool is_still(const packed::Lanes& x, Part& part) const {
+    using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
+    const Pair along = dot(keep(part.outside, d), x + part.faces);
+    const Pair s = select(part.side, (both(0) - along) / part.dd, part.nearest.place);
+    const Lanes moved = x + d * all(s), on = max(min(moved, h), all(0) - h), gap = moved - on;
+    const Pair slope = dot(gap, d);
+    const LanesMask faces = (part.outside & (h < abs(moved)) & (moved * part.faces < all(0)));
+    const PairMask beside = part.side & (both(0) < s) & (s < both(1));
+    const Pair end = part.nearest.place, inwards = select(end <= both(0), slope, both(0) - slope);
+    const PairMask at_end = ((end <= both(0)) | (both(1) <= end)) & (both(0) < inwards);
+    const bool same_faces = packed::both(bits(faces) == bits(part.outside), bits(h < abs(moved)) == bits(part.outside));
+    part.nearest.at = on - d * all(s), part.nearest.gap = gap, part.nearest.place = s;
+    return all_of(at_end | beside) && (same_faces || all_of(at_end));
   }
 
  private:
   /// Of the squared distance, halved, at three places on the segment that starts at X. Where it crosses the plane of a face, that face's
   /// axis has no part in it, to the bit: what is level stays so.
-  THINWALL_HOT packed::Lanes slope(const ClearSpread& X, const packed::Lanes& s) const {
+  THINWALL_HOT packed::Lanes slope(const packed::Vectors<packed::Lanes>& X, const packed::Lanes& s) const {
     using packed::all, packed::lanes;
     const packed::LanesMask at_end = (s <= all(0)) | (all(1) <= s);
     return (keep(at_end | lanes(0, -1, -1), part(X.x, D.x, H.x, s)) +
@@ -63,7 +93,7 @@ struct ClearSegmentBox {
     return along * (at - max(min(at, half), packed::all(0) - half));
   }
 
-  ClearSpread D, H;
+  packed::Vectors<packed::Lanes> D, H;
 };
 
 }  // namespace thinwall

@@ -185,7 +185,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
   const LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
   const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
-  return {both(slabs.clear, ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
+  return {both(slabs.clear(), ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
           center + select(axis, against(h, v), clamped), keep(axis, against(all(1), v))};
 }
 

@@ -124,38 +124,35 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 
 /// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often.
 struct ClearFrame {
+  static constexpr bool is_turned = true;
   const double* numbers;
   packed::Lanes x, y, z;
+  packed::Vectors<packed::Lanes> rows;  ///< of each of the world's axes, what the box's have along it
 
-  THINWALL_HOT explicit ClearFrame(const Mat3<double>& axes)
-      : numbers(axes.data()),
-        x(packed::lanes(axes.data())),
-        y(packed::lanes(axes.data() + 3)),
-        z(packed::lanes(axes.data() + 6)) {}
+  THINWALL_HOT explicit ClearFrame(const Mat3<double>& m)
+      : numbers(m.data()),
+        x(packed::lanes(numbers)),
+        y(packed::lanes(numbers + 3)),
+        z(packed::lanes(numbers + 6)),
+        rows(packed::transposed(x, y, z)) {}
   THINWALL_HOT bool clear() const {
-    using packed::Pair, packed::Two;
-    const Pair off = abs(two_sums(x * x, y * y) - packed::both(1)) + abs(two_sums(z * z, x * y) - Pair{Two{1, 0}}) +
-                     abs(two_sums(y * z, z * x));
-    return all_of(off <= packed::both(0x1p-49));
+    const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
+    return all_of(abs(dot(rows, rows) - packed::all(1)) + abs(dot(rows, next)) <= packed::all(0x1p-49));
   }
   /// Vectors in the box's own axes, and one of these in the world's.
-  THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return lanes(two_sums(x * v, y * v), sum(z * v)); }
+  THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return dot(rows, spread(v)); }
   THINWALL_HOT packed::Lanes out_of(const packed::Lanes& v) const {
-    return (x * all(firsts(xy_of(v))) + y * all(seconds(xy_of(v)))) + z * all(zz_of(v));
+    const packed::Vectors<packed::Lanes> part = spread(v);
+    return (x * part.x + y * part.y) + z * part.z;
   }
   THINWALL_HOT packed::Lanes axis(int i) const { return packed::lanes(numbers + 3 * static_cast<std::ptrdiff_t>(i)); }
 };
-
-/// Row i of a matrix: the number that each axis has along i.
-THINWALL_HOT packed::Lanes clear_row(const Mat3<double>& axes, int i) {
-  return lanes(packed::Pair{packed::Two{axes(i, 0), axes(i, 1)}}, packed::both(axes(i, 2)));
-}
 
 /// Two boxes whose centers are `between` apart in the first one's axes; `orthonormal` if all axes are clear.
 THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const packed::Lanes& between,
                                               const packed::Lanes& size, bool orthonormal) {
   using packed::Lanes, packed::LanesMask, packed::all, packed::both;
-  const ClearSpread d(between);
+  const packed::Vectors<Lanes> d = spread(between);
   LanesMask apart = all(1) < all(0), within = all(0) <= min(boxes.a, boxes.b);
   const LanesMask in_range = within & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
   boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise) {
@@ -177,9 +174,8 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>&
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& b, const Aabb<double>& a) {
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
   const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
-  const ClearBoxAxes boxes{
-      {clear_row(b.axes, 0), clear_row(b.axes, 1), clear_row(b.axes, 2)}, ha, hb, size * packed::all(0x1p-46)};
-  return clear_boxes_overlap(boxes, between, size, ClearFrame(b.axes).clear());
+  const ClearFrame of_b(b.axes);
+  return clear_boxes_overlap({of_b.rows, ha, hb, size * packed::all(0x1p-46)}, between, size, of_b.clear());
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {

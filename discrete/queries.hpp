@@ -64,10 +64,12 @@ template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, 
 template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
   if constexpr (HasClearOverlap<A, B>) {
     const ClearOverlap answer = clear_overlap(a, b);
-    if (answer.clear) return answer.overlaps;
+    if (answer.clear) [[likely]]
+      return answer.overlaps;
   } else if constexpr (HasClearOverlap<B, A>) {
     const ClearOverlap answer = clear_overlap(b, a);
-    if (answer.clear) return answer.overlaps;
+    if (answer.clear) [[likely]]
+      return answer.overlaps;
   }
   return careful_overlaps(a, b);
 }
@@ -160,7 +162,8 @@ template <Shape A, Shape B> THINWALL_HOT std::optional<Contact<typename A::Scala
   static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
   if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
     const ClearContact answer = clear_contact_either_way(a, b);
-    if (answer.clear) return answer.contact();
+    if (answer.clear) [[likely]]
+      return answer.contact();
   }
   return careful_contact(a, b);
 }
@@ -194,7 +197,8 @@ template <Scalar S, Shape A> THINWALL_HOT std::optional<RayHit<S>> raycast(const
   static_assert(std::same_as<S, typename A::Scalar>, "the ray and the shape must have the same scalar");
   if constexpr (HasClearRaycast<A>) {
     const ClearRayHit answer = clear_raycast(ray, shape);
-    if (answer.clear) return answer.ray_hit();
+    if (answer.clear) [[likely]]
+      return answer.ray_hit();
   }
   return careful_raycast(ray, shape);
 }

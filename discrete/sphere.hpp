@@ -89,7 +89,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Sphere<doub
   const PairMask in_range =
       (both(packed::least_square) <= min(square, speed)) & (max(square, speed) <= both(packed::most_square));
   if (all_of((passes | leads_away) & in_range)) return ClearRayHit::miss();
-  return clear_ray_hit(clear_ball_entry(p, v, R), p, v, ray.max_t, center, sphere.radius);
+  return clear_ray_hit(clear_ball_entry(p, v, R), square, speed, ray.max_t, center, sphere.radius);
 }
 
 }  // namespace thinwall

@@ -70,7 +70,9 @@ template <class Method, Shape A, Shape B>
 THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   if constexpr (std::is_same_v<Method, ClosedForm<double>> && HasClearImpact<A, B>) {
     const ClearToi answer = clear_impact(a, b, method.min_separation);
-    return answer.clear ? answer.toi() : careful_impact(method, a, b);
+    if (answer.clear) [[likely]]
+      return answer.toi();
+    return careful_impact(method, a, b);
   } else if constexpr (std::is_same_v<Method, ClosedForm<float>> && has_exact_cast<A> && has_exact_cast<B>) {
     return impact_in_double(method, a, b);
   } else {

@@ -1,12 +1,24 @@
 #pragma once
 /// What the clear rung answers to a query at one instant, and which shapes have one.
 
+#include <cstring>
 #include <optional>
 
 #include <thinwall/discrete/clear/clear_entry.hpp>
 #include <thinwall/discrete/results.hpp>
 
 namespace thinwall {
+
+/// Empties `held` unless `holds`, without a jump: libstdc++ and libc++ keep that flag behind the value.
+template <class Held> THINWALL_HOT void keep_if(bool holds, std::optional<Held>& held) {
+#if defined(__GLIBCXX__) || defined(_LIBCPP_VERSION)
+  static_assert(sizeof held == sizeof(Held) + alignof(Held));
+  const unsigned char flag = holds ? 1 : 0;
+  std::memcpy(reinterpret_cast<unsigned char*>(&held) + sizeof(Held), &flag, 1);
+#else
+  if (!holds) held.reset();
+#endif
+}
 
 /// Contact data, if whether they touch is clear; of no meaning unless they do.
 struct ClearContact {
@@ -20,7 +32,7 @@ struct ClearContact {
     store(local_b, made->local_b);
     store(normal, made->normal);
     made->penetration = value(penetration);
-    if (!touching) made.reset();
+    keep_if(touching, made);
     return made;
   }
 };
@@ -47,13 +59,13 @@ struct ClearRayHit {
   }
 };
 
-/// The hit of the ray p + v t on a core rounded by R, which it enters over `on_core`. Whether that is before the ray's end is clear if
+/// The hit of the ray p + v t on a core rounded by R, which it enters over `on_core`; `square` is p.p, `speed` v.v. Whether that is before the ray's end is clear if
 /// the two are a millionth of the way apart.
-THINWALL_HOT ClearRayHit clear_ray_hit(const ClearEntry& entry, const packed::Lanes& p, const packed::Lanes& v,
+THINWALL_HOT ClearRayHit clear_ray_hit(const ClearEntry& entry, const packed::Pair& square, const packed::Pair& speed,
                                        double max_t, const packed::Lanes& on_core, double R) {
   using packed::both;
   const packed::Pair end = both(max_t), beyond = entry.time - end;
-  const packed::PairMask apart = dot(p, p) * both(0x1p-40) < beyond * beyond * dot(v, v);
+  const packed::PairMask apart = square * both(0x1p-40) < beyond * beyond * speed;
   return {both(entry.clear, all_of(apart & (both(0) <= min(end, both(R))))),
           all_of(entry.time < min(end, both(ClearEntry::never))), entry.time, on_core + entry.normal * packed::all(R),
           entry.normal};

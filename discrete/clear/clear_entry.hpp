@@ -84,13 +84,15 @@ THINWALL_HOT packed::Lanes clear_face_normal(unsigned axes, const packed::Lanes&
   return keep(packed::lowest(axes), against(packed::all(1), v));
 }
 
-/// When p + v t is in the box [-h, h] widened by R, as if it moved downwards on every axis; not later than `until`.
+/// When p + v t is in the box [-h, h] widened by R >= 0, as if it moved downwards on every axis; not later than `until`.
 struct ClearSlabs {
-  packed::Lanes P, W;          ///< the place and the speed so seen
-  packed::Lanes low, high;     ///< how far it is to where the slabs begin and end, not widened
-  packed::Lanes enter, leave;  ///< [1] when it is in the widened slabs
-  packed::Pair first, last;    ///< [1] when it is in all of them: last < first, never
-  bool clear;                  ///< which of the two is first, and that the start is outside
+  packed::Lanes P, W;                   ///< the place and the speed so seen
+  packed::Lanes low, high;              ///< how far it is to where the slabs begin and end, not widened
+  packed::Lanes extent;                 ///< [length] of all that counts on an axis
+  packed::Lanes enter, leave;           ///< [1] when it is in the widened slabs
+  packed::Pair first, last;             ///< [1] when it is in all of them: last < first, never
+  packed::Pair time;                    ///< [1] `first`, or `never`
+  packed::LanesMask in_range, outside;  ///< outside on one axis is enough
 
   THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
                           const packed::Lanes& R, double until)
@@ -98,18 +100,22 @@ struct ClearSlabs {
         W(abs(v)),
         low(P - h),
         high(P + h),
+        extent(abs(p) + W + h),
         enter(max((low - R) / W, packed::all(0))),
         leave(min((high + R) / W, packed::all(until))),
         first(largest_of(enter)),
-        last(smallest_of(leave)) {
-    using packed::all, packed::both;
-    const packed::LanesMask in_range = (abs(p) + W + h <= all(packed::most_length)) & (all(0) <= h) & (all(0) <= R);
-    const packed::LanesMask outside = R * all(packed::more_than_rounding) < abs(p) - h;
-    const packed::Pair between = abs(first - last);
-    const packed::PairMask apart =
-        (min(last, first) * both(packed::more_than_rounding - 1) < between) & (both(packed::least_time) < between);
-    clear = both(both(all_of(in_range), any_of(outside)),
-                 all_of(apart & ((last < first) | (both(packed::least_time) < first))));
+        last(smallest_of(leave)),
+        time(select(last < first, packed::both(ClearEntry::never), first)),
+        in_range((extent <= packed::all(packed::most_length)) & (packed::all(0) <= h)),
+        outside(R * packed::all(packed::more_than_rounding) < abs(p) - h) {}
+  /// Which of `first` and `last` comes first.
+  THINWALL_HOT packed::PairMask in_order() const {
+    using packed::both;
+    const packed::Pair rounding = min(last, first) * both(packed::more_than_rounding - 1);
+    return (max(rounding, both(packed::least_time)) < abs(first - last)) & (both(packed::least_time) < time);
+  }
+  THINWALL_HOT bool clear() const {
+    return packed::both(packed::both(all_of(in_range), any_of(outside)), all_of(in_order()));
   }
 };
 
@@ -145,17 +151,19 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
                                         const packed::Pair& R) {
   using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
   const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
-  const PairMask misses = slabs.last < slabs.first;
-  const Lanes X = slabs.P - all(slabs.first) * slabs.W, noise = clear_noise(p, h);
+  const Lanes X = slabs.P - all(slabs.first) * slabs.W;
+  const Lanes noise = turned ? clear_noise(p, h) : slabs.extent * all(0x1p-48);
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
-  const LanesMask is_round = (noise * all(0x1p20) < all(R)) & (all(1 / packed::most_length) <= all(R));
-  const LanesMask outside_noise = all(R) + noise + noise < abs(p) - h;
-  const ClearOrder order(slabs.low - all(R), slabs.high + all(R), slabs.W, noise, ClearEntry::never);
-  const bool clear = both(slabs.clear, !turned || (both(any_of(outside_noise), order.meets || order.misses)));
-  ClearEntry entry{both(clear, both(all_of(is_round), (axes | bits(misses)) != 0)),
-                   select(misses, both(ClearEntry::never), slabs.first), clear_face_normal(axes, v)};
+  const LanesMask is_round = max(noise * all(0x1p20), all(1 / packed::most_length)) <= all(R);
+  bool clear = both(both(all_of(slabs.in_range & is_round), any_of(slabs.outside)), all_of(slabs.in_order()));
+  if (turned) {
+    const ClearOrder order(slabs.low - all(R), slabs.high + all(R), slabs.W, noise, ClearEntry::never);
+    clear = both(both(clear, any_of(all(R) + noise + noise < abs(p) - h)), order.meets || order.misses);
+  }
+  ClearEntry entry{both(clear, (axes | bits(slabs.last < slabs.first)) != 0), slabs.time, clear_face_normal(axes, v)};
   if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
   const Lanes enter = slabs.low / slabs.W, leave = slabs.high / slabs.W;
+  const PairMask fine = largest_of(noise) * both(0x1p32) < R;
   Pair now = slabs.first;
   for (int part = 0; part < 4; ++part) {
     const LanesMask before = all(now) < enter, beyond = leave <= all(now), outside = before | beyond;
@@ -167,9 +175,9 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
     const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
     // by then the point recedes; or as good as, within a rounding of a distance of at most 2^16 R
-    const PairMask turns = (both(0) < next * chord.speed + chord.toward * both(packed::more_than_rounding)) |
-                           ((both(0) <= next * chord.speed + chord.toward * both(2 - packed::more_than_rounding)) &
-                            (xy_of(noise) * both(0x1p32) < R));
+    const PairMask turns =
+        (both(0) < next * chord.speed + chord.toward * both(packed::more_than_rounding)) |
+        ((both(0) <= next * chord.speed + chord.toward * both(2 - packed::more_than_rounding)) & fine);
     PairMask passes = stays_out & chord.passes() & turns;
     if (!turned) passes = passes | (stays_out & (slabs.last < next));
     const PairMask decided = (meets | passes) & chord.in_range();

@@ -2,36 +2,16 @@
 /// The clear cases of closest_on_triangle() in triangle.hpp, without a jump: its three edges in three lanes.
 
 #include <thinwall/discrete/clear/clear_nearest.hpp>
+#include <thinwall/discrete/clear/vectors.hpp>
 
 namespace thinwall {
-
-/// Three vectors, by their components.
-struct ClearColumns {
-  packed::Lanes x, y, z;
-
-  THINWALL_HOT friend ClearColumns operator-(const ClearColumns& a, const ClearColumns& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
-  THINWALL_HOT friend ClearColumns operator*(const ClearColumns& a, const packed::Lanes& s) {
-    return {a.x * s, a.y * s, a.z * s};
-  }
-  THINWALL_HOT friend packed::Lanes dot(const ClearColumns& a, const ClearColumns& b) {
-    return (a.x * b.x + a.y * b.y) + a.z * b.z;
-  }
-  /// The one of the lane that is kept.
-  THINWALL_HOT packed::Lanes of(const packed::LanesMask& one) const {
-    return lanes(two_sums(keep(one, x), keep(one, y)), sum(keep(one, z)));
-  }
-};
-THINWALL_HOT ClearColumns clear_columns(const packed::Lanes& v) {
-  return {all(firsts(xy_of(v))), all(seconds(xy_of(v))), all(zz_of(v))};
-}
 
 /// The triangle (0, e1, e2), past which a point moves by v.
 struct ClearTriangle {
   packed::Lanes e1, e2, normal;
-  packed::Pair size, per_nn;        ///< per_nn: 1 / normal.normal
-  ClearColumns from, edge, inward;  ///< of each edge: where it starts, where it goes and which side is the triangle's
+  packed::Pair size, per_nn;  ///< per_nn: 1 / normal.normal
+  /// Of each edge: where it starts, where it goes and which side is the triangle's.
+  packed::Vectors<packed::Lanes> from, edge, inward;
   packed::Lanes per_length,
       beside;                     ///< of each edge: one over its square, and the square of the motion at right angles
   packed::Pair speed, of_normal;  ///< squares of the motion and of its part along the normal
@@ -41,14 +21,14 @@ struct ClearTriangle {
       : e1(to_b), e2(to_c), normal(cross(to_b, to_c)), size(sum(abs(to_b) + abs(to_c))) {
     using packed::Lanes, packed::Pair, packed::all, packed::both;
     const Lanes d[3] = {e1, e2 - e1, all(0) - e2}, none = all(0);
-    edge = columns(d[0], d[1], d[2]), from = columns(none, e1, e2);
-    inward = columns(cross(normal, d[0]), cross(normal, d[1]), cross(normal, d[2]));
+    edge = packed::transposed(d[0], d[1], d[2]), from = packed::transposed(none, e1, e2);
+    inward = packed::transposed(cross(normal, d[0]), cross(normal, d[1]), cross(normal, d[2]));
     const Pair of_v = two_sums(v * v, v * normal);
     per_nn = both(1) / dot(normal, normal);
     speed = firsts(of_v), of_normal = seconds(of_v) * seconds(of_v) * per_nn;
     per_length = all(1) / dot(edge, edge);
     broad = both(0x1p-8) * (dot(e1, e1) * dot(e2, e2)) * per_nn < both(1);
-    const Lanes along = dot(edge, clear_columns(v));
+    const Lanes along = dot(edge, spread(v));
     beside = all(speed) - along * along * per_length;
   }
 
@@ -62,28 +42,19 @@ struct ClearTriangle {
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
     const Lanes none = all(0), full = all(1);
-    const ClearColumns to_x = clear_columns(x) - from;
+    const packed::Vectors<Lanes> to_x = spread(x) - from;
     const Lanes place = max(min(dot(edge, to_x) * per_length, full), none);
-    const ClearColumns gaps = to_x - edge * place;
+    const packed::Vectors<Lanes> gaps = to_x - edge * place;
     const Lanes square = dot(gaps, gaps);
     const LanesMask nearest_edge = packed::lowest(bits(square <= all(smallest_of(square))));
     const LanesMask end = (place <= none) | (full <= place);
     const Pair of_edge = sum(keep(nearest_edge, select(end, all(speed), beside)));
     const Pair depth = smallest_of(dot(inward, to_x));
     const PairMask inside = both(0) < depth;
-    const Lanes above = normal * all(dot(x, normal) * per_nn), gap = select(all(inside), above, gaps.of(nearest_edge));
+    const Lanes above = normal * all(dot(x, normal) * per_nn),
+                gap = select(all(inside), above, only(nearest_edge, gaps));
     const bool one = packed::all_of(broad | (depth <= both(0)));
     return {x - gap, gap, select(inside, of_normal, of_edge), both(0), one};
-  }
-
- private:
-  /// The transpose of three vectors.
-  THINWALL_HOT static ClearColumns columns(const packed::Lanes& a, const packed::Lanes& b, const packed::Lanes& c) {
-    using packed::Pair, packed::lanes;
-    const auto both_of = [](const Pair& p, const Pair& q) { return Pair{__builtin_shufflevector(p.v, q.v, 0, 2)}; };
-    const auto others_of = [](const Pair& p, const Pair& q) { return Pair{__builtin_shufflevector(p.v, q.v, 1, 3)}; };
-    return {lanes(both_of(xy_of(a), xy_of(b)), firsts(xy_of(c))),
-            lanes(others_of(xy_of(a), xy_of(b)), seconds(xy_of(c))), lanes(both_of(zz_of(a), zz_of(b)), zz_of(c))};
   }
 };
 

@@ -4,7 +4,7 @@
 ///
 /// A vector that is written number by number and read in pairs waits for the store, and a jump that is a coin's toss costs more
 /// than a square root. So what is computed stays in registers from load to store, and answers are selected by masks. The registers
-/// are GCC's and Clang's own vectors: for Lanes one of four numbers where the machine has them (the fourth repeats the third), else
+/// are GCC's and Clang's own vectors: for Lanes one of four numbers where the machine has them (the fourth is of no meaning), else
 /// two of two; and plain numbers where there are none. The bits are the same everywhere: every sum has one order, (x + y) + z.
 
 #include <bit>
@@ -25,6 +25,7 @@ template <class Number, int count> struct Register {
   using Type [[gnu::vector_size(count * sizeof(Number))]] = Number;
 };
 using Two = Register<double, 2>::Type;
+using Four = Register<double, 4>::Type;
 
 template <class Number> struct PairOf {
   typename Register<Number, 2>::Type v;
@@ -57,6 +58,18 @@ template <class To, class F, class... Given> THINWALL_HOT LanesOf<To> each(const
 #endif
 }
 
+#ifdef __SSE2__  // beside a constant GCC would compare and mask
+THINWALL_HOT Two least(const Two& x, const Two& y) { return _mm_min_pd(x, y); }
+THINWALL_HOT Two most(const Two& x, const Two& y) { return _mm_max_pd(x, y); }
+#ifdef __AVX__
+THINWALL_HOT Four least(const Four& x, const Four& y) { return _mm256_min_pd(x, y); }
+THINWALL_HOT Four most(const Four& x, const Four& y) { return _mm256_max_pd(x, y); }
+#endif
+#else
+THINWALL_HOT Two least(const Two& x, const Two& y) { return x < y ? x : y; }
+THINWALL_HOT Two most(const Two& x, const Two& y) { return x > y ? x : y; }
+#endif
+
 #define THINWALL_LANE_BY_LANE(name, To, From, expression)                                                       \
   template <template <class> class Pack> THINWALL_HOT Pack<To> name(const Pack<From>& a, const Pack<From>& b) { \
     return each<To>([](const auto& x, const auto& y) { return expression; }, a, b);                             \
@@ -67,8 +80,8 @@ THINWALL_LANE_BY_LANE(operator-, double, double, x - y)
 THINWALL_LANE_BY_LANE(operator*, double, double, x * y)
 THINWALL_LANE_BY_LANE(operator/, double, double, x / y)
 // The second, where one of the two is not a number.
-THINWALL_LANE_BY_LANE(min, double, double, x < y ? x : y)
-THINWALL_LANE_BY_LANE(max, double, double, x > y ? x : y)
+THINWALL_LANE_BY_LANE(min, double, double, least(x, y))
+THINWALL_LANE_BY_LANE(max, double, double, most(x, y))
 // False, where one of the two is not a number.
 THINWALL_LANE_BY_LANE(operator<, Bits, double, x < y)
 THINWALL_LANE_BY_LANE(operator<=, Bits, double, x <= y)
@@ -111,22 +124,26 @@ template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack
 THINWALL_HOT Pair both(double x) { return {Two{x, x}}; }
 THINWALL_HOT Pair firsts(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 0, 0)}; }
 THINWALL_HOT Pair seconds(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 1, 1)}; }
+THINWALL_HOT Pair firsts(const Pair& a, const Pair& b) { return {__builtin_shufflevector(a.v, b.v, 0, 2)}; }
+THINWALL_HOT Pair seconds(const Pair& a, const Pair& b) { return {__builtin_shufflevector(a.v, b.v, 1, 3)}; }
 THINWALL_HOT double value(const Pair& a) { return a.v[0]; }
 
 #ifdef __AVX__
-THINWALL_HOT Lanes all(double x) { return {typename Register<double, 4>::Type{x, x, x, x}}; }
+THINWALL_HOT Lanes all(double x) { return {Four{x, x, x, x}}; }
 THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
   return std::bit_cast<Lanes>(_mm256_set_m128d(std::bit_cast<__m128d>(zz), std::bit_cast<__m128d>(xy)));
 }
 THINWALL_HOT Lanes lanes(const double* x) {
-  return std::bit_cast<Lanes>(_mm256_set_m128d(_mm_loaddup_pd(x + 2), _mm_loadu_pd(x)));
+  return std::bit_cast<Lanes>(_mm256_blend_pd(_mm256_broadcast_sd(x + 2), _mm256_castpd128_pd256(_mm_loadu_pd(x)), 3));
 }
 THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
   return {typename Register<Bits, 4>::Type{x, y, z, z}};
 }
 THINWALL_HOT LanesMask all(const PairMask& m) { return {__builtin_shufflevector(m.v, m.v, 0, 0, 0, 0)}; }
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 0, 1)}; }
-THINWALL_HOT Pair zz_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 2, 2)}; }
+THINWALL_HOT Pair zz_of(const Lanes& a) {
+  return std::bit_cast<Pair>(_mm256_extractf128_pd(std::bit_cast<__m256d>(a), 1));
+}
 THINWALL_HOT Lanes yzx(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 0)}; }
 #else
 THINWALL_HOT Lanes all(double x) { return {Two{x, x}, Two{x, x}}; }
@@ -186,22 +203,14 @@ THINWALL_HOT Pair root(const Pair& a) {
 
 /// The sum of a, and that of b.
 THINWALL_HOT Pair two_sums(const Lanes& a, const Lanes& b) {
-  const Two ab = xy_of(a).v, cd = xy_of(b).v;
-  const Two x = __builtin_shufflevector(ab, cd, 0, 2), y = __builtin_shufflevector(ab, cd, 1, 3);
-  return {(x + y) + __builtin_shufflevector(zz_of(a).v, zz_of(b).v, 0, 2)};
+  return (firsts(xy_of(a), xy_of(b)) + seconds(xy_of(a), xy_of(b))) + firsts(zz_of(a), zz_of(b));
 }
 THINWALL_HOT Pair sum(const Lanes& a) { return two_sums(a, a); }
 THINWALL_HOT Pair dot(const Lanes& a, const Lanes& b) { return sum(a * b); }
 THINWALL_HOT Lanes cross(const Lanes& a, const Lanes& b) { return yzx(a * yzx(b) - yzx(a) * b); }
 THINWALL_HOT Lanes unit(const Lanes& a) { return a / all(root(dot(a, a))); }
-THINWALL_HOT Pair largest_of(const Lanes& a) {
-  const Pair two = max(xy_of(a), zz_of(a));
-  return max(firsts(two), seconds(two));
-}
-THINWALL_HOT Pair smallest_of(const Lanes& a) {
-  const Pair two = min(xy_of(a), zz_of(a));
-  return min(firsts(two), seconds(two));
-}
+THINWALL_HOT Pair largest_of(const Lanes& a) { return max(firsts(max(xy_of(a), zz_of(a))), seconds(xy_of(a))); }
+THINWALL_HOT Pair smallest_of(const Lanes& a) { return min(firsts(min(xy_of(a), zz_of(a))), seconds(xy_of(a))); }
 
 /// All bits of the lane of the lowest bit set.
 THINWALL_HOT LanesMask lowest(unsigned which) {

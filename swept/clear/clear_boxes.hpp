@@ -61,6 +61,7 @@ struct ClearAxis {
 
 /// A box that is not turned, as ClearFrame is one that is.
 struct ClearUpright {
+  static constexpr bool is_turned = false;
   THINWALL_HOT static bool clear() { return true; }
   THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
   THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }
@@ -75,18 +76,19 @@ struct ClearBoxes {
   packed::Pair time;             ///< [1] `never` for a miss
   packed::Lanes normal, from_a;  ///< where they touch, from the center of a
 
-  /// `row` is that of ClearBoxAxes.
+  /// `rows` are those of ClearBoxAxes.
   template <class FrameA>
   THINWALL_HOT ClearBoxes(const FrameA& of_a, const packed::Lanes& ha, const ClearFrame& of_b, const packed::Lanes& hb,
-                          const packed::Lanes (&row)[3], const packed::Lanes& between, const packed::Lanes& v) {
+                          const packed::Vectors<packed::Lanes>& rows, const packed::Lanes& between,
+                          const packed::Lanes& v) {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both, packed::lanes;
     const Lanes zero = all(0), size = all(sum((abs(between) + abs(v)) + (ha + hb)));
     const bool in_range = both(
         all_of((size <= all(packed::most_length)) & (zero <= min(ha, hb)) & (all(1 / packed::most_length) <= size)),
         both(of_a.clear(), of_b.clear()));
-    const ClearBoxAxes boxes{{row[0], row[1], row[2]}, ha, hb, size * all(0x1p-46)};
+    const ClearBoxAxes boxes{rows, ha, hb, size * all(0x1p-46)};
 
-    const ClearSpread D(of_a.into(between)), V(of_a.into(v));
+    const packed::Vectors<Lanes> D = spread(of_a.into(between)), V = spread(of_a.into(v));
     const Lanes until = all(1 + 0x1p-9);
     ClearTimes times{zero, all(-ClearEntry::never), until,
                      until};  // in_most may be before the start: then they overlap

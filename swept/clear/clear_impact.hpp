@@ -35,17 +35,18 @@ struct ClearToi {
 
 /// Whether a time is not near the end of the step; nor nearer to it than what roundings move it by, `noise` [length] over the closing
 /// speed along its normal.
-THINWALL_HOT bool clear_of_end(const packed::Pair& time, const packed::Pair& closing, const packed::Pair& noise) {
+THINWALL_HOT packed::PairMask clear_of_end(const packed::Pair& time, const packed::Pair& closing,
+                                           const packed::Pair& noise) {
   using packed::both;
-  return all_of((both(2) < time) | (closing * both(packed::near_end) + noise < closing * abs(time - both(1))));
+  return (both(2) < time) | (closing * both(packed::near_end) + noise < closing * abs(time - both(1)));
 }
-THINWALL_HOT bool clear_of_end(const packed::Pair& time) {
-  return all_of(packed::both(packed::near_end) < abs(time - packed::both(1)));
+THINWALL_HOT packed::PairMask clear_of_end(const packed::Pair& time) {
+  return packed::both(packed::near_end) < abs(time - packed::both(1));
 }
 /// No radius and no gap is negative, or not a number.
-THINWALL_HOT bool clear_sizes(double r, double s, double gap) {
+THINWALL_HOT packed::PairMask clear_sizes(double r, double s, double gap) {
   using packed::both;
-  return all_of(both(0) <= min(both(gap), min(both(r), both(s))));
+  return both(0) <= min(both(gap), min(both(r), both(s)));
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Sphere<double>>& a, const Moving<Sphere<double>>& b, double gap) {
@@ -53,7 +54,7 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Sphere<double>>& a, const Moving
   const packed::Lanes center = packed::lanes(a.shape.center), path = packed::lanes(a.displacement);
   const ClearEntry entry = clear_ball_entry(packed::lanes(b.shape.center) - center,
                                             packed::lanes(b.displacement) - path, packed::both(r + s + gap));
-  return {packed::both(entry.clear, packed::both(clear_sizes(r, s, gap), clear_of_end(entry.time))), entry.time,
+  return {packed::both(entry.clear, all_of(clear_sizes(r, s, gap) & clear_of_end(entry.time))), entry.time,
           entry.normal, (center + path * all(entry.time)) + entry.normal * packed::all(r + gap / 2)};
 }
 
@@ -63,7 +64,7 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& box, const Moving
   const ClearEntry entry =
       clear_box_entry<false>(center - packed::lanes(box.shape.center), path - packed::lanes(box.displacement),
                              packed::lanes(box.shape.half_extents), packed::both(r + gap));
-  return {packed::both(entry.clear, packed::both(clear_sizes(r, r, gap), clear_of_end(entry.time))), entry.time,
+  return {packed::both(entry.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(entry.time))), entry.time,
           entry.normal, (center + path * all(entry.time)) - entry.normal * packed::all(r + gap / 2), entry.rounds};
 }
 
@@ -75,8 +76,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const ClearSlabs slabs(center_b - center_a, v, half_a + half_b, zero, 1);
   const Lanes time = all(slabs.first), at_a = center_a + path_a * time, at_b = center_b + path_b * time;
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
-  return {both(both(slabs.clear, gap == 0), all_of(zero <= min(half_a, half_b))),
-          select(slabs.last < slabs.first, both(ClearEntry::never), slabs.first),
+  const bool sizes = all_of((zero <= min(half_a, half_b)) & slabs.in_range);
+  return {both(both(sizes, gap == 0), both(any_of(slabs.outside), all_of(slabs.in_order()))), slabs.time,
           clear_face_normal(bits(time <= slabs.enter), v), point};
 }
 
@@ -97,11 +98,11 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   const PairMask misses = both(ClearEntry::never) <= entry.time;
   const Pair time = select(misses, both(ClearEntry::never), max(plane, both(0)));
   const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - entry.time);
-  const bool settled = all_of(
-      misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= both((r + gap) * 0x1p-26))));
-  const bool in_time = clear_of_end(time, closing, size * both(0x1p-44));
+  const PairMask settled =
+      misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= both((r + gap) * 0x1p-26)));
+  const PairMask in_time = clear_of_end(time, closing, size * both(0x1p-44));
   const Lanes normal = n / all(length);
-  return {both(both(entry.clear, frame.clear()), both(clear_sizes(r, r, gap), both(settled, in_time))), time, normal,
+  return {both(both(entry.clear, frame.clear()), all_of(clear_sizes(r, r, gap) & settled & in_time)), time, normal,
           (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 
@@ -111,34 +112,33 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
   const double r = sphere.shape.radius, s = capsule.shape.radius;
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
   const Lanes p = center - a, v = path - lanes(capsule.displacement), core = lanes(capsule.shape.b) - a;
-  const ClearSegmentEntry entry =
-      clear_segment_entry(twice(sphere.shape.center) - packed::side_by_side(capsule.shape.a, capsule.shape.b),
-                          twice(sphere.displacement) - twice(capsule.displacement),
-                          twice(capsule.shape.b) - twice(capsule.shape.a), both(r + s + gap));
+  const auto ends = twice(sphere.shape.center) - packed::side_by_side(capsule.shape.a, capsule.shape.b);
+  const auto along = twice(sphere.displacement) - twice(capsule.displacement);
+  const ClearSide line(ends, along, twice(capsule.shape.b) - twice(capsule.shape.a), both(r + s + gap));
+  const ClearSegmentEntry entry = clear_segment_entry(line, ends, along);
   const Lanes time = all(entry.time), normal = unit((p - core * all(entry.on)) + v * time);
-  const bool in_time = clear_of_end(entry.time, both(0) - dot(normal, v), sum(abs(p) + abs(core)) * both(0x1p-44));
-  return {both(entry.clear, both(clear_sizes(r, s, gap), in_time)), entry.time, normal,
+  return {all_of(entry.clear & clear_sizes(r, s, gap) & clear_of_end(entry.time)), entry.time, normal,
           (center + path * time) - normal * all(r + gap / 2)};
 }
 
 /// Two boxes, `a` by its half extents and its axes, and the answer from a to b.
 template <class FrameA, class BoxA>
 THINWALL_HOT ClearToi clear_boxes_impact(const FrameA& of_a, const BoxA& a, const ClearFrame& of_b,
-                                         const Moving<Obb<double>>& b, const packed::Lanes (&row)[3], double gap) {
+                                         const Moving<Obb<double>>& b, const packed::Vectors<packed::Lanes>& rows,
+                                         double gap) {
   using packed::Lanes, packed::all, packed::both, packed::lanes;
   const Lanes center = lanes(a.shape.center), path = lanes(a.displacement), ha = lanes(a.shape.half_extents);
   const Lanes between = lanes(b.shape.center) - center, v = lanes(b.displacement) - path,
               hb = lanes(b.shape.half_extents);
-  const ClearBoxes boxes(of_a, ha, of_b, hb, row, between, v);
-  const bool in_time =
+  const ClearBoxes boxes(of_a, ha, of_b, hb, rows, between, v);
+  const packed::PairMask in_time =
       clear_of_end(boxes.time, both(0) - dot(boxes.normal, v), sum(abs(between) + (ha + hb)) * both(0x1p-44));
-  return {both(both(boxes.clear, gap == 0), in_time), boxes.time, boxes.normal,
+  return {both(both(boxes.clear, gap == 0), all_of(in_time)), boxes.time, boxes.normal,
           (center + path * all(boxes.time)) + boxes.from_a};
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& b, const Moving<Aabb<double>>& a, double gap) {
-  const Mat3<double>& axes = b.shape.axes;
-  ClearToi toi = clear_boxes_impact(ClearUpright{}, a, ClearFrame(axes), b,
-                                    {clear_row(axes, 0), clear_row(axes, 1), clear_row(axes, 2)}, gap);
+  const ClearFrame of_b(b.shape.axes);
+  ClearToi toi = clear_boxes_impact(ClearUpright{}, a, of_b, b, of_b.rows, gap);
   toi.normal = packed::all(0) - toi.normal;
   return toi;
 }
@@ -155,8 +155,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& a, const Movin
   const Lanes core_a = lanes(a.shape.b) - start;
   const ClearSegments cores(core_a, lanes(b.shape.b) - from_b, v);
   const ClearWalk walk = clear_walk(cores, p, v, both(r + s + gap));
-  return {both(both(walk.clear, clear_sizes(r, s, gap)), clear_of_end(walk.time, walk.closing, walk.noise)), walk.time,
-          walk.normal,
+  return {both(walk.clear, all_of(clear_sizes(r, s, gap) & clear_of_end(walk.time, walk.closing, walk.noise))),
+          walk.time, walk.normal,
           ((start + path * all(walk.time)) + core_a * all(walk.nearest.place)) + walk.normal * all(r + gap / 2),
           walk.rounds};
 }
@@ -169,31 +169,36 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Triangle<double>>& triangle, con
   const Lanes p = center - a, v = path - lanes(triangle.displacement);
   const ClearTriangle core(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a, v);
   const ClearWalk walk = clear_walk(core, p, v, both(r + gap));
-  return {both(both(walk.clear, clear_sizes(r, r, gap)), clear_of_end(walk.time, walk.closing, walk.noise)), walk.time,
-          walk.normal, (center + path * all(walk.time)) - walk.normal * all(r + gap / 2), walk.rounds};
+  return {both(walk.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(walk.time, walk.closing, walk.noise))),
+          walk.time, walk.normal, (center + path * all(walk.time)) - walk.normal * all(r + gap / 2), walk.rounds};
 }
 
-/// In the box's own axes; and the time once more by the plane of contact, as of a sphere and an oriented box.
+/// In the box's own axes; and where they are turned, the time once more by the plane of contact, as of a sphere and an oriented box.
 template <class Frame, class Box>
 THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, const Frame& frame, const Box& box,
                                         double gap) {
   using packed::Lanes, packed::Pair, packed::all, packed::both, packed::lanes;
   const double r = capsule.shape.radius;
-  const Lanes center = lanes(box.shape.center), path = lanes(box.displacement), a = lanes(capsule.shape.a);
-  const Lanes p = a - center, v = lanes(capsule.displacement) - path, d = lanes(capsule.shape.b) - a,
-              h = lanes(box.shape.half_extents);
+  const Lanes center = lanes(box.shape.center), path = lanes(box.displacement);
+  const Lanes a = lanes(capsule.shape.a), d = lanes(capsule.shape.b) - a;
+  const Lanes p = a - center, v = lanes(capsule.displacement) - path, h = lanes(box.shape.half_extents);
   const ClearSegmentBox core(frame.into(d), h, frame.into(v));
   const ClearWalk walk = clear_walk(core, frame.into(p), core.v, both(r + gap));
-  const Lanes n = frame.out_of(walk.normal), g = frame.into(n), s = all(walk.nearest.place);
-  const Lanes on = walk.nearest.at + core.d * s;
-  const Pair toward = two_sums(n * (p + d * s), n * v), sums = two_sums(n * n, g * on), length = root(firsts(sums));
-  const Pair closing = both(0) - seconds(toward);
-  const Pair plane = (firsts(toward) - (both(r + gap) * length + seconds(sums))) / closing;
-  const Pair time = select(walk.time < both(ClearEntry::never), max(plane, both(0)), walk.time);
-  const Lanes normal = n / all(length);
-  const bool sizes = both(clear_sizes(r, r, gap), all_of(all(0) <= h));
-  return {both(both(walk.clear, frame.clear()), both(sizes, clear_of_end(time, closing, walk.noise))), time,
-          all(0) - normal, ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
+  const Lanes on = walk.nearest.at + core.d * all(walk.nearest.place);
+  Lanes normal = walk.normal;
+  Pair time = walk.time, closing = walk.closing;
+  if constexpr (Frame::is_turned) {
+    const Lanes n = frame.out_of(walk.normal), g = frame.into(n);
+    const Pair toward = two_sums(n * (p + d * all(walk.nearest.place)), n * v), sums = two_sums(n * n, g * on);
+    const Pair length = root(firsts(sums));
+    closing = both(0) - seconds(toward);
+    const Pair plane = (firsts(toward) - (both(r + gap) * length + seconds(sums))) / closing;
+    time = select(walk.time < both(ClearEntry::never), max(plane, both(0)), walk.time);
+    normal = n / all(length);
+  }
+  const bool plain = all_of(clear_sizes(r, r, gap) & clear_of_end(time, closing, walk.noise));
+  return {both(both(walk.clear, frame.clear()), both(plain, all_of(all(0) <= h))), time, all(0) - normal,
+          ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Aabb<double>>& box,
                                    double gap) {

@@ -21,6 +21,26 @@ struct ClearWalk {
   int rounds = 1;
 };
 
+/// What of a core is nearest to one place after another; where the core can tell, first whether that is of the same part still.
+template <class Core> struct ClearLooks {
+  const Core& core;
+
+  THINWALL_HOT ClearNearest operator()(const packed::Lanes& x) const { return core.nearest(x); }
+};
+template <class Core>
+  requires requires { typename Core::Part; }
+struct ClearLooks<Core> {
+  const Core& core;
+  typename Core::Part part{};
+  bool has_part = false;
+
+  THINWALL_HOT const ClearNearest& operator()(const packed::Lanes& x) {
+    if (!has_part || !core.is_still(x, part)) part = core.part(x);
+    has_part = true;
+    return part.nearest;
+  }
+};
+
 /// The point p + v t within a step and a core rounded by R. The core has bounds, low() and high(); nearest(x); how far it reaches along a
 /// vector, reach(n), times its length; and `size`, no less than the sum of what its numbers come of.
 template <class Core>
@@ -43,8 +63,9 @@ THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, cons
     return walk;
   }
   Pair now = free;
+  ClearLooks<Core> look{core};
   for (; in_range && walk.rounds <= most_rounds; ++walk.rounds) {
-    const ClearNearest nearest = core.nearest(p + v * all(now));
+    const ClearNearest& nearest = look(p + v * all(now));
     const Lanes& n = nearest.gap;
     const Pair of_n = two_sums(n * n, n * v), of_p = two_sums(n * p, n * nearest.at), reach = core.reach(n);
     const Pair square = firsts(of_n), along = seconds(of_n), length = root(square);
@@ -60,7 +81,7 @@ THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, cons
       const packed::PairMask steep = closes & (speed * square * both(0x1p-16) < along * along);
       const packed::PairMask behind = reach - seconds(of_p) <= size * length * both(0x1p-34);
       walk.clear = both(nearest.one, all_of((both(0) < free) & steep & behind));
-      walk.time = (firsts(of_p) - (seconds(of_p) + R * length)) / (both(0) - along);
+      walk.time = max((firsts(of_p) - (seconds(of_p) + R * length)) / (both(0) - along), both(0));
       walk.normal = n / all(length);
       walk.closing = (both(0) - along) / length;
       walk.nearest = nearest;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/discrete/clear/lanes.hpp>
+#include <thinwall/discrete/clear/vectors.hpp>
 
 namespace thinwall::packed {
 namespace {
@@ -73,6 +73,21 @@ TEST(ClearLanes, masks_select) {
 TEST(ClearLanes, as_if_downwards) {
   EXPECT_EQ(stored(against(lanes(a), lanes(Vec3<double>(1, -1, 0)))), Vec3<double>(-3, a[1], -7));
   EXPECT_EQ(stored(against(lanes(a), lanes(Vec3<double>(-0.0, -1, -2)))), a);
+}
+
+TEST(ClearLanes, vectors_side_by_side_are_asked_at_once) {
+  const Vec3<double> c(0.1, -0.7, 11);
+  const Vectors<Lanes> rows = transposed(lanes(a), lanes(b), lanes(c));
+  EXPECT_EQ(stored(rows.x), Vec3<double>(a[0], b[0], c[0]));
+  EXPECT_EQ(stored(rows.y), Vec3<double>(a[1], b[1], c[1]));
+  EXPECT_EQ(stored(rows.z), Vec3<double>(a[2], b[2], c[2]));
+  const Lanes v = lanes(Vec3<double>(5, 3, -2));
+  EXPECT_EQ(stored(dot(rows, spread(v))),
+            Vec3<double>(value(dot(lanes(a), v)), value(dot(lanes(b), v)), value(dot(lanes(c), v))));
+  EXPECT_EQ(stored(only(lowest(2), rows)), b);
+  const Pair two = dot(side_by_side(a, b), twice(c));
+  EXPECT_EQ(value(firsts(two)), (a[0] * c[0] + a[1] * c[1]) + a[2] * c[2]);
+  EXPECT_EQ(value(seconds(two)), (b[0] * c[0] + b[1] * c[1]) + b[2] * c[2]);
 }
 
 TEST(ClearLanes, the_lowest_bit_has_the_lane) {
