@@ -123,22 +123,37 @@ void add_discrete(const std::string& what, double goal, Ask ask, DepthOf depth_o
       [ask, depth_of](const Query& q) { return depth_of(ask(q.a, q.b)); });
 }
 
-/// contact(), and the careful rung of it.
-template <class A, class B> void add_contact(const std::string& pair, double goal) {
-  const auto depth_of = [](const auto& found) { return found ? found->penetration : never; };
+/// The same with a careful rung beside it.
+template <class A, class B, class Ask, class Careful, class DepthOf>
+void add_rungs(const std::string& what, double goal, Ask ask, Careful careful, DepthOf depth_of) {
   using Query = Pose<A, B>;
-  add_discrete<A, B>(
-      "contact/" + pair, goal, [](const A& a, const B& b) { return contact(a, b); }, depth_of,
-      share_of<Query>(&any_poses<A, B>, [](const Query& q) {
-        if constexpr (HasClearContact<A, B>) {
-          return clear_contact(q.a, q.b).clear;
-        } else {
-          return clear_contact(q.b, q.a).clear;
-        }
-      }));
-  const auto careful = [](const Query& q) { return careful_contact(q.a, q.b); };
-  add_timed("contact/" + pair + "/careful", &any_poses<A, B>, {}, careful,
-            [careful, depth_of](const Query& q) { return depth_of(careful(q)); });
+  add_discrete<A, B>(what, goal, ask, depth_of, share_of<Query>(&any_poses<A, B>, [](const Query& q) {
+                       if constexpr (HasClearOverlap<A, B>) {
+                         return clear_overlap(q.a, q.b).clear;
+                       } else {
+                         return clear_contact_either_way(q.a, q.b).clear;
+                       }
+                     }));
+  add_timed(
+      what + "/careful", &any_poses<A, B>, {}, [careful](const Query& q) { return careful(q.a, q.b); },
+      [careful, depth_of](const Query& q) { return depth_of(careful(q.a, q.b)); });
+}
+template <class A, class B> void add_contact(const std::string& pair, double goal) {
+  add_rungs<A, B>(
+      "contact/" + pair, goal, [](const A& a, const B& b) { return contact(a, b); },
+      [](const A& a, const B& b) { return careful_contact(a, b); },
+      [](const auto& found) { return found ? found->penetration : never; });
+}
+template <class A, class B> void add_overlaps(const std::string& pair, double goal = 0) {
+  add_rungs<A, B>(
+      "overlaps/" + pair, goal, [](const A& a, const B& b) { return overlaps(a, b); },
+      [](const A& a, const B& b) { return careful_overlaps(a, b); }, [](bool overlap) { return overlap ? -1 : never; });
+}
+template <class A, class B> void add_separation(const std::string& pair) {
+  add_rungs<A, B>(
+      "separation/" + pair, 0, [](const A& a, const B& b) { return separation(a, b); },
+      [](const A& a, const B& b) { return careful_separation(a, b); },
+      [](const auto& found) { return found.distance <= 0 ? -found.distance : never; });
 }
 
 Vec3<D> between(const auto& q) { return center(q.a.shape) - center(q.b.shape); }
@@ -206,13 +221,13 @@ const bool added = [] {
         for (const auto& point : found) depth = std::max(depth, point.penetration);
         return depth;
       });
-  add_discrete<O, O>(
-      "overlaps/obb_obb", 14, [](const O& a, const O& b) { return overlaps(a, b); },
-      [](bool overlap) { return overlap ? -1 : never; },
-      share_of<Pose<O, O>>(&any_poses<O, O>, [](const auto& q) { return clear_overlap(q.a, q.b).clear; }));
-  add_timed(
-      "overlaps/obb_obb/careful", &any_poses<O, O>, {}, [](const auto& q) { return careful_overlaps(q.a, q.b); },
-      [](const auto& q) { return careful_overlaps(q.a, q.b) ? -1 : never; });
+  add_overlaps<O, O>("obb_obb", 14);
+  add_overlaps<A, A>("aabb_aabb");
+  add_overlaps<C, C>("capsule_capsule");
+  add_separation<S, S>("sphere_sphere");
+  add_separation<S, A>("sphere_aabb");
+  add_separation<S, C>("sphere_capsule");
+  add_separation<C, C>("capsule_capsule");
 
   // What it costs to write a whole Toi where a time would do: the floor of every front door.
   add("stream_toi", [](benchmark::State& state) {

@@ -156,7 +156,7 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Aabb<double
   const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
   const ClearWayOut out(x, h);
   const packed::LanesMask in_range = (abs(x) + h <= all(packed::most_length)) & (zero <= min(half_a, half_b));
-  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal, out.depth};
+  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal, out.depth, false};
 }
 
 THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<double>& sphere) {
@@ -175,7 +175,7 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<do
           zero,
           (zero - outward) * all(r),
           outward,
-          max(r + select(inside, out.depth, both(0) - distance), both(0))};
+          r + select(inside, out.depth, both(0) - distance)};
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double>& box) {

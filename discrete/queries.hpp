@@ -55,25 +55,6 @@ template <Shape A, Shape B> bool overlaps_within(const A& a, const B& b, const t
   return false;
 }
 
-/// The careful rung of overlaps(): any input, at any scale.
-template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, const B& b) {
-  return overlaps_within(a, b, typename A::Scalar(0));
-}
-
-/// True if the shapes share a point; touching counts.
-template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
-  if constexpr (HasClearOverlap<A, B>) {
-    const ClearOverlap answer = clear_overlap(a, b);
-    if (answer.clear) [[likely]]
-      return answer.overlaps;
-  } else if constexpr (HasClearOverlap<B, A>) {
-    const ClearOverlap answer = clear_overlap(b, a);
-    if (answer.clear) [[likely]]
-      return answer.overlaps;
-  }
-  return careful_overlaps(a, b);
-}
-
 /// The gap between the cores of A and B, whichever of the two has the overload.
 template <Shape A, Shape B> CoreGap<typename A::Scalar> core_gap_either_way(const A& a, const B& b) {
   if constexpr (A::rank < B::rank) {
@@ -90,25 +71,6 @@ template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(
   const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
   return {gap.distance - (skin_radius(a) + skin_radius(b)), normal, center(a) + (gap.local_a + normal * skin_radius(a)),
           center(b) + (gap.local_b - normal * skin_radius(b))};
-}
-
-/// Signed distance, normal, and a closest point on each. NaN throughout if a shape is not valid.
-/// Degenerate: where the cores touch, the normal is the one of least penetration; where several serve, the lowest axis
-/// and the positive side (boxes), or the one nearest to +x (rounded shapes).
-template <Shape A, Shape B> Separation<typename A::Scalar> separation(const A& a, const B& b) {
-  using S = typename A::Scalar;
-  static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
-  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
-  switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
-    case Magnitudes::ordinary: return separation_unchecked(a, b);
-    case Magnitudes::huge: {
-      const Separation<S> small = separation_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent));
-      return {times_power_of_two(small.distance, huge_exponent), small.normal,
-              times_power_of_two(small.point_a, huge_exponent), times_power_of_two(small.point_b, huge_exponent)};
-    }
-    case Magnitudes::invalid: break;
-  }
-  return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
 }
 
 /// contact() of valid shapes of ordinary size.
@@ -130,19 +92,47 @@ template <class A, class B> THINWALL_HOT ClearContact clear_contact_either_way(c
   }
 }
 
-/// The careful rung of contact(): any input, at any scale. What the clear one left for its size alone it is asked once more, at a size
-/// near 1, so that the unit of length changes no bit.
+/// The careful rung of overlaps(): any input, at any scale.
+template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, const B& b) {
+  return overlaps_within(a, b, typename A::Scalar(0));
+}
+
+/// True if the shapes share a point; touching counts.
+template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
+  if constexpr (HasClearOverlap<A, B>) {
+    const ClearOverlap answer = clear_overlap(a, b);
+    if (answer.clear) [[likely]]
+      return answer.overlaps;
+  } else if constexpr (HasClearOverlap<B, A>) {
+    const ClearOverlap answer = clear_overlap(b, a);
+    if (answer.clear) [[likely]]
+      return answer.overlaps;
+  } else if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
+    const ClearContact answer = clear_contact_either_way(a, b);
+    if (answer.clear) [[likely]]
+      return answer.touching;
+  }
+  return careful_overlaps(a, b);
+}
+
+/// The power of two that the clear rung is asked by once more of what it left for its size alone: at a size near 1, so that the unit of length
+/// changes no bit. None where the size is near 1, a shape is not valid, or a division would not be exact.
+template <Shape A, Shape B> std::optional<int> exponent_to_ask_at(const A& a, const B& b) {
+  const double size = magnitude(a) + magnitude(b);
+  if ((size >= 0x1p-50 && size <= 0x1p50) || !is_finite(size) || !valid(a) || !valid(b)) return std::nullopt;
+  const int e = binary_exponent(size);
+  return divides_exactly(a, e) && divides_exactly(b, e) ? std::optional(e) : std::nullopt;
+}
+
+/// The careful rung of contact(): any input, at any scale.
 template <Shape A, Shape B>
 [[gnu::noinline]] std::optional<Contact<typename A::Scalar>> careful_contact(const A& a, const B& b) {
   using S = typename A::Scalar;
   if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    const double size = magnitude(a) + magnitude(b);
-    if ((size < 0x1p-50 || size > 0x1p50) && is_finite(size) && valid(a) && valid(b)) {
-      const int e = binary_exponent(size);
-      const ClearContact answer = clear_contact_either_way(scaled(a, -e), scaled(b, -e));
+    if (const std::optional<int> e = exponent_to_ask_at(a, b)) {
+      const ClearContact answer = clear_contact_either_way(scaled(a, -*e), scaled(b, -*e));
       const auto near = answer.contact();
-      if (answer.clear && divides_exactly(a, e) && divides_exactly(b, e))
-        return near ? std::optional(scaled(*near, e)) : near;
+      if (answer.clear) return near ? std::optional(scaled(*near, *e)) : near;
     }
   }
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
@@ -166,6 +156,53 @@ template <Shape A, Shape B> THINWALL_HOT std::optional<Contact<typename A::Scala
       return answer.contact();
   }
   return careful_contact(a, b);
+}
+
+/// What the clear rung says of a separation, or otherwise().
+template <Shape A, Shape B, class Otherwise>
+THINWALL_HOT Separation<typename A::Scalar> clear_separation_or(const A& a, const B& b, const Otherwise& otherwise) {
+  if constexpr (HasClearContact<A, B>) {
+    const ClearContact answer = clear_contact(a, b);
+    if (answer.clear && answer.has_gap) [[likely]]
+      return answer.separation(center(b));
+  } else if constexpr (HasClearContact<B, A>) {
+    const ClearContact answer = clear_contact(b, a);
+    if (answer.clear && answer.has_gap) [[likely]]
+      return flipped(answer.separation(center(a)));
+  }
+  return otherwise();
+}
+
+/// The careful rung of separation(): any input, at any scale.
+template <Shape A, Shape B>
+[[gnu::noinline]] Separation<typename A::Scalar> careful_separation(const A& a, const B& b) {
+  using S = typename A::Scalar;
+  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
+    if (const std::optional<int> e = exponent_to_ask_at(a, b)) {
+      bool clear = true;
+      const Separation<S> near = clear_separation_or(scaled(a, -*e), scaled(b, -*e), [&] {
+        clear = false;
+        return Separation<S>{};
+      });
+      if (clear) return scaled(near, *e);
+    }
+  }
+  switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
+    case Magnitudes::ordinary: return separation_unchecked(a, b);
+    case Magnitudes::huge:
+      return scaled(separation_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
+    case Magnitudes::invalid: break;
+  }
+  return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
+}
+
+/// Signed distance, normal, and a closest point on each. NaN throughout if a shape is not valid.
+/// Degenerate: where the cores touch, the normal is the one of least penetration; where several serve, the lowest axis
+/// and the positive side (boxes), or the one nearest to +x (rounded shapes).
+template <Shape A, Shape B> THINWALL_HOT Separation<typename A::Scalar> separation(const A& a, const B& b) {
+  static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both shapes must have the same scalar");
+  static_assert(ServedPair<A, B>, "this pair of shapes is not served: include its header, or see docs/pairs.md");
+  return clear_separation_or(a, b, [&] { return careful_separation(a, b); });
 }
 
 /// The careful rung of raycast(): any input, at any scale.

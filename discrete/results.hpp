@@ -57,6 +57,10 @@ template <Scalar S> Contact<S> scaled(const Contact<S>& c, int e) {
           times_power_of_two(c.penetration, e)};
 }
 template <Scalar S> Contact<S> flipped(const Contact<S>& c) { return {c.local_b, c.local_a, -c.normal, c.penetration}; }
+template <Scalar S> Separation<S> scaled(const Separation<S>& s, int e) {
+  return {times_power_of_two(s.distance, e), s.normal, times_power_of_two(s.point_a, e),
+          times_power_of_two(s.point_b, e)};
+}
 template <Scalar S> Separation<S> flipped(const Separation<S>& s) {
   return {s.distance, -s.normal, s.point_b, s.point_a};
 }

@@ -72,7 +72,7 @@ THINWALL_HOT ClearContact clear_contact(const Sphere<double>& a, const Sphere<do
           normal * all(a.radius),
           (all(0) - normal) * all(b.radius),
           normal,
-          max(R - distance, both(0))};
+          R - distance};
 }
 
 /// Who asks for a ray turns on whether it hits, so most misses are told first, without a root or a division: the line passes the ball

@@ -20,24 +20,34 @@ template <class Held> THINWALL_HOT void keep_if(bool holds, std::optional<Held>&
 #endif
 }
 
-/// Contact data, if whether they touch is clear; of no meaning unless they do.
+/// Contact data from A to B, if whether they touch is clear; of no meaning unless they do, but for those that have a gap.
 struct ClearContact {
   bool clear, touching;
   packed::Lanes local_a, local_b, normal;
-  packed::Pair penetration;
+  packed::Pair depth;   ///< [length]
+  bool has_gap = true;  ///< `depth` is below 0 apart, by the distance, and `local_b` the nearest point of B
 
   THINWALL_HOT std::optional<Contact<double>> contact() const {
     std::optional<Contact<double>> made(std::in_place);  // written whatever the verdict: nothing waits for it
     store(local_a, made->local_a);
     store(local_b, made->local_b);
     store(normal, made->normal);
-    made->penetration = value(penetration);
+    made->penetration = value(max(depth, packed::both(0)));
     keep_if(touching, made);
+    return made;
+  }
+  THINWALL_HOT Separation<double> separation(const Vec3<double>& center_b) const {
+    const packed::Lanes point_b = packed::lanes(center_b) + local_b;
+    Separation<double> made;
+    made.distance = value(packed::both(0) - depth);
+    store(normal, made.normal);
+    store(point_b + normal * all(depth), made.point_a);
+    store(point_b, made.point_b);
     return made;
   }
 };
 THINWALL_HOT ClearContact flipped(const ClearContact& c) {
-  return {c.clear, c.touching, c.local_b, c.local_a, packed::all(0) - c.normal, c.penetration};
+  return {c.clear, c.touching, c.local_b, c.local_a, packed::all(0) - c.normal, c.depth};
 }
 
 /// Where a ray meets a shape, if that is clear.
