@@ -343,8 +343,8 @@ template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
   return largest(n[(axis + 1) % 3]) > noise && largest(n[(axis + 2) % 3]) > noise ? 1 : 2;
 }
 
-/// Closest points of boxes that are apart. Of those as near as each other, to rounding, the ones whose direction parts the
-/// boxes best: distances tell directions apart only to the square root of a rounding.
+/// Closest points of boxes that are apart. Of those as near as each other, to rounding, the ones whose direction parts the boxes by most of
+/// their distance: distances tell directions apart only to the square root of a rounding.
 template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
   BoxPoints<S> best;
   S least = std::numeric_limits<S>::infinity();
@@ -354,7 +354,7 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
     const Vec3<S> gap = on_b - on_a;
     const S distance = safe_norm(gap);
     const bool ties = largest(S(distance - least)) <= rounding && std::min(distance, least) > 4 * rounding;
-    if (ties ? overlap(gap) < overlap(best.on_b - best.on_a) : distance < least) {
+    if (ties ? distance + overlap(gap) < least + overlap(best.on_b - best.on_a) : distance < least) {
       least = distance;
       best = {on_a, on_b};
     }

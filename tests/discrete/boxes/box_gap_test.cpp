@@ -54,6 +54,15 @@ TEST(BoxGap, overhanging_boxes_meet_in_the_middle_of_what_they_share) {
   EXPECT_EQ(contact(floor, tilted)->local_a, found->local_a);
 }
 
+// The far face is as near as rounding tells, and the line to it parts the boxes as well.
+TEST(BoxGap, of_faces_as_near_as_each_other_to_rounding_the_nearer_is_told) {
+  Mat3<float> turned = Mat3<float>::Identity();
+  turned(0, 0) = turned(2, 2) = -1;
+  const Obb<float> a{{-7.7F, -0.2F, -8}, {4, 0, 256}, Mat3<float>::Identity()};
+  const Obb<float> b{{-0.2F, -0x1p26F, -9.2F}, {0, 16, 40}, turned};
+  EXPECT_NEAR(separation(a, b).distance, 0x1p26F - 16, 8);
+}
+
 TEST(BoxGap, least_overlap_is_on_an_axis_whatever_the_numbers) {
   for (const double bad : {nan<double>(), infinity<double>()}) {
     const BoxPair<double> pair{{1, 1, 1}, {bad, 1, 1}, {bad, 0, 0}, Mat3<double>::Identity()};
