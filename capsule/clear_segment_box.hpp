@@ -83,12 +83,12 @@ struct ClearSegmentBox {
   THINWALL_HOT packed::Lanes slope(const packed::Vectors<packed::Lanes>& X, const packed::Lanes& s) const {
     using packed::all, packed::lanes;
     const packed::LanesMask at_end = (s <= all(0)) | (all(1) <= s);
-    return (keep(at_end | lanes(0, -1, -1), part(X.x, D.x, H.x, s)) +
-            keep(at_end | lanes(-1, 0, -1), part(X.y, D.y, H.y, s))) +
-           keep(at_end | lanes(-1, -1, 0), part(X.z, D.z, H.z, s));
+    return (keep(at_end | lanes(0, -1, -1), slope_of(X.x, D.x, H.x, s)) +
+            keep(at_end | lanes(-1, 0, -1), slope_of(X.y, D.y, H.y, s))) +
+           keep(at_end | lanes(-1, -1, 0), slope_of(X.z, D.z, H.z, s));
   }
-  THINWALL_HOT static packed::Lanes part(const packed::Lanes& from, const packed::Lanes& along,
-                                         const packed::Lanes& half, const packed::Lanes& s) {
+  THINWALL_HOT static packed::Lanes slope_of(const packed::Lanes& from, const packed::Lanes& along,
+                                             const packed::Lanes& half, const packed::Lanes& s) {
     const packed::Lanes at = from + s * along;
     return along * (at - max(min(at, half), packed::all(0) - half));
   }

@@ -69,8 +69,8 @@ struct ClearRayHit {
   }
 };
 
-/// The hit of the ray p + v t on a core rounded by R, which it enters over `on_core`; `square` is p.p, `speed` v.v. Whether that is before the ray's end is clear if
-/// the two are a millionth of the way apart.
+/// The hit of the ray p + v t on a core rounded by R, which it enters over `on_core`; `square` is p.p, `speed` v.v. Whether that is before
+/// the ray's end is clear if the two are a millionth of the way apart.
 THINWALL_HOT ClearRayHit clear_ray_hit(const ClearEntry& entry, const packed::Pair& square, const packed::Pair& speed,
                                        double max_t, const packed::Lanes& on_core, double R) {
   using packed::both;
