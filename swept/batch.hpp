@@ -32,10 +32,11 @@ std::size_t answer_block(const A& a, const B& b, const ToiRows<S>& out, std::siz
   const std::size_t unclear =
       run<typename A::Item, typename B::Item>(a.rows_from(begin), b.rows_from(begin), end - begin, answers);
   const bool wants_vectors = !out.normal.x.empty() || !out.point.x.empty();
-  if (unclear == 0 && !wants_vectors) return 0;
-  for (std::size_t i = begin; i < end; ++i) {
+  std::size_t left = unclear;
+  for (std::size_t i = begin; i < end && (left > 0 || wants_vectors); ++i) {
     const bool in_contact = out.status[i] == ToiStatus::hit || out.status[i] == ToiStatus::overlapping;
     if (out.status[i] == not_clear || (wants_vectors && in_contact)) {
+      if (out.status[i] == not_clear) --left;
       out.set(i, ask(a.item(i), b.item(i)));
     } else if (wants_vectors) {
       out.set_vectors(i, Toi<S>{});

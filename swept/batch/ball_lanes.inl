@@ -15,12 +15,13 @@ namespace thinwall::batch::HWY_NAMESPACE {
 /// Of a chord whose line is walked from time 0.
 template <class D> HWY_INLINE Verdict<D> verdict_of(D d, const ChordLanes<D>& chord) {
   const auto zero = hn::Zero(d);
-  const auto toward = hn::Lt(chord.recess, zero);
-  const auto hit = hn::And(hn::And(chord.chord, chord.before_end), toward);
-  const auto miss = hn::Or(chord.none, hn::Or(hn::And(chord.chord, chord.after_end), hn::Ge(chord.recess, zero)));
-  const auto outside = hn::And(chord.ordinary, chord.outside);
-  const auto time = hn::IfThenElse(hit, chord.time, hn::Set(d, hn::TFromD<D>(1)));
-  return {hn::And(outside, hit), hn::And(outside, miss), hn::And(chord.ordinary, chord.inside), time};
+  Verdict<D> out;
+  const auto starts_clear = hn::Gt(hn::Abs(chord.excess), chord.touch), inside = hn::Lt(chord.excess, zero);
+  out.clear = hn::And(starts_clear, hn::Or(hn::Not(chord.toward), hn::Gt(chord.sure, zero)));
+  out.overlapping = inside;
+  out.hit = hn::AndNot(inside, hn::And(chord.toward, hn::And(chord.pierces, chord.in_time)));
+  out.time = hn::IfThenElse(out.hit, chord.time, hn::Set(d, hn::TFromD<D>(1)));
+  return out;
 }
 
 struct SphereSphere {
@@ -29,11 +30,8 @@ struct SphereSphere {
   template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& a, const B& b) const {
     const Vec3Lanes<hn::Vec<D>> p{hn::Sub(b(0), a(0)), hn::Sub(b(1), a(1)), hn::Sub(b(2), a(2))};
     const Vec3Lanes<hn::Vec<D>> v{hn::Sub(b(4), a(4)), hn::Sub(b(5), a(5)), hn::Sub(b(6), a(6))};
-    Verdict<D> out = verdict_of(d, chord_lanes(d, p, v, hn::Add(a(3), b(3)), hn::Zero(d)));
-    const auto valid = hn::Ge(hn::Min(a(3), b(3)), hn::Zero(d));
-    out.hit = hn::And(out.hit, valid);
-    out.apart = hn::And(out.apart, valid);
-    out.overlapping = hn::And(out.overlapping, valid);
+    Verdict<D> out = verdict_of(d, chord_lanes(d, p, v, hn::Add(a(3), b(3))));
+    out.clear = hn::And(out.clear, hn::Ge(hn::Min(a(3), b(3)), hn::Zero(d)));
     return out;
   }
 };

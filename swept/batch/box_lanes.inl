@@ -15,6 +15,25 @@ namespace thinwall::batch::HWY_NAMESPACE {
 
 template <class D> using VectorOf = Vec3Lanes<hn::Vec<D>>;
 
+/// A point's verdict, and its time of entry, where the box has sharp edges. Slabs that may be the last one entered may differ in
+/// conditioning, and then the one with less noise tells the time: such rows are not clear.
+template <class D> HWY_INLINE Verdict<D> sharp_box(D d, const BoxLanes<D>& box, hn::Vec<D> until) {
+  using S = hn::TFromD<D>;
+  const auto zero = hn::Zero(d), never = hn::Set(d, std::numeric_limits<S>::infinity());
+  const auto contending = [&](const SlabLanes<D>& slab) HWY_ATTR {
+    return hn::IfThenElse(hn::Ge(slab.enter_most, box.earliest), hn::Sub(slab.enter_most, slab.enter), never);
+  };
+  const auto least_noise = hn::Min(contending(box.x), hn::Min(contending(box.y), contending(box.z)));
+  const auto is_sharp = hn::Le(hn::Sub(box.latest, box.earliest), hn::Mul(hn::Set(d, S(4)), least_noise));
+  const auto before = hn::Min(box.earliest_out, hn::Min(until, hn::Set(d, Bounds<S>::latest)));
+  Verdict<D> out;
+  out.hit = hn::And(is_sharp, hn::And(hn::Gt(box.earliest, zero), hn::Lt(box.latest, before)));
+  out.overlapping = hn::And(hn::Lt(box.latest, zero), hn::Gt(box.earliest_out, zero));
+  out.clear = hn::And(box.ordinary, hn::Or(box.never, hn::Or(out.hit, out.overlapping)));
+  out.time = hn::IfThenElse(out.hit, box.first, until);
+  return out;
+}
+
 struct AabbAabb {
   static constexpr std::size_t columns_a = 9, columns_b = 9;
 
@@ -23,11 +42,10 @@ struct AabbAabb {
     const VectorOf<D> p{hn::Sub(b(0), a(0)), hn::Sub(b(1), a(1)), hn::Sub(b(2), a(2))};
     const VectorOf<D> v{hn::Sub(b(6), a(6)), hn::Sub(b(7), a(7)), hn::Sub(b(8), a(8))};
     const VectorOf<D> h{hn::Add(a(3), b(3)), hn::Add(a(4), b(4)), hn::Add(a(5), b(5))};
-    const auto box = box_lanes(d, p, v, h, zero, zero, one);
-    const auto smallest = hn::Min(hn::Min(hn::Min(a(3), b(3)), hn::Min(a(4), b(4))), hn::Min(a(5), b(5)));
-    const auto valid = hn::And(box.ordinary, hn::Ge(smallest, zero));
-    return {hn::And(valid, box.reached), hn::And(valid, box.unreached), hn::And(valid, box.starts_in),
-            hn::IfThenElse(box.reached, box.first, one)};
+    auto out = sharp_box(d, box_lanes(d, p, v, h, zero, no_blur(d), one), one);
+    const VectorOf<D> halves{hn::Min(a(3), b(3)), hn::Min(a(4), b(4)), hn::Min(a(5), b(5))};
+    out.clear = hn::And(out.clear, hn::Ge(smallest(halves), zero));
+    return out;
   }
 };
 
@@ -38,15 +56,13 @@ struct AabbRay {
     const auto zero = hn::Zero(d), until = ray(6);
     const VectorOf<D> p{hn::Sub(ray(0), box(0)), hn::Sub(ray(1), box(1)), hn::Sub(ray(2), box(2))};
     const VectorOf<D> v{ray(3), ray(4), ray(5)}, h{box(3), box(4), box(5)};
-    const auto lanes = box_lanes(d, p, v, h, zero, zero, until);
+    auto out = sharp_box(d, box_lanes(d, p, v, h, zero, no_blur(d), until), until);
     const auto counts = [&](hn::Vec<D> x) HWY_ATTR {  // in any time that the ray may take
       return hn::Or(hn::Ge(hn::Abs(x), hn::Set(d, Bounds<hn::TFromD<D>>::still)), hn::Eq(x, zero));
     };
     const auto all_count = hn::And(counts(v.x), hn::And(counts(v.y), counts(v.z)));
-    const auto valid = hn::And(hn::And(lanes.ordinary, all_count), hn::Ge(until, zero));
-    const auto apart = hn::And(valid, lanes.unreached);
-    return {hn::And(valid, lanes.reached), apart, hn::And(valid, lanes.starts_in),
-            hn::IfThenElse(apart, until, lanes.first)};
+    out.clear = hn::And(hn::And(out.clear, all_count), hn::Ge(until, zero));
+    return out;
   }
 };
 

@@ -37,32 +37,29 @@ struct CapsuleSphere {
     // The endless cylinder.
     const Vector k = cross(m, axis), w = cross(v, axis);
     const auto kk = dot(k, k), ww = dot(w, w), offset = dot(m, w);
-    const auto reach = hn::Mul(RR, ww), square = hn::Mul(offset, offset);
-    const auto discriminant = hn::Sub(reach, square);
+    const auto reach = hn::Mul(RR, ww), discriminant = hn::NegMulAdd(offset, offset, reach);
     const auto noise = hn::MulAdd(hn::Set(d, Limits::graze), reach,
                                   hn::Mul(hn::Set(d, Limits::far * 16), hn::Mul(mm, hn::Mul(vv, dd))));
-    const auto crosses = hn::Gt(discriminant, noise), misses = hn::Lt(discriminant, hn::Neg(noise));
-    const auto within = hn::Mul(RR, dd), excess = hn::Sub(kk, within);
-    const auto touch = hn::Mul(hn::Set(d, Limits::touch), hn::Add(hn::Mul(mm, dd), within));
-    const auto outside = hn::Gt(excess, touch), inside = hn::Lt(excess, hn::Neg(touch));
+    const auto within = hn::Mul(RR, dd), excess = hn::Sub(kk, within), square = hn::MulAdd(mm, dd, within);
     const auto approach = hn::Neg(dot(k, w));
     const auto denominator = hn::Add(approach, hn::Sqrt(hn::Mul(dd, hn::Max(discriminant, zero))));
-    const auto entry = hn::Div(excess, denominator);
-    const auto late = hn::Sub(excess, denominator);
-    const auto end = hn::Mul(hn::Set(d, Limits::end), hn::Add(hn::Add(hn::Mul(mm, dd), within), hn::Abs(denominator)));
+    const auto entry = hn::Div(excess, denominator), late = hn::Sub(excess, denominator);
+    const auto end = hn::Mul(hn::Set(d, Limits::end), hn::Add(square, hn::Abs(denominator)));
+    const auto sure = hn::Min(hn::Sub(hn::Abs(discriminant), noise), hn::Sub(hn::Abs(late), end));
+    const auto starts_clear = hn::Gt(hn::Abs(excess), hn::Mul(hn::Set(d, Limits::touch), square));
+    const auto inside = hn::Lt(excess, zero), toward = hn::Gt(approach, zero);
+    const auto crosses = hn::AndNot(inside, hn::And(toward, hn::Gt(discriminant, zero)));
 
     // Where along the axis: at the start, where that is in the cylinder, else at its entry.
-    const auto from_start = hn::IfThenElse(outside, entry, zero);
+    const auto from_start = hn::IfThenZeroElse(inside, entry);
     const auto along = hn::MulAdd(dot(v, axis), from_start, dot(m, axis));
-    const auto beyond_a = hn::Lt(along, zero), beyond_b = hn::Gt(along, dd);
-    const auto beside = hn::Not(hn::Or(beyond_a, beyond_b));
+    const auto beyond_b = hn::Gt(along, dd), beyond = hn::Or(hn::Lt(along, zero), beyond_b);
     const Vector from_b = minus(c, b);
     const Vector q{hn::IfThenElse(beyond_b, from_b.x, m.x), hn::IfThenElse(beyond_b, from_b.y, m.y),
                    hn::IfThenElse(beyond_b, from_b.z, m.z)};
     // The scalar code sees the ball from the middle of the segment: a place is known to a rounding of the whole.
-    const auto blur = hn::Mul(hn::Set(d, Limits::length), hn::Add(largest(m), largest(axis)));
-    const auto ball = chord_lanes<true>(d, q, v, R, blur);
-    const auto at_end = verdict_of(d, ball);
+    const Blur<D> blur{hn::Mul(hn::Set(d, Limits::length), hn::Add(largest(m), largest(axis))), sum(v)};
+    const auto at_end = verdict_of(d, chord_lanes(d, q, v, R, &blur));
 
     const auto most = hn::Set(d, Limits::most_capsule), least = hn::Set(d, Limits::least_capsule);
     const auto size = hn::Max(hn::Max(largest(m), largest(axis)), hn::Max(largest(v), R));
@@ -71,17 +68,15 @@ struct CapsuleSphere {
     const auto valid = hn::And(hn::Ge(hn::Min(capsule(6), sphere(3)), zero), hn::Eq(sums, sums));
     const auto ordinary = hn::And(hn::And(valid, hn::Gt(smallest, least)), hn::Le(size, most));
 
-    const auto toward = hn::And(crosses, hn::Gt(approach, zero));
-    const auto side = hn::And(outside, hn::And(toward, beside));
-    const auto side_hit = hn::And(side, hn::Lt(late, hn::Neg(end)));
-    const auto side_late = hn::And(side, hn::Gt(late, end));
-    const auto by_ball = hn::Or(hn::And(outside, hn::AndNot(beside, toward)), hn::AndNot(beside, inside));
-    const auto never = hn::And(outside, hn::Or(misses, hn::Le(approach, zero)));
+    const auto by_ball = hn::And(beyond, hn::Or(inside, crosses));
+    const auto side = hn::And(starts_clear, hn::Or(hn::Or(inside, hn::Not(toward)), hn::Gt(sure, zero)));
+    const auto meets_side = hn::AndNot(by_ball, hn::And(crosses, hn::Lt(late, zero)));
     Verdict<D> out;
-    out.hit = hn::And(ordinary, hn::Or(side_hit, hn::And(by_ball, at_end.hit)));
-    out.apart = hn::And(ordinary, hn::Or(hn::Or(never, side_late), hn::And(by_ball, at_end.apart)));
-    out.overlapping = hn::And(ordinary, hn::Or(hn::And(inside, beside), hn::And(by_ball, at_end.overlapping)));
-    out.time = hn::IfThenElse(out.hit, hn::IfThenElse(side_hit, entry, at_end.time), one);
+    out.hit = hn::Or(meets_side, hn::And(by_ball, at_end.hit));
+    out.overlapping = hn::AndNot(by_ball, inside);
+    out.overlapping = hn::Or(out.overlapping, hn::And(by_ball, at_end.overlapping));
+    out.clear = hn::And(hn::And(ordinary, side), hn::Or(hn::Not(by_ball), at_end.clear));
+    out.time = hn::IfThenElse(meets_side, entry, hn::IfThenElse(by_ball, at_end.time, one));
     return out;
   }
 };

@@ -14,11 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace thinwall::batch::HWY_NAMESPACE {
 
 /// A verdict with both bounds; `time` is the lower one.
-template <class D> struct CertifiedVerdict {
-  using V = hn::Vec<D>;
-  using M = hn::Mask<D>;
-  M hit, apart, overlapping;
-  V time, upper;
+template <class D> struct CertifiedVerdict : Verdict<D> {
+  hn::Vec<D> upper;
 };
 
 struct CertifiedSphereSphere {
@@ -72,7 +69,8 @@ struct CertifiedSphereSphere {
     out.overlapping = hn::And(sized, hn::And(hn::Lt(c, hn::Neg(c_error)), hn::Le(vv, most)));
     out.hit = hn::And(meets, hn::And(narrow, hn::Le(upper, one)));
     const auto never = hn::And(outside, hn::Or(still, hn::And(moving, hn::Or(recedes, passes))));
-    out.apart = hn::Or(never, hn::And(meets, hn::Gt(lower, one)));
+    const auto apart = hn::Or(never, hn::And(meets, hn::Gt(lower, one)));
+    out.clear = hn::Or(apart, hn::Or(out.hit, out.overlapping));
     out.time = hn::IfThenElse(out.hit, lower, one);
     out.upper = hn::IfThenElse(out.hit, upper, one);
     return out;

@@ -1,4 +1,5 @@
-// Runs a kernel over rows: whole vectors, then the ragged end in one more that repeats its last row.
+// Runs a kernel over rows, a vector of neighbors at a time. If it has a first look, `passes`, which tells most rows apart, the others
+// are put off and asked side by side: what few lanes of a vector need, all take part in.
 
 #if defined(THINWALL_BATCH_DRIVER) == defined(HWY_TARGET_TOGGLE)
 #ifdef THINWALL_BATCH_DRIVER
@@ -8,7 +9,10 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include <thinwall/swept/batch/lanes.inl>
 #include <thinwall/swept/batch/run.hpp>
@@ -55,57 +59,125 @@ HWY_INLINE std::size_t store(D d, const V& verdict, const Answers<hn::TFromD<D>>
   using S = hn::TFromD<D>;
   static_assert(sizeof(ToiStatus) == sizeof(std::int32_t));
   const hn::Rebind<std::int32_t, D> di;
-  const auto clear = hn::Or(verdict.hit, hn::Or(verdict.apart, verdict.overlapping));
   hn::StoreU(hn::IfThenZeroElse(verdict.overlapping, verdict.time), d, out.time + at);
   if constexpr (requires { verdict.upper; })
     hn::StoreU(hn::IfThenZeroElse(verdict.overlapping, verdict.upper), d, out.upper + at);
   auto* const status = reinterpret_cast<std::int32_t*>(out.status + at);
-  auto code = hn::Set(d, static_cast<S>(not_clear));
-  code = hn::IfThenElse(verdict.hit, hn::Set(d, static_cast<S>(ToiStatus::hit)), code);
-  code = hn::IfThenElse(verdict.apart, hn::Set(d, static_cast<S>(ToiStatus::apart)), code);
-  code = hn::IfThenElse(verdict.overlapping, hn::Set(d, static_cast<S>(ToiStatus::overlapping)), code);
+  const auto code_of = [d](ToiStatus one) HWY_ATTR { return hn::Set(d, static_cast<S>(one)); };
+  auto code = hn::IfThenElse(verdict.hit, code_of(ToiStatus::hit), code_of(ToiStatus::apart));
+  code = hn::IfThenElse(verdict.overlapping, code_of(ToiStatus::overlapping), code);
+  code = hn::IfThenElse(verdict.clear, code, code_of(not_clear));
   if constexpr (sizeof(S) == 8) {
     hn::StoreU(hn::DemoteTo(di, code), di, status);
   } else {
     hn::StoreU(hn::ConvertTo(di, code), di, status);
   }
-  return hn::Lanes(d) - hn::CountTrue(d, clear);
+  return hn::Lanes(d) - hn::CountTrue(d, verdict.clear);
+}
+
+/// Rows that were put off, by their numbers, below 2^16.
+struct RowList {
+  static constexpr std::size_t most = 512;
+  std::uint16_t rows[most + 4];
+  std::size_t count = 0;
+
+  HWY_INLINE void add(std::size_t row) { rows[count++] = static_cast<std::uint16_t>(row); }
+  /// Of the vector that begins at row i, those that are set: four at a time, by a table of which they are.
+  template <class D> HWY_INLINE void add(D d, std::size_t i, hn::Mask<D> which) {
+    static constexpr auto of_four = [] {
+      std::array<std::array<std::uint16_t, 4>, 16> table{};
+      for (std::size_t bits = 0; bits < 16; ++bits) {
+        for (std::size_t lane = 0, n = 0; lane < 4; ++lane) {
+          if ((bits >> lane & 1) != 0) table[bits][n++] = static_cast<std::uint16_t>(lane);
+        }
+      }
+      return table;
+    }();
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, which, bytes);
+    std::uint64_t bits, four;
+    std::memcpy(&bits, bytes, sizeof(bits));
+    for (std::size_t lane = 0; lane < hn::Lanes(d); lane += 4, bits >>= 4) {
+      std::memcpy(&four, &of_four[bits & 15], sizeof(four));
+      four += (i + lane) * 0x0001000100010001U;
+      std::memcpy(rows + count, &four, sizeof(four));
+      count += static_cast<std::size_t>(std::popcount(bits & 15));
+    }
+  }
+};
+
+/// The numbers of up to `most` listed rows, side by side; where the last vector has room the last row is repeated.
+template <class S, std::size_t columns> struct CopiedRows {
+  static constexpr std::size_t most = 64;
+  S numbers[columns][most];
+
+  HWY_INLINE Rows<S> of(const Rows<S>& all, const std::uint16_t* rows, std::size_t count, std::size_t lanes) {
+    if (all.is_one) return all;
+    Rows<S> out{{}, columns, false};
+    for (std::size_t k = 0; k < columns; ++k) {
+      for (std::size_t j = 0; j < count; ++j) numbers[k][j] = all.columns[k][rows[j]];
+      for (std::size_t j = count; j % lanes != 0; ++j) numbers[k][j] = numbers[k][count - 1];
+      out.columns[k] = numbers[k];
+    }
+    return out;
+  }
+};
+
+/// Answers listed rows; returns how many are not clear.
+template <class Kernel, template <class, std::size_t> class A, template <class, std::size_t> class B, class D, class S>
+HWY_INLINE std::size_t answer_listed(D d, const Rows<S>& rows_a, const Rows<S>& rows_b, const RowList& list,
+                                     const Answers<S>& out) {
+  using CopiedA = CopiedRows<S, Kernel::columns_a>;
+  const std::size_t lanes = hn::Lanes(d);
+  CopiedA copied_a;
+  CopiedRows<S, Kernel::columns_b> copied_b;
+  S times[CopiedA::most], uppers[CopiedA::most] = {};
+  ToiStatus statuses[CopiedA::most];
+  std::size_t unclear = 0;
+  for (std::size_t begin = 0; begin < list.count; begin += CopiedA::most) {
+    const std::uint16_t* const rows = list.rows + begin;
+    const std::size_t count = std::min(CopiedA::most, list.count - begin);
+    const A<D, Kernel::columns_a> a(copied_a.of(rows_a, rows, count, lanes));
+    const B<D, Kernel::columns_b> b(copied_b.of(rows_b, rows, count, lanes));
+    for (std::size_t j = 0; j < count; j += lanes)
+      store(d, Kernel()(d, a.at(d, j), b.at(d, j)), Answers<S>{statuses, times, uppers}, j);
+    for (std::size_t j = 0; j < count; ++j) {
+      out.time[rows[j]] = times[j];
+      if (out.upper != nullptr) out.upper[rows[j]] = uppers[j];
+      out.status[rows[j]] = statuses[j];
+      unclear += statuses[j] == not_clear ? 1 : 0;
+    }
+  }
+  return unclear;
 }
 
 template <class Kernel, template <class, std::size_t> class A, template <class, std::size_t> class B, class S>
-HWY_INLINE std::size_t run_rows(const Rows<S>& a, const Rows<S>& b, std::size_t n, const Answers<S>& answers) {
+HWY_INLINE std::size_t run_rows(const Rows<S>& rows_a, const Rows<S>& rows_b, std::size_t n,
+                                const Answers<S>& answers) {
   using D = hn::ScalableTag<S>;
-  using SideA = A<D, Kernel::columns_a>;
-  using SideB = B<D, Kernel::columns_b>;
   const D d;
   const std::size_t lanes = hn::Lanes(d);
-  const Kernel kernel;
-  const Answers<S> out = answers;
-  const SideA side_a(a);
-  const SideB side_b(b);
-  std::size_t unclear = 0, i = 0;
-  for (; i + lanes <= n; i += lanes) unclear += store(d, kernel(d, side_a.at(d, i), side_b.at(d, i)), out, i);
-  if (i == n) return unclear;
-
-  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(S);
-  S room_a[most_columns][most], room_b[most_columns][most], times[most], uppers[most] = {};
-  ToiStatus statuses[most];
-  const auto copied = [&](const Rows<S>& rows, S(*room)[most]) {
-    Rows<S> end = rows;
-    for (std::size_t k = 0; k < rows.count && !rows.is_one; ++k) {
-      for (std::size_t lane = 0; lane < lanes; ++lane) room[k][lane] = rows.columns[k][std::min(i + lane, n - 1)];
-      end.columns[k] = room[k];
+  const A<D, Kernel::columns_a> a(rows_a);
+  const B<D, Kernel::columns_b> b(rows_b);
+  RowList list;
+  std::size_t unclear = 0;
+  for (std::size_t begin = 0; begin < n; begin += RowList::most) {
+    const std::size_t count = std::min(n - begin, RowList::most);
+    const Answers<S> out = answers.from(begin);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+      if constexpr (requires { Kernel::has_first_look; }) {
+        const auto passes = Kernel::passes(d, a.at(d, begin + i), b.at(d, begin + i));
+        hn::StoreU(hn::Set(d, S(1)), d, out.time + i);
+        std::fill_n(out.status + i, lanes, ToiStatus::apart);
+        list.add(d, i, hn::Not(passes));
+      } else {
+        unclear += store(d, Kernel()(d, a.at(d, begin + i), b.at(d, begin + i)), out, i);
+      }
     }
-    return end;
-  };
-  const SideA end_a(copied(a, room_a));
-  const SideB end_b(copied(b, room_b));
-  store(d, kernel(d, end_a.at(d, 0), end_b.at(d, 0)), Answers<S>{statuses, times, uppers}, 0);
-  for (std::size_t lane = 0; i < n; ++i, ++lane) {
-    out.time[i] = times[lane];
-    if (out.upper != nullptr) out.upper[i] = uppers[lane];
-    out.status[i] = statuses[lane];
-    unclear += out.status[i] == not_clear ? 1 : 0;
+    for (; i < count; ++i) list.add(i);
+    unclear += answer_listed<Kernel, A, B>(d, rows_a.from(begin), rows_b.from(begin), list, out);
+    list.count = 0;
   }
   return unclear;
 }

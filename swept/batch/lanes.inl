@@ -36,12 +36,17 @@ template <class V> HWY_INLINE V largest(const Vec3Lanes<V>& a) {
   return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
 }
 
-/// What a kernel says of each lane. A row that is none of the three is asked again.
+template <class V> HWY_INLINE V smallest(const Vec3Lanes<V>& a) { return hn::Min(a.x, hn::Min(a.y, a.z)); }
+
+/// Of absolute values.
+template <class V> HWY_INLINE V sum(const Vec3Lanes<V>& a) {
+  return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
+}
+
+/// What a kernel says of each lane. A row that is not clear is asked again; a clear one that is neither hit nor overlapping is apart.
 template <class D> struct Verdict {
-  using V = hn::Vec<D>;
-  using M = hn::Mask<D>;
-  M hit, apart, overlapping;
-  V time;  ///< of a hit, and of a miss
+  hn::Mask<D> clear, hit, overlapping;
+  hn::Vec<D> time;  ///< of a hit, and of a miss
 };
 
 /// The scalar that a lane holds, and the bounds within which its verdicts are proven: docs/batches.md derives them.
@@ -61,67 +66,61 @@ template <class S> struct Bounds {
   static constexpr S far = power(10 - 2 * p + (is_double ? 20 : 12));  // 2^10 u^2 / graze
   static constexpr S end = power((is_double ? 15 : 11) - p);
   static constexpr S end_of_blur = power(is_double ? 12 : 8);  // 4 / sqrt(graze)
-  static constexpr S least_place = power(is_double ? -400 : -32),
-                     least_speed = power(is_double ? -400 : -48);  // squared
-  static constexpr S most = power(is_double ? 400 : 60);           // squared
+  static constexpr S least_square = power(is_double ? -400 : -80), least_reach = power(is_double ? -1000 : -120);
   static constexpr S least_length = power(is_double ? -200 : -16), most_length = power(is_double ? 200 : 30);
   static constexpr S least_capsule = power(is_double ? -100 : -8), most_capsule = power(is_double ? 100 : 12);
   static constexpr S still = power(is_double ? -300 : -60);
   static constexpr S latest = power(is_double ? 40 : 20);  // where an axis put up to that speed is not entered before
 };
 
-/// A line p + v t and a ball of radius R around the origin: discrete/entry/ball_entry.hpp's formulas, with what is clear.
-/// `blur` [length] is how far each coordinate of p may be off beyond its own rounding.
-template <class D> struct ChordLanes {
-  using V = hn::Vec<D>;
-  using M = hn::Mask<D>;
-  V speed_square, recess, half, time;  ///< recess: p.v, negative while the closest approach is ahead
-  M outside, inside;                   ///< at the start, clearly
-  M chord, none;                       ///< the line meets the ball, or does not, clearly
-  M before_end, after_end;             ///< the entry is before time 1, or after it, clearly, where there is a chord
-  M ordinary;                          ///< no square or product of squares overflows or vanishes
+/// How far the numbers of a chord may be off beyond their own rounding.
+template <class D> struct Blur {
+  hn::Vec<D> place;  ///< [length] of every coordinate of p
+  hn::Vec<D> path;   ///< [length] sum of abs(v)
 };
 
-/// Where `blurred`, every coordinate of p may be off by `blur` [length] beyond its own rounding.
-template <bool blurred = false, class D>
+/// A line p + v t and a ball of radius R around the origin: discrete/entry/ball_entry.hpp's formulas, with what is clear. What is
+/// out of range, or no number, is not: it makes `touch` infinite or NaN, and nothing is above that.
+template <class D> struct ChordLanes {
+  using V = hn::Vec<D>;
+  V speed_square, recess, half, time;  ///< recess: p.v, negative while the closest approach is ahead
+  V excess;                            ///< [length^2] above 0 outside the ball at the start
+  V touch;                             ///< what that is clearly above, or below the negative of
+  V sure;  ///< above 0 where it is clear whether the line meets the ball, and whether before time 1
+  hn::Mask<D> pierces, in_time, toward;
+};
+
+template <class D>
 HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const Vec3Lanes<hn::Vec<D>>& v, hn::Vec<D> R,
-                                     hn::Vec<D> blur) {
+                                     const Blur<D>* blur = nullptr) {
   using B = Bounds<hn::TFromD<D>>;
-  const auto pp = dot(p, p), vv = dot(v, v), RR = hn::Mul(R, R);
+  const auto set = [d](hn::TFromD<D> x) HWY_ATTR { return hn::Set(d, x); };
+  const auto zero = hn::Zero(d);
+  const auto pp = dot(p, p), vv = dot(v, v), RR = hn::Mul(R, R), size = hn::Add(pp, RR);
   const auto m = cross(p, v);
-  const auto mm = dot(m, m), reach = hn::Mul(RR, vv), pv = hn::Mul(pp, vv);
-  const auto discriminant = hn::Sub(reach, mm);
-  auto noise = hn::MulAdd(hn::Set(d, B::graze), reach, hn::Mul(hn::Set(d, B::far), pv));
-  const auto excess = hn::Sub(pp, RR), size = hn::Add(pp, RR);
-  auto touch = hn::Mul(hn::Set(d, B::touch), size);
+  const auto discriminant = hn::Sub(hn::Mul(RR, vv), dot(m, m));
   ChordLanes<D> out;
   out.speed_square = vv;
   out.recess = dot(p, v);
-  out.half = hn::Sqrt(discriminant);  // NaN where there is no chord
+  out.half = hn::Sqrt(hn::Max(discriminant, zero));
   const auto denominator = hn::Sub(out.half, out.recess);
-  out.time = hn::Div(excess, denominator);
-  const auto late = hn::Sub(excess, denominator);
-  auto end = hn::Mul(hn::Set(d, B::end), hn::Add(size, denominator));
-  if constexpr (blurred) {
-    using S = hn::TFromD<D>;
-    const auto times = [&](S factor, hn::Vec<D> x) HWY_ATTR { return hn::Mul(hn::Mul(hn::Set(d, factor), x), blur); };
+  out.excess = hn::Sub(pp, RR);
+  out.time = hn::Div(out.excess, denominator);
+  const auto late = hn::Sub(out.excess, denominator);
+  out.touch = hn::MulAdd(zero, discriminant, hn::MulAdd(set(B::touch), size, set(B::least_square)));
+  auto noise = hn::MulAdd(set(B::graze), RR, hn::Mul(set(B::far), pp));
+  auto end = hn::Mul(set(B::end), hn::Add(size, denominator));
+  if (blur != nullptr) {
     const auto place = hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Add(hn::Abs(p.z), R));
-    const auto path = hn::Add(place, hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z))));
-    touch = hn::Add(touch, times(4, place));
-    noise = hn::MulAdd(hn::Add(times(4, R), times(8 / B::graze, blur)), vv, noise);
-    end = hn::Add(end, times(B::end_of_blur, path));
+    out.touch = hn::MulAdd(hn::Mul(set(4), blur->place), place, out.touch);
+    noise = hn::MulAdd(hn::MulAdd(set(8 / B::graze), blur->place, hn::Mul(set(4), R)), blur->place, noise);
+    end = hn::MulAdd(hn::Mul(set(B::end_of_blur), blur->place), hn::Add(place, blur->path), end);
   }
-  out.outside = hn::Gt(excess, touch);
-  out.inside = hn::Lt(excess, hn::Neg(touch));
-  out.chord = hn::Gt(discriminant, noise);
-  out.none = hn::Lt(discriminant, hn::Neg(noise));
-  out.before_end = hn::Lt(late, hn::Neg(end));
-  out.after_end = hn::Gt(late, end);
-  const auto most = hn::Set(d, B::most);
-  const auto sizes = hn::And(hn::Le(size, most), hn::Ge(size, hn::Set(d, B::least_place)));
-  const auto speeds =
-      hn::And(hn::Le(vv, most), hn::Or(hn::Ge(vv, hn::Set(d, B::least_speed)), hn::Eq(vv, hn::Zero(d))));
-  out.ordinary = hn::And(sizes, speeds);
+  noise = hn::MulAdd(vv, noise, set(B::least_reach));
+  out.sure = hn::Min(hn::Sub(hn::Abs(discriminant), noise), hn::Sub(hn::Abs(late), end));
+  out.pierces = hn::Gt(discriminant, zero);
+  out.in_time = hn::Lt(late, zero);
+  out.toward = hn::Lt(out.recess, zero);
   return out;
 }
 

@@ -16,153 +16,183 @@
 HWY_BEFORE_NAMESPACE();
 namespace thinwall::batch::HWY_NAMESPACE {
 
-/// Where one axis stands when the center enters the widened slabs.
+/// One axis, seen from the region that the center is in at a time.
 template <class D> struct AxisLanes {
-  hn::Vec<D> q, u;      ///< from the nearest corner, and its motion; 0 on an axis that takes no part
-  hn::Vec<D> next;      ///< [1] when that changes
-  hn::Mask<D> outside;  ///< takes part
+  hn::Vec<D> q, w;  ///< from the nearest corner, and its speed downwards; 0 on an axis that takes no part
+  hn::Vec<D> next;  ///< [1] when that changes
 };
 
-template <class D> HWY_INLINE AxisLanes<D> axis_lanes(D d, const SlabLanes<D>& slab, hn::Vec<D> v, hn::Vec<D> start) {
-  const auto before = hn::Lt(start, slab.own_enter), after = hn::Ge(start, slab.own_leave);
-  const auto outside = hn::Or(before, after);
+template <class D> HWY_INLINE AxisLanes<D> axis_lanes(D d, const SlabLanes<D>& slab, hn::Vec<D> time) {
+  const auto enter = hn::Mul(slab.low, slab.per_speed), leave = hn::Mul(slab.high, slab.per_speed);
+  const auto before = hn::Lt(time, enter), after = hn::Ge(time, leave), outside = hn::Or(before, after);
   const auto never = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::infinity());
-  return {hn::IfThenElseZero(outside, hn::IfThenElse(before, slab.before, slab.after)), hn::IfThenElseZero(outside, v),
-          hn::IfThenElse(before, slab.own_enter, hn::IfThenElse(after, never, slab.own_leave)), outside};
+  return {hn::IfThenElseZero(outside, hn::IfThenElse(before, slab.low, slab.high)),
+          hn::IfThenElseZero(outside, slab.speed), hn::IfThenElse(before, enter, hn::IfThenElse(after, never, leave))};
 }
 
-/// How far x lies outside [-h, h].
-template <class D> HWY_INLINE hn::Vec<D> excess_lanes(D d, hn::Vec<D> x, hn::Vec<D> h) {
-  return hn::Max(hn::Sub(hn::Abs(x), h), hn::Zero(d));
-}
-
-/// What one region says of the lanes that go through it.
+/// The region at a time: the part of the box that is nearest then, and until when.
 template <class D> struct RegionLanes {
-  hn::Mask<D> hit, apart, onward;  ///< onward: free until `next`, and still nearing the box
-  hn::Mask<D> beyond_edge;         ///< two axes take part, or three: an edge's or a corner's region
-  hn::Vec<D> time, next;
+  Vec3Lanes<hn::Vec<D>> q, w;
+  hn::Vec<D> next;
+
+  HWY_INLINE RegionLanes(D d, const BoxLanes<D>& box, hn::Vec<D> time) {
+    const auto x = axis_lanes(d, box.x, time), y = axis_lanes(d, box.y, time), z = axis_lanes(d, box.z, time);
+    q = {x.q, y.q, z.q};
+    w = {x.w, y.w, z.w};
+    next = hn::Min(x.next, hn::Min(y.next, z.next));
+  }
+  /// Still farther than R when the region ends, before the step does, and nearing.
+  HWY_INLINE hn::Mask<D> goes_on(D d, hn::Vec<D> RR) const {
+    const Vec3Lanes<hn::Vec<D>> then{hn::NegMulAdd(w.x, next, q.x), hn::NegMulAdd(w.y, next, q.y),
+                                     hn::NegMulAdd(w.z, next, q.z)};
+    const auto nears = hn::Gt(dot(then, w), hn::Zero(d));
+    return hn::And(hn::Lt(next, hn::Set(d, hn::TFromD<D>(1))), hn::And(hn::Gt(dot(then, then), RR), nears));
+  }
 };
 
-/// The region at `start`: a ball around its corner or along its edge.
-template <class D>
-HWY_INLINE RegionLanes<D> region_lanes(D d, const BoxLanes<D>& box, const Vec3Lanes<hn::Vec<D>>& v, hn::Vec<D> R,
-                                       hn::Vec<D> blur, hn::Vec<D> start) {
-  const auto zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
-  const auto x = axis_lanes(d, box.x, v.x, start), y = axis_lanes(d, box.y, v.y, start),
-             z = axis_lanes(d, box.z, v.z, start);
-  const auto chord = chord_lanes<true>(d, {x.q, y.q, z.q}, {x.u, y.u, z.u}, R, blur);
-  RegionLanes<D> out;
-  out.beyond_edge = hn::Or(hn::And(x.outside, y.outside), hn::And(z.outside, hn::Or(x.outside, y.outside)));
-  out.next = hn::Min(x.next, hn::Min(y.next, z.next));
-  out.time = hn::Max(chord.time, start);
-  const auto solvable = hn::And(chord.ordinary, chord.outside);
-  const auto leave = hn::Sub(chord.half, chord.recess);
-  const auto in_region = hn::And(hn::Le(chord.time, out.next), hn::Ge(leave, hn::Mul(start, chord.speed_square)));
-  const auto crosses = hn::And(chord.chord, hn::And(in_region, hn::Lt(chord.recess, zero)));
-  // Past its closest approach before the region ends; the distance is convex, so it never comes nearer.
-  const auto passed = hn::Ge(hn::MulAdd(chord.speed_square, out.next, chord.recess), zero);
-  const auto over = hn::Or(passed, hn::Ge(out.next, one));
-  const auto late = hn::Or(hn::And(crosses, chord.after_end), hn::Ge(chord.recess, zero));
-  const auto later = hn::Or(chord.none, hn::And(chord.chord, hn::Gt(chord.time, out.next)));
-  out.hit = hn::And(solvable, hn::And(crosses, chord.before_end));
-  out.apart = hn::And(solvable, hn::Or(hn::And(chord.none, over), late));
-  out.onward = hn::AndNot(over, hn::And(solvable, later));
-  return out;
+/// A sphere's center and its motion as its box sees them, in its own axes.
+template <class D> struct SeenFromBox {
+  Vec3Lanes<hn::Vec<D>> p, v, h;
+  hn::Vec<D> R, blur;      ///< [length] `blur`: as of box_lanes
+  hn::Mask<D> is_upright;  ///< the axes are no more off than that reckons with; NaN is
+};
+
+template <class V> HWY_INLINE V middle(const Vec3Lanes<V>& a) {
+  return hn::Max(hn::Min(a.x, a.y), hn::Min(hn::Max(a.x, a.y), a.z));
 }
 
-template <class D>
-HWY_INLINE Verdict<D> rounded_box(D d, const Vec3Lanes<hn::Vec<D>>& p, const Vec3Lanes<hn::Vec<D>>& v,
-                                  const Vec3Lanes<hn::Vec<D>>& h, hn::Vec<D> R, hn::Vec<D> blur) {
+/// The center's path, a segment, is clearly apart from the box widened by R on one of six axes: the box's, or their products with the
+/// path. Source: Ericson, Real-Time Collision Detection (2005), 5.3.3.
+template <class D> HWY_INLINE hn::Mask<D> passes(D d, const SeenFromBox<D>& seen) {
   using S = hn::TFromD<D>;
-  using B = Bounds<S>;
-  const auto zero = hn::Zero(d), one = hn::Set(d, S(1));
-  const auto box = box_lanes(d, p, v, h, R, blur, one);
-  const auto none = hn::Lt(one, zero);
-  Verdict<D> out{none, hn::And(box.ordinary, box.unreached), none, one};
-  if (hn::AllTrue(d, out.apart)) return out;
+  using Vector = Vec3Lanes<hn::Vec<D>>;
+  const auto half = hn::Set(d, S(0.5));
+  const Vector &v = seen.v, H{hn::Add(seen.h.x, seen.R), hn::Add(seen.h.y, seen.R), hn::Add(seen.h.z, seen.R)};
+  const Vector W{hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)};
+  const Vector m{hn::MulAdd(half, v.x, seen.p.x), hn::MulAdd(half, v.y, seen.p.y), hn::MulAdd(half, v.z, seen.p.z)};
+  const Vector M{hn::Abs(m.x), hn::Abs(m.y), hn::Abs(m.z)}, moment = cross(m, v);
+  const auto path = hn::Add(W.x, hn::Add(W.y, W.z));
+  const auto lengths = hn::Add(hn::Add(hn::Add(M.x, H.x), hn::Add(M.y, H.y)), hn::Add(hn::Add(M.z, H.z), path));
+  const auto noise = hn::Mul(hn::Set(d, Bounds<S>::length), hn::Add(lengths, seen.blur));
+  const auto along = [&](hn::Vec<D> at, hn::Vec<D> reach, hn::Vec<D> w)
+                         HWY_ATTR { return hn::Sub(at, hn::MulAdd(half, w, reach)); };
+  const auto across = [](hn::Vec<D> turn, hn::Vec<D> Hi, hn::Vec<D> Wj, hn::Vec<D> Hj, hn::Vec<D> Wi)
+                          HWY_ATTR { return hn::Sub(hn::Abs(turn), hn::MulAdd(Hi, Wj, hn::Mul(Hj, Wi))); };
+  const auto beyond = hn::Max(along(M.x, H.x, W.x), hn::Max(along(M.y, H.y, W.y), along(M.z, H.z, W.z)));
+  const auto beside = hn::Max(across(moment.x, H.y, W.z, H.z, W.y),
+                              hn::Max(across(moment.y, H.z, W.x, H.x, W.z), across(moment.z, H.x, W.y, H.y, W.x)));
+  const auto least = hn::Set(d, Bounds<S>::least_reach);
+  const auto is_apart = hn::Or(hn::Gt(beyond, noise), hn::Gt(beside, hn::MulAdd(noise, path, least)));
+  return hn::And(hn::And(ordinary(d, seen.h, seen.R, lengths), seen.is_upright), is_apart);
+}
 
-  const Vec3Lanes<hn::Vec<D>> excess{excess_lanes(d, p.x, h.x), excess_lanes(d, p.y, h.y), excess_lanes(d, p.z, h.z)};
-  const auto gap = dot(excess, excess), RR = hn::Mul(R, R);
-  const auto lengths = hn::Add(hn::Add(largest(p), blur), hn::Add(largest(h), R));
-  const auto length_noise = hn::Mul(hn::Set(d, B::length), lengths);
+template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& seen) {
+  using S = hn::TFromD<D>;
+  const auto &p = seen.p, &h = seen.h;
+  const auto R = seen.R, zero = hn::Zero(d), one = hn::Set(d, S(1)), RR = hn::Mul(R, R);
+  const auto box = box_lanes(d, p, seen.v, h, R, seen.blur, one);
+  const auto is_ordinary = hn::And(box.ordinary, seen.is_upright);
+
+  // At the start: how far outside, against R.
+  const auto excess_of = [&](hn::Vec<D> x, hn::Vec<D> half)
+                             HWY_ATTR { return hn::Max(hn::Sub(hn::Abs(x), half), zero); };
+  const Vec3Lanes<hn::Vec<D>> excess{excess_of(p.x, h.x), excess_of(p.y, h.y), excess_of(p.z, h.z)};
+  const auto gap = hn::Sub(dot(excess, excess), RR), noise = hn::Max(box.x.noise, hn::Max(box.y.noise, box.z.noise));
   const auto reach = hn::Add(hn::Add(excess.x, excess.y), hn::Add(excess.z, R));
-  const auto touch = hn::Mul(hn::Set(d, B::touch), hn::Mul(reach, lengths));
-  const auto starts_out = hn::Or(box.starts_out, hn::Gt(hn::Sub(gap, RR), touch));
-  const auto depth_x = hn::Sub(h.x, hn::Abs(p.x)), depth_y = hn::Sub(h.y, hn::Abs(p.y)),
-             depth_z = hn::Sub(h.z, hn::Abs(p.z));
-  const auto deep = hn::Gt(hn::Min(depth_x, hn::Min(depth_y, depth_z)), length_noise);
-  const auto starts_in = hn::Or(deep, hn::Gt(hn::Sub(RR, gap), touch));
-  out.overlapping = hn::And(box.ordinary, starts_in);
-  const auto candidate = hn::AndNot(starts_in, hn::And(box.ordinary, starts_out));
+  const auto touch = hn::Mul(hn::Mul(hn::Set(d, S(2)), noise), reach);
 
-  // Where each axis stands when the widened slabs are entered, whenever in its noise that truly is.
-  const auto from = hn::Max(box.earliest, zero), to = hn::Max(box.latest, zero);
-  const auto inside_of = [&](const SlabLanes<D>& slab) HWY_ATTR {
-    return hn::And(hn::Ge(hn::Sub(from, slab.noise), slab.own_enter), hn::Lt(hn::Add(to, slab.noise), slab.own_leave));
+  // How far beyond the box it is on each axis when the widened slabs are entered, whenever in its noise that truly is.
+  const auto from = hn::Max(box.earliest, zero), to = hn::Max(box.latest, zero), start = hn::Max(box.first, zero);
+  const auto beyond = [&](const SlabLanes<D>& slab) HWY_ATTR {
+    return hn::Sub(hn::Abs(hn::NegMulAdd(start, slab.speed, slab.place)), slab.half);
   };
-  const auto outside_of = [&](const SlabLanes<D>& slab) HWY_ATTR {
-    return hn::Or(hn::Lt(hn::Add(to, slab.noise), slab.own_enter), hn::Ge(hn::Sub(from, slab.noise), slab.own_leave));
-  };
-  const auto two_of = [](hn::Mask<D> x, hn::Mask<D> y, hn::Mask<D> z)
-                          HWY_ATTR { return hn::Or(hn::And(x, y), hn::And(z, hn::Or(x, y))); };
-  const auto in_x = inside_of(box.x), in_y = inside_of(box.y), in_z = inside_of(box.z);
-  const auto out_x = outside_of(box.x), out_y = outside_of(box.y), out_z = outside_of(box.z);
+  const auto off = [&](const SlabLanes<D>& slab)
+                       HWY_ATTR { return hn::MulAdd(hn::Sub(to, from), slab.speed, slab.noise); };
+  const Vec3Lanes<hn::Vec<D>> at{beyond(box.x), beyond(box.y), beyond(box.z)}, by{off(box.x), off(box.y), off(box.z)};
+  const Vec3Lanes<hn::Vec<D>> least = minus(at, by),
+                              most{hn::Add(at.x, by.x), hn::Add(at.y, by.y), hn::Add(at.z, by.z)};
+  const auto enters = hn::And(hn::Lt(to, hn::Min(box.earliest_out, one)), hn::Gt(gap, touch));
+  const auto candidate = hn::And(is_ordinary, enters);
 
-  // Most hits are on a face, at the time it is met at.
-  out.hit = hn::And(two_of(in_x, in_y, in_z), hn::And(candidate, box.reached));
-  out.time = hn::IfThenElse(out.hit, box.first, one);
+  // Beyond one side at most, and not from the start: it meets the face at that time.
+  const auto on_face = hn::And(hn::And(candidate, hn::Gt(box.earliest, zero)), hn::Lt(middle(most), zero));
+  const auto known = hn::Or(hn::Gt(smallest(least), zero), hn::Lt(smallest(most), zero));
+  const auto beside_edge = hn::And(candidate, hn::And(hn::Gt(middle(least), zero), known));
 
-  // The others, region by region.
-  const auto known = hn::And(hn::Or(in_x, out_x), hn::And(hn::Or(in_y, out_y), hn::Or(in_z, out_z)));
-  const auto entered = hn::And(known, hn::Or(box.reached, box.starts_in));
-  auto going = hn::AndNot(out.apart, hn::And(entered, hn::And(candidate, two_of(out_x, out_y, out_z))));
-  auto start = hn::Max(box.first, zero);
-  for (int round = 0; round < 3 && !hn::AllFalse(d, going); ++round) {
-    const auto region = region_lanes(d, box, v, R, length_noise, start);
-    const auto there = hn::And(going, region.beyond_edge);
-    const auto hit = hn::And(there, region.hit);
-    out.hit = hn::Or(out.hit, hit);
-    out.apart = hn::Or(out.apart, hn::And(there, region.apart));
-    out.time = hn::IfThenElse(hit, region.time, out.time);
-    going = hn::And(there, region.onward);
-    start = hn::IfThenElse(going, region.next, start);
+  // Else on to the region in which they touch, or pass: a ball around its corner or along its edge.
+  RegionLanes<D> region(d, box, start);
+  auto now = start;
+  auto on = hn::And(beside_edge, region.goes_on(d, RR));
+  for (int round = 0; round < 2 && !hn::AllFalse(d, on); ++round) {
+    now = hn::IfThenElse(on, region.next, now);
+    region = RegionLanes<D>(d, box, now);
+    on = hn::And(on, region.goes_on(d, RR));
   }
+  const Blur<D> blur{noise, sum(seen.v)};
+  const Vec3Lanes<hn::Vec<D>> down{hn::Neg(region.w.x), hn::Neg(region.w.y), hn::Neg(region.w.z)};
+  const auto chord = chord_lanes(d, region.q, down, R, &blur);
+  const auto ahead = hn::Ge(hn::Sub(chord.half, chord.recess), hn::Mul(now, chord.speed_square));
+  const auto sure = hn::And(hn::Gt(chord.sure, zero), hn::Or(ahead, hn::Not(chord.pierces)));
+  const auto outside = hn::And(beside_edge, hn::Gt(chord.excess, chord.touch));
+  const auto by_ball = hn::AndNot(on, hn::And(outside, hn::Or(hn::Not(chord.toward), sure)));
+  const auto meets = hn::And(by_ball, hn::And(chord.toward, hn::And(chord.pierces, chord.in_time)));
+
+  Verdict<D> out;
+  out.hit = hn::Or(on_face, meets);
+  out.overlapping = hn::And(is_ordinary, hn::Lt(gap, hn::Neg(touch)));
+  out.clear = hn::Or(hn::Or(on_face, by_ball), hn::Or(out.overlapping, hn::And(is_ordinary, box.never)));
+  out.time = hn::IfThenElse(on_face, box.first, hn::IfThenElse(meets, chord.time, one));
   return out;
 }
 
-struct AabbSphere {
+/// A box and a sphere; most rows are clearly `never` in all slabs.
+template <class See> struct RoundedBox : See {
+  static constexpr bool has_first_look = true;
+  template <class D, class A, class B> static HWY_INLINE hn::Mask<D> passes(D d, const A& box, const B& sphere) {
+    return batch::HWY_NAMESPACE::passes(d, See::of(d, box, sphere));
+  }
+  template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& box, const B& sphere) const {
+    return rounded_box(d, See::of(d, box, sphere));
+  }
+};
+
+struct SeeUpright {
   static constexpr std::size_t columns_a = 9, columns_b = 7;
 
-  template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& box, const B& sphere) const {
-    return rounded_box<D>(d, {hn::Sub(sphere(0), box(0)), hn::Sub(sphere(1), box(1)), hn::Sub(sphere(2), box(2))},
-                          {hn::Sub(sphere(4), box(6)), hn::Sub(sphere(5), box(7)), hn::Sub(sphere(6), box(8))},
-                          {box(3), box(4), box(5)}, sphere(3), hn::Zero(d));
+  template <class D, class A, class B> static HWY_INLINE SeenFromBox<D> of(D d, const A& box, const B& sphere) {
+    const auto zero = hn::Zero(d);
+    return {{hn::Sub(sphere(0), box(0)), hn::Sub(sphere(1), box(1)), hn::Sub(sphere(2), box(2))},
+            {hn::Sub(sphere(4), box(6)), hn::Sub(sphere(5), box(7)), hn::Sub(sphere(6), box(8))},
+            {box(3), box(4), box(5)},
+            sphere(3),
+            no_blur(d),
+            hn::Eq(zero, zero)};
   }
 };
 
-struct ObbSphere {
+struct SeeTurned {
   static constexpr std::size_t columns_a = 18, columns_b = 7;
 
-  template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& box, const B& sphere) const {
+  template <class D, class A, class B> static HWY_INLINE SeenFromBox<D> of(D d, const A& box, const B& sphere) {
     using Vector = Vec3Lanes<hn::Vec<D>>;
     const Vector p{hn::Sub(sphere(0), box(0)), hn::Sub(sphere(1), box(1)), hn::Sub(sphere(2), box(2))};
     const Vector v{hn::Sub(sphere(4), box(15)), hn::Sub(sphere(5), box(16)), hn::Sub(sphere(6), box(17))};
     const Vector ax{box(6), box(7), box(8)}, ay{box(9), box(10), box(11)}, az{box(12), box(13), box(14)};
-    const auto sum = [](const Vector& a)
-                         HWY_ATTR { return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); };
-    auto out = rounded_box<D>(d, {dot(ax, p), dot(ay, p), dot(az, p)}, {dot(ax, v), dot(ay, v), dot(az, v)},
-                              {box(3), box(4), box(5)}, sphere(3), hn::Add(sum(p), sum(v)));
-    // Axes that are off by more than the roundings reckoned with are the scalar code's to judge. NaN: off.
     const auto one = hn::Set(d, hn::TFromD<D>(1));
-    const auto off = hn::Add(sum({hn::Sub(dot(ax, ax), one), hn::Sub(dot(ay, ay), one), hn::Sub(dot(az, az), one)}),
-                             sum({dot(ax, ay), dot(ay, az), dot(az, ax)}));
-    const auto upright = hn::Le(off, hn::Set(d, 4 * Bounds<hn::TFromD<D>>::length));
-    out.hit = hn::And(upright, out.hit);
-    out.apart = hn::And(upright, out.apart);
-    out.overlapping = hn::And(upright, out.overlapping);
-    return out;
+    const auto off =
+        hn::Add(sum(Vector{hn::Sub(dot(ax, ax), one), hn::Sub(dot(ay, ay), one), hn::Sub(dot(az, az), one)}),
+                sum(Vector{dot(ax, ay), dot(ay, az), dot(az, ax)}));
+    return {{dot(ax, p), dot(ay, p), dot(az, p)},
+            {dot(ax, v), dot(ay, v), dot(az, v)},
+            {box(3), box(4), box(5)},
+            sphere(3),
+            hn::Add(no_blur(d), hn::Add(sum(p), sum(v))),
+            hn::Le(off, hn::Set(d, 4 * Bounds<hn::TFromD<D>>::length))};
   }
 };
+
+using AabbSphere = RoundedBox<SeeUpright>;
+using ObbSphere = RoundedBox<SeeTurned>;
 
 }  // namespace thinwall::batch::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

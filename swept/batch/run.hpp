@@ -21,6 +21,12 @@ template <class S> struct Rows {
   const S* columns[most_columns];
   std::size_t count;
   bool is_one;  ///< one shape against every row of the other side
+
+  Rows from(std::size_t i) const {
+    Rows rows = *this;
+    for (std::size_t k = 0; k < count && !is_one; ++k) rows.columns[k] += i;
+    return rows;
+  }
 };
 
 /// Where the answers to n rows go.

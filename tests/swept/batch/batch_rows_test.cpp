@@ -128,6 +128,21 @@ TEST_P(BatchRowsOfBoxesAndBalls, are_not_spoiled_by_a_neighbor) {
   }
 }
 
+TEST_P(BatchRowsOfBoxesAndBalls, of_points_are_answered_by_vectors) {
+  RowTable<Box> boxes;
+  RowTable<Ball> points;
+  for (int i = 0; i < 90; ++i) {
+    boxes.push_back(at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}}));
+    points.push_back({{{5, 0.25, i % 3 == 1 ? 1.5 : 0.5}, 0}, {i % 3 == 2 ? 8.0 : -8.0, 0, 0}});
+  }
+  Answers<double> answers(90);
+  EXPECT_EQ(time_of_impact(boxes.rows(), points.rows(), answers.rows()).asked_again, 0U);
+  for (std::size_t i = 0; i < 90; ++i) {
+    EXPECT_EQ(answers.status[i], i % 3 == 0 ? ToiStatus::hit : ToiStatus::apart);
+    EXPECT_EQ(answers.time[i], i % 3 == 0 ? 0.5 : 1);
+  }
+}
+
 /// Rows whose boxes have bad axes among others, one at a time.
 template <class S> void expect_bad_axes_to_be_invalid() {
   RowTable<Moving<Obb<S>>> boxes;
