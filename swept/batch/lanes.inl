@@ -83,10 +83,10 @@ template <class D> struct Blur {
 /// out of range, or no number, is not: it makes `touch` infinite or NaN, and nothing is above that.
 template <class D> struct ChordLanes {
   using V = hn::Vec<D>;
-  V speed_square, recess, half, time;  ///< recess: p.v, negative while the closest approach is ahead
-  V excess;                            ///< [length^2] above 0 outside the ball at the start
-  V touch;                             ///< what that is clearly above, or below the negative of
-  V sure;  ///< above 0 where it is clear whether the line meets the ball, and whether before time 1
+  V time;    ///< [1] of entry
+  V excess;  ///< [length^2] above 0 outside the ball at the start
+  V touch;   ///< what that is clearly above, or below the negative of
+  V sure;    ///< above 0 where it is clear whether the line meets the ball, and whether before time 1
   hn::Mask<D> pierces, in_time, toward;
 };
 
@@ -100,10 +100,8 @@ HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const 
   const auto m = cross(p, v);
   const auto discriminant = hn::Sub(hn::Mul(RR, vv), dot(m, m));
   ChordLanes<D> out;
-  out.speed_square = vv;
-  out.recess = dot(p, v);
-  out.half = hn::Sqrt(hn::Max(discriminant, zero));
-  const auto denominator = hn::Sub(out.half, out.recess);
+  const auto recess = dot(p, v);  // negative while the closest approach is ahead
+  const auto denominator = hn::Sub(hn::Sqrt(hn::Max(discriminant, zero)), recess);
   out.excess = hn::Sub(pp, RR);
   out.time = hn::Div(out.excess, denominator);
   const auto late = hn::Sub(out.excess, denominator);
@@ -120,7 +118,7 @@ HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const 
   out.sure = hn::Min(hn::Sub(hn::Abs(discriminant), noise), hn::Sub(hn::Abs(late), end));
   out.pierces = hn::Gt(discriminant, zero);
   out.in_time = hn::Lt(late, zero);
-  out.toward = hn::Lt(out.recess, zero);
+  out.toward = hn::Lt(recess, zero);
   return out;
 }
 

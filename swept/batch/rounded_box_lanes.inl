@@ -116,12 +116,12 @@ template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& 
 
   // Beyond one side at most, and not from the start: it meets the face at that time.
   const auto on_face = hn::And(hn::And(candidate, hn::Gt(box.earliest, zero)), hn::Lt(middle(most), zero));
-  const auto known = hn::Or(hn::Gt(smallest(least), zero), hn::Lt(smallest(most), zero));
-  const auto beside_edge = hn::And(candidate, hn::And(hn::Gt(middle(least), zero), known));
+  const auto beside_edge = hn::And(candidate, hn::Gt(middle(least), zero));
 
-  // Else on to the region in which they touch, or pass: a ball around its corner or along its edge.
-  RegionLanes<D> region(d, box, start);
-  auto now = start;
+  // Else on to the region in which they touch, or pass: a ball around its corner or along its edge. It nears, or never did: on the
+  // widened slab that is entered last the distance is R or more, so where it grows the line has not been nearer before.
+  auto now = from;
+  RegionLanes<D> region(d, box, now);
   auto on = hn::And(beside_edge, region.goes_on(d, RR));
   for (int round = 0; round < 2 && !hn::AllFalse(d, on); ++round) {
     now = hn::IfThenElse(on, region.next, now);
@@ -131,10 +131,8 @@ template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& 
   const Blur<D> blur{noise, sum(seen.v)};
   const Vec3Lanes<hn::Vec<D>> down{hn::Neg(region.w.x), hn::Neg(region.w.y), hn::Neg(region.w.z)};
   const auto chord = chord_lanes(d, region.q, down, R, &blur);
-  const auto ahead = hn::Ge(hn::Sub(chord.half, chord.recess), hn::Mul(now, chord.speed_square));
-  const auto sure = hn::And(hn::Gt(chord.sure, zero), hn::Or(ahead, hn::Not(chord.pierces)));
   const auto outside = hn::And(beside_edge, hn::Gt(chord.excess, chord.touch));
-  const auto by_ball = hn::AndNot(on, hn::And(outside, hn::Or(hn::Not(chord.toward), sure)));
+  const auto by_ball = hn::AndNot(on, hn::And(outside, hn::Or(hn::Not(chord.toward), hn::Gt(chord.sure, zero))));
   const auto meets = hn::And(by_ball, hn::And(chord.toward, hn::And(chord.pierces, chord.in_time)));
 
   Verdict<D> out;
