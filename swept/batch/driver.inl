@@ -40,12 +40,14 @@ template <class D> struct SameRow {
 /// One side of a kernel. It holds what it reads by: read through `rows`, every store would make the compiler fetch that again.
 template <class D, std::size_t columns> struct EachRowOf {
   using S = hn::TFromD<D>;
+  static constexpr bool is_one = false;
   const S* of[most_columns];
   explicit EachRowOf(const Rows<S>& rows) { std::copy_n(rows.columns, columns, of); }
   HWY_INLINE EachRow<D> at(D d, std::size_t i) const { return {d, of, i}; }
 };
 template <class D, std::size_t columns> struct SameRowOf {
   using S = hn::TFromD<D>;
+  static constexpr bool is_one = true;
   S numbers[most_columns];
   explicit SameRowOf(const Rows<S>& rows) {
     for (std::size_t k = 0; k < columns; ++k) numbers[k] = *rows.columns[k];
@@ -159,6 +161,7 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& rows_a, const Rows<S>& rows_b, st
   const std::size_t lanes = hn::Lanes(d);
   const A<D, Kernel::columns_a> a(rows_a);
   const B<D, Kernel::columns_b> b(rows_b);
+  constexpr bool looks_first = (decltype(a)::is_one || decltype(b)::is_one) && requires { Kernel::has_first_look; };
   RowList list;
   std::size_t unclear = 0;
   for (std::size_t begin = 0; begin < n; begin += RowList::most) {
@@ -166,7 +169,7 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& rows_a, const Rows<S>& rows_b, st
     const Answers<S> out = answers.from(begin);
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes) {
-      if constexpr (requires { Kernel::has_first_look; }) {
+      if constexpr (looks_first) {
         const auto passes = Kernel::passes(d, a.at(d, begin + i), b.at(d, begin + i));
         hn::StoreU(hn::Set(d, S(1)), d, out.time + i);
         std::fill_n(out.status + i, lanes, ToiStatus::apart);

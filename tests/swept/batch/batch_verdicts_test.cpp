@@ -20,6 +20,30 @@ template <class A, class B> double bound_on_time(const A& a, const B& b, const T
   return 4 * u * lengths / closing;
 }
 
+/// What a width got wrong of the rows it was asked.
+template <class S> struct Faults {
+  std::size_t wrong = 0, late = 0;
+  double worst = 0;  ///< [4 u kappa t]
+
+  template <class A, class B>
+  void add(const Moving<A>& a, const Moving<B>& b, const Toi<double>& truth, ToiStatus status, S time) {
+    if (status != truth.status) ++wrong;
+    if (status != ToiStatus::hit || truth.status != ToiStatus::hit) return;
+    const double least = double(std::numeric_limits<S>::denorm_min());  // of a float time
+    const double off = std::abs(double(time) - truth.time);
+    const double bound =
+        bound_on_time(cast<double>(a), cast<double>(b), truth, double(std::numeric_limits<S>::epsilon()) / 2);
+    if (off > 3 * bound + least) ++late;  // the scalar code's own 4 u kappa t, and the bound of kappa by half widths
+    if (off > least) worst = std::max(worst, off / bound);
+  }
+  void report(const char* name, const std::string& target, std::size_t rows, std::size_t asked_again) const {
+    std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu; time off by up to %.2f u kappa t\n", name,
+                target.c_str(), rows, 100.0 * double(asked_again) / double(rows), wrong, 4 * worst);
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_EQ(late, 0U);
+  }
+};
+
 /// Judges every width on `count` rows of one pair.
 template <class A, class B> void judge_rows(const char* name, std::size_t count) {
   using S = typename A::Scalar;
@@ -31,23 +55,32 @@ template <class A, class B> void judge_rows(const char* name, std::size_t count)
     use_vectors(target);
     Answers<S> answers(count);
     const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows());
-    std::size_t wrong = 0, late = 0;
-    double worst = 0;
-    const double least = double(std::numeric_limits<S>::denorm_min());  // of a float time
+    Faults<S> faults;
     for (std::size_t i = 0; i < count; ++i) {
-      if (answers.status[i] != rows.truth[i].status) ++wrong;
-      if (answers.status[i] != ToiStatus::hit || rows.truth[i].status != ToiStatus::hit) continue;
-      const auto a = cast<double>(rows.a[i]);
-      const auto b = cast<double>(rows.b[i]);
-      const double off = std::abs(double(answers.time[i]) - rows.truth[i].time);
-      const double bound = bound_on_time(a, b, rows.truth[i], double(std::numeric_limits<S>::epsilon()) / 2);
-      if (off > 3 * bound + least) ++late;  // the scalar code's own 4 u kappa t, and the bound of kappa by half widths
-      if (off > least) worst = std::max(worst, off / bound);
+      faults.add(rows.a[i], rows.b[i], rows.truth[i], answers.status[i], answers.time[i]);
     }
-    std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu; time off by up to %.2f u kappa t\n", name,
-                target.c_str(), count, 100.0 * double(report.asked_again) / double(count), wrong, 4 * worst);
-    EXPECT_EQ(wrong, 0U);
-    EXPECT_EQ(late, 0U);
+    faults.report(name, target, count, report.asked_again);
+  }
+  use_vectors("");
+}
+
+/// The same of one against many, of which the first is its own row: there a first look may tell it apart.
+template <class A, class B> void judge_one_against_many(const char* name, std::size_t count) {
+  using S = typename A::Scalar;
+  SCOPED_TRACE(name);
+  constexpr std::size_t many = 16;  // lanes, at the most
+  const BatchRows<A, B> rows(count + many, 17);
+  for (const std::string& target : vector_targets()) {
+    SCOPED_TRACE(target);
+    use_vectors(target);
+    Answers<S> answers(many);
+    Faults<S> faults;
+    std::size_t asked_again = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      asked_again += time_of_impact(rows.a[i], rows.b.rows(i, i + many), answers.rows()).asked_again;
+      faults.add(rows.a[i], rows.b[i], rows.truth[i], answers.status[0], answers.time[0]);
+    }
+    faults.report(name, target, count * many, asked_again);
   }
   use_vectors("");
 }
@@ -88,6 +121,8 @@ template <class S> void judge_every_pair() {
   judge_rows<Capsule<S>, Sphere<S>>("capsule sphere", count);
   judge_rows<Aabb<S>, Aabb<S>>("aabb aabb", count);
   judge_rays<S>(count);
+  judge_one_against_many<Aabb<S>, Sphere<S>>("one aabb", count / 10);
+  judge_one_against_many<Obb<S>, Sphere<S>>("one obb", count / 10);
 }
 
 TEST(BatchVerdicts, are_the_scalar_codes_own_in_double) { judge_every_pair<double>(); }
