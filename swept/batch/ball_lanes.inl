@@ -12,18 +12,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace thinwall::batch::HWY_NAMESPACE {
 
-/// Of a chord whose line is walked from time 0.
-template <class D> HWY_INLINE Verdict<D> verdict_of(D d, const ChordLanes<D>& chord) {
-  const auto zero = hn::Zero(d);
-  Verdict<D> out;
-  const auto starts_clear = hn::Gt(hn::Abs(chord.excess), chord.touch), inside = hn::Lt(chord.excess, zero);
-  out.clear = hn::And(starts_clear, hn::Or(hn::Not(chord.toward), hn::Gt(chord.sure, zero)));
-  out.overlapping = inside;
-  out.hit = hn::AndNot(inside, hn::And(chord.toward, hn::And(chord.pierces, chord.in_time)));
-  out.time = hn::IfThenElse(out.hit, chord.time, hn::Set(d, hn::TFromD<D>(1)));
-  return out;
-}
-
 struct SphereSphere {
   static constexpr std::size_t columns_a = 7, columns_b = 7;
 

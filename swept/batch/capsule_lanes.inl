@@ -34,31 +34,39 @@ struct CapsuleSphere {
     const auto R = hn::Add(capsule(6), sphere(3)), RR = hn::Mul(R, R);
     const auto dd = dot(axis, axis), mm = dot(m, m), vv = dot(v, v);
 
-    // The endless cylinder.
+    // The endless cylinder. A place is known to a rounding of the whole capsule, as the scalar code sees it from the middle of the segment.
     const Vector k = cross(m, axis), w = cross(v, axis);
-    const auto kk = dot(k, k), ww = dot(w, w), offset = dot(m, w);
+    const auto kk = dot(k, k), ww = dot(w, w), offset = dot(m, w), path = sum(v);
+    const auto whole = hn::Add(sum(m), sum(axis)), place = hn::Mul(hn::Mul(whole, whole), dd);
     const auto reach = hn::Mul(RR, ww), discriminant = hn::NegMulAdd(offset, offset, reach);
-    const auto noise = hn::MulAdd(hn::Set(d, Limits::graze), reach,
-                                  hn::Mul(hn::Set(d, Limits::far * 16), hn::Mul(mm, hn::Mul(vv, dd))));
-    const auto within = hn::Mul(RR, dd), excess = hn::Sub(kk, within), square = hn::MulAdd(mm, dd, within);
-    const auto approach = hn::Neg(dot(k, w));
-    const auto denominator = hn::Add(approach, hn::Sqrt(hn::Mul(dd, hn::Max(discriminant, zero))));
+    const auto noise =
+        hn::MulAdd(hn::Set(d, Limits::graze), reach, hn::Mul(hn::Set(d, Limits::far * 16), hn::Mul(place, vv)));
+    const auto within = hn::Mul(RR, dd), excess = hn::Sub(kk, within), square = hn::Add(place, within);
+    const auto denominator = hn::Sub(hn::Sqrt(hn::Mul(dd, hn::Max(discriminant, zero))), dot(k, w));
     const auto entry = hn::Div(excess, denominator), late = hn::Sub(excess, denominator);
-    const auto end = hn::Mul(hn::Set(d, Limits::end), hn::Add(square, hn::Abs(denominator)));
+    const auto roundings =
+        hn::Mul(hn::Mul(hn::Set(d, Limits::end_of_blur * Limits::length / 8), whole), hn::Mul(path, dd));
+    const auto end = hn::MulAdd(hn::Set(d, Limits::end), hn::Add(square, hn::Abs(denominator)), roundings);
     const auto sure = hn::Min(hn::Sub(hn::Abs(discriminant), noise), hn::Sub(hn::Abs(late), end));
-    const auto starts_clear = hn::Gt(hn::Abs(excess), hn::Mul(hn::Set(d, Limits::touch), square));
-    const auto inside = hn::Lt(excess, zero), toward = hn::Gt(approach, zero);
-    const auto crosses = hn::AndNot(inside, hn::And(toward, hn::Gt(discriminant, zero)));
+    const auto touch = hn::Mul(hn::Set(d, Limits::touch), square);
+    const auto starts_clear = hn::Gt(hn::Abs(excess), touch);
+    const auto inside = hn::Lt(excess, zero);
+    const auto crosses = hn::AndNot(inside, hn::And(hn::Gt(denominator, zero), hn::Gt(discriminant, zero)));
 
     // Where along the axis: at the start, where that is in the cylinder, else at its entry.
-    const auto from_start = hn::IfThenZeroElse(inside, entry);
-    const auto along = hn::MulAdd(dot(v, axis), from_start, dot(m, axis));
+    const auto from_start = hn::IfThenZeroElse(inside, entry), advance = dot(v, axis);
+    const auto along = hn::MulAdd(advance, from_start, dot(m, axis));
     const auto beyond_b = hn::Gt(along, dd), beyond = hn::Or(hn::Lt(along, zero), beyond_b);
+    const auto to_junction = hn::Min(hn::Abs(along), hn::Abs(hn::Sub(along, dd)));
+    const auto beside_noise = hn::Mul(hn::Set(d, Limits::length), hn::Mul(whole, whole));
+    const auto off = hn::Add(hn::Add(touch, roundings), hn::Mul(hn::Set(d, Limits::length), denominator));
+    const auto entry_noise = hn::IfThenZeroElse(inside, hn::Div(hn::Mul(hn::Abs(advance), off), denominator));
+    const auto known =
+        hn::Or(hn::Not(hn::Or(inside, crosses)), hn::Gt(to_junction, hn::Add(beside_noise, entry_noise)));
     const Vector from_b = minus(c, b);
     const Vector q{hn::IfThenElse(beyond_b, from_b.x, m.x), hn::IfThenElse(beyond_b, from_b.y, m.y),
                    hn::IfThenElse(beyond_b, from_b.z, m.z)};
-    // The scalar code sees the ball from the middle of the segment: a place is known to a rounding of the whole.
-    const Blur<D> blur{hn::Mul(hn::Set(d, Limits::length), hn::Add(largest(m), largest(axis))), sum(v)};
+    const Blur<D> blur{hn::Mul(hn::Set(d, Limits::length), hn::Add(largest(m), largest(axis))), path};
     const auto at_end = verdict_of(d, chord_lanes(d, q, v, R, &blur));
 
     const auto most = hn::Set(d, Limits::most_capsule), least = hn::Set(d, Limits::least_capsule);
@@ -69,7 +77,7 @@ struct CapsuleSphere {
     const auto ordinary = hn::And(hn::And(valid, hn::Gt(smallest, least)), hn::Le(size, most));
 
     const auto by_ball = hn::And(beyond, hn::Or(inside, crosses));
-    const auto side = hn::And(starts_clear, hn::Or(hn::Or(inside, hn::Not(toward)), hn::Gt(sure, zero)));
+    const auto side = hn::And(hn::And(starts_clear, known), hn::Or(inside, hn::Gt(sure, zero)));
     const auto meets_side = hn::AndNot(by_ball, hn::And(crosses, hn::Lt(late, zero)));
     Verdict<D> out;
     out.hit = hn::Or(meets_side, hn::And(by_ball, at_end.hit));

@@ -1,5 +1,5 @@
-// Runs a kernel over rows, a vector of neighbors at a time. If it has a first look, `passes`, which tells most rows apart, the others
-// are put off and asked side by side: what few lanes of a vector need, all take part in.
+// Runs a kernel over rows, a vector of neighbors at a time. If it has a first look, `parts`, which tells most rows apart, and one shape is
+// asked against many, the others are put off and asked side by side: what few lanes of a vector need, all take part in.
 
 #if defined(THINWALL_BATCH_DRIVER) == defined(HWY_TARGET_TOGGLE)
 #ifdef THINWALL_BATCH_DRIVER
@@ -80,7 +80,7 @@ HWY_INLINE std::size_t store(D d, const V& verdict, const Answers<hn::TFromD<D>>
 /// Rows that were put off, by their numbers, below 2^16.
 struct RowList {
   static constexpr std::size_t most = 512;
-  std::uint16_t rows[most + 4];
+  std::uint16_t rows[most + 4];  // four are written at a time
   std::size_t count = 0;
 
   HWY_INLINE void add(std::size_t row) { rows[count++] = static_cast<std::uint16_t>(row); }
@@ -97,20 +97,21 @@ struct RowList {
     }();
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, which, bytes);
-    std::uint64_t bits, four;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    for (std::size_t lane = 0; lane < hn::Lanes(d); lane += 4, bits >>= 4) {
-      std::memcpy(&four, &of_four[bits & 15], sizeof(four));
+    for (std::size_t lane = 0; lane < hn::Lanes(d); lane += 4) {
+      const unsigned bits = bytes[lane / 8] >> lane % 8 & 15U;
+      std::uint64_t four;
+      std::memcpy(&four, &of_four[bits], sizeof(four));
       four += (i + lane) * 0x0001000100010001U;
       std::memcpy(rows + count, &four, sizeof(four));
-      count += static_cast<std::size_t>(std::popcount(bits & 15));
+      count += static_cast<std::size_t>(std::popcount(bits));
     }
   }
 };
 
 /// The numbers of up to `most` listed rows, side by side; where the last vector has room the last row is repeated.
 template <class S, std::size_t columns> struct CopiedRows {
-  static constexpr std::size_t most = 64;
+  static constexpr std::size_t most = 64;  // a multiple of any vector's lanes
+  static_assert(HWY_MAX_BYTES / sizeof(S) <= most);
   S numbers[columns][most];
 
   HWY_INLINE Rows<S> of(const Rows<S>& all, const std::uint16_t* rows, std::size_t count, std::size_t lanes) {
@@ -161,7 +162,7 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& rows_a, const Rows<S>& rows_b, st
   const std::size_t lanes = hn::Lanes(d);
   const A<D, Kernel::columns_a> a(rows_a);
   const B<D, Kernel::columns_b> b(rows_b);
-  constexpr bool looks_first = (decltype(a)::is_one || decltype(b)::is_one) && requires { Kernel::has_first_look; };
+  constexpr bool looks_first = (decltype(a)::is_one || decltype(b)::is_one) && requires { Kernel::looks_first; };
   RowList list;
   std::size_t unclear = 0;
   for (std::size_t begin = 0; begin < n; begin += RowList::most) {
@@ -170,10 +171,10 @@ HWY_INLINE std::size_t run_rows(const Rows<S>& rows_a, const Rows<S>& rows_b, st
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes) {
       if constexpr (looks_first) {
-        const auto passes = Kernel::passes(d, a.at(d, begin + i), b.at(d, begin + i));
+        const auto apart = Kernel::parts(d, a.at(d, begin + i), b.at(d, begin + i));
         hn::StoreU(hn::Set(d, S(1)), d, out.time + i);
         std::fill_n(out.status + i, lanes, ToiStatus::apart);
-        list.add(d, i, hn::Not(passes));
+        list.add(d, i, hn::Not(apart));
       } else {
         unclear += store(d, Kernel()(d, a.at(d, begin + i), b.at(d, begin + i)), out, i);
       }

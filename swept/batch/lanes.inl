@@ -25,6 +25,9 @@ template <class V> struct Vec3Lanes {
 template <class V> HWY_INLINE Vec3Lanes<V> minus(const Vec3Lanes<V>& a, const Vec3Lanes<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
+template <class V> HWY_INLINE Vec3Lanes<V> plus(const Vec3Lanes<V>& a, const Vec3Lanes<V>& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
 template <class V> HWY_INLINE V dot(const Vec3Lanes<V>& a, const Vec3Lanes<V>& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
@@ -61,6 +64,7 @@ template <class S> struct Bounds {
   static constexpr int p = std::numeric_limits<S>::digits;  // u = 2^-p
   static constexpr S touch = power(5 - p);                  // of squares: 32 u
   static constexpr S length = power(4 - p);                 // of lengths: 16 u
+  static constexpr S upright = power(4 - p);                // of all six products of a box's axes together
   static constexpr S graze =
       power(is_double ? -20 : -12);  // a chord whose half is below sqrt(this) R is left to scalar code
   static constexpr S far = power(10 - 2 * p + (is_double ? 20 : 12));  // 2^10 u^2 / graze
@@ -69,8 +73,9 @@ template <class S> struct Bounds {
   static constexpr S least_square = power(is_double ? -400 : -80), least_reach = power(is_double ? -1000 : -120);
   static constexpr S least_length = power(is_double ? -200 : -16), most_length = power(is_double ? 200 : 30);
   static constexpr S least_capsule = power(is_double ? -100 : -8), most_capsule = power(is_double ? 100 : 12);
-  static constexpr S still = power(is_double ? -300 : -60);
-  static constexpr S latest = power(is_double ? 40 : 20);  // where an axis put up to that speed is not entered before
+  static constexpr S still =
+      power(is_double ? -300 : -60);                       // the least speed of a slab: what is slower is put up to it
+  static constexpr S latest = power(is_double ? 40 : 20);  // before that time no slab of that speed is entered or left
 };
 
 /// How far the numbers of a chord may be off beyond their own rounding.
@@ -119,6 +124,18 @@ HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const 
   out.pierces = hn::Gt(discriminant, zero);
   out.in_time = hn::Lt(late, zero);
   out.toward = hn::Lt(recess, zero);
+  return out;
+}
+
+/// Of a chord whose line is walked from time 0.
+template <class D> HWY_INLINE Verdict<D> verdict_of(D d, const ChordLanes<D>& chord) {
+  const auto zero = hn::Zero(d);
+  Verdict<D> out;
+  const auto starts_clear = hn::Gt(hn::Abs(chord.excess), chord.touch), inside = hn::Lt(chord.excess, zero);
+  out.clear = hn::And(starts_clear, hn::Or(hn::Not(chord.toward), hn::Gt(chord.sure, zero)));
+  out.overlapping = inside;
+  out.hit = hn::AndNot(inside, hn::And(chord.toward, hn::And(chord.pierces, chord.in_time)));
+  out.time = hn::IfThenElse(out.hit, chord.time, hn::Set(d, hn::TFromD<D>(1)));
   return out;
 }
 

@@ -32,38 +32,49 @@ template <class D> HWY_INLINE AxisLanes<D> axis_lanes(D d, const SlabLanes<D>& s
 
 /// The region at a time: the part of the box that is nearest then, and until when.
 template <class D> struct RegionLanes {
-  Vec3Lanes<hn::Vec<D>> q, w;
+  using M = hn::Mask<D>;
+  AxisLanes<D> x, y, z;
   hn::Vec<D> next;
 
-  HWY_INLINE RegionLanes(D d, const BoxLanes<D>& box, hn::Vec<D> time) {
-    const auto x = axis_lanes(d, box.x, time), y = axis_lanes(d, box.y, time), z = axis_lanes(d, box.z, time);
-    q = {x.q, y.q, z.q};
-    w = {x.w, y.w, z.w};
-    next = hn::Min(x.next, hn::Min(y.next, z.next));
-  }
-  /// Still farther than R when the region ends, before the step does, and nearing.
-  HWY_INLINE hn::Mask<D> goes_on(D d, hn::Vec<D> RR) const {
-    const Vec3Lanes<hn::Vec<D>> then{hn::NegMulAdd(w.x, next, q.x), hn::NegMulAdd(w.y, next, q.y),
-                                     hn::NegMulAdd(w.z, next, q.z)};
-    const auto nears = hn::Gt(dot(then, w), hn::Zero(d));
-    return hn::And(hn::Lt(next, hn::Set(d, hn::TFromD<D>(1))), hn::And(hn::Gt(dot(then, then), RR), nears));
+  HWY_INLINE RegionLanes(D d, const BoxLanes<D>& box, hn::Vec<D> time)
+      : x(axis_lanes(d, box.x, time)),
+        y(axis_lanes(d, box.y, time)),
+        z(axis_lanes(d, box.z, time)),
+        next(hn::Min(x.next, hn::Min(y.next, z.next))) {}
+
+  /// When the region ends, before the step does, the center is clearly farther than R and nearing; or nearer or not is not clear.
+  struct End {
+    M goes_on, is_close;
+  };
+  HWY_INLINE End end(D d, hn::Vec<D> R, hn::Vec<D> noise) const {
+    const auto then_of = [&](const AxisLanes<D>& axis)
+                             HWY_ATTR {  // 0 on the axis that changes: what it rounds to may be no little speed
+                               return hn::IfThenElseZero(hn::Gt(axis.next, next), hn::NegMulAdd(axis.w, next, axis.q));
+                             };
+    const Vec3Lanes<hn::Vec<D>> then{then_of(x), then_of(y), then_of(z)};
+    const auto beyond = hn::Sub(dot(then, then), hn::Mul(R, R)), least = hn::Mul(noise, hn::Add(sum(then), R));
+    const auto in_step = hn::Lt(next, hn::Set(d, hn::TFromD<D>(1)));
+    const auto nears = hn::Gt(dot(then, {x.w, y.w, z.w}), hn::Zero(d));
+    return {hn::And(in_step, hn::And(hn::Gt(beyond, least), nears)), hn::And(in_step, hn::Le(hn::Abs(beyond), least))};
   }
 };
 
 /// A sphere's center and its motion as its box sees them, in its own axes.
 template <class D> struct SeenFromBox {
   Vec3Lanes<hn::Vec<D>> p, v, h;
-  hn::Vec<D> R, blur;      ///< [length] `blur`: as of box_lanes
-  hn::Mask<D> is_upright;  ///< the axes are no more off than that reckons with; NaN is
+  hn::Vec<D> R, blur;  ///< [length] `blur`: as of box_lanes
+  hn::Mask<D>
+      is_upright;  ///< the axes are as unit and at right angles as `blur` reckons with; false where one is no number
 };
 
-template <class V> HWY_INLINE V middle(const Vec3Lanes<V>& a) {
+/// The second of the three by size.
+template <class V> HWY_INLINE V median(const Vec3Lanes<V>& a) {
   return hn::Max(hn::Min(a.x, a.y), hn::Min(hn::Max(a.x, a.y), a.z));
 }
 
 /// The center's path, a segment, is clearly apart from the box widened by R on one of six axes: the box's, or their products with the
 /// path. Source: Ericson, Real-Time Collision Detection (2005), 5.3.3.
-template <class D> HWY_INLINE hn::Mask<D> passes(D d, const SeenFromBox<D>& seen) {
+template <class D> HWY_INLINE hn::Mask<D> parts(D d, const SeenFromBox<D>& seen) {
   using S = hn::TFromD<D>;
   using Vector = Vec3Lanes<hn::Vec<D>>;
   const auto half = hn::Set(d, S(0.5));
@@ -94,10 +105,10 @@ template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& 
   const auto is_ordinary = hn::And(box.ordinary, seen.is_upright);
 
   // At the start: how far outside, against R.
-  const auto excess_of = [&](hn::Vec<D> x, hn::Vec<D> half)
-                             HWY_ATTR { return hn::Max(hn::Sub(hn::Abs(x), half), zero); };
-  const Vec3Lanes<hn::Vec<D>> excess{excess_of(p.x, h.x), excess_of(p.y, h.y), excess_of(p.z, h.z)};
+  const Vec3Lanes<hn::Vec<D>> depth{hn::Sub(hn::Abs(p.x), h.x), hn::Sub(hn::Abs(p.y), h.y), hn::Sub(hn::Abs(p.z), h.z)};
+  const Vec3Lanes<hn::Vec<D>> excess{hn::Max(depth.x, zero), hn::Max(depth.y, zero), hn::Max(depth.z, zero)};
   const auto gap = hn::Sub(dot(excess, excess), RR), noise = hn::Max(box.x.noise, hn::Max(box.y.noise, box.z.noise));
+  const auto inside = hn::Lt(hn::Max(depth.x, hn::Max(depth.y, depth.z)), hn::Neg(noise));
   const auto reach = hn::Add(hn::Add(excess.x, excess.y), hn::Add(excess.z, R));
   const auto touch = hn::Mul(hn::Mul(hn::Set(d, S(2)), noise), reach);
 
@@ -109,45 +120,48 @@ template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& 
   const auto off = [&](const SlabLanes<D>& slab)
                        HWY_ATTR { return hn::MulAdd(hn::Sub(to, from), slab.speed, slab.noise); };
   const Vec3Lanes<hn::Vec<D>> at{beyond(box.x), beyond(box.y), beyond(box.z)}, by{off(box.x), off(box.y), off(box.z)};
-  const Vec3Lanes<hn::Vec<D>> least = minus(at, by),
-                              most{hn::Add(at.x, by.x), hn::Add(at.y, by.y), hn::Add(at.z, by.z)};
+  const Vec3Lanes<hn::Vec<D>> least = minus(at, by), most = plus(at, by);
   const auto enters = hn::And(hn::Lt(to, hn::Min(box.earliest_out, one)), hn::Gt(gap, touch));
   const auto candidate = hn::And(is_ordinary, enters);
 
   // Beyond one side at most, and not from the start: it meets the face at that time.
-  const auto on_face = hn::And(hn::And(candidate, hn::Gt(box.earliest, zero)), hn::Lt(middle(most), zero));
-  const auto beside_edge = hn::And(candidate, hn::Gt(middle(least), zero));
+  const auto on_face = hn::And(hn::And(candidate, hn::Gt(box.earliest, zero)), hn::Lt(median(most), zero));
+  const auto beside_edge = hn::And(candidate, hn::Gt(median(least), zero));
 
   // Else on to the region in which they touch, or pass: a ball around its corner or along its edge. It nears, or never did: on the
   // widened slab that is entered last the distance is R or more, so where it grows the line has not been nearer before.
+  const auto four_noises = hn::Mul(hn::Set(d, S(4)), noise);
   auto now = from;
   RegionLanes<D> region(d, box, now);
-  auto on = hn::And(beside_edge, region.goes_on(d, RR));
+  auto end = region.end(d, R, four_noises);
+  auto on = hn::And(beside_edge, end.goes_on), unsure = end.is_close;
   for (int round = 0; round < 2 && !hn::AllFalse(d, on); ++round) {
     now = hn::IfThenElse(on, region.next, now);
     region = RegionLanes<D>(d, box, now);
-    on = hn::And(on, region.goes_on(d, RR));
+    end = region.end(d, R, four_noises);
+    on = hn::And(on, end.goes_on);
+    unsure = hn::Or(unsure, end.is_close);
   }
   const Blur<D> blur{noise, sum(seen.v)};
-  const Vec3Lanes<hn::Vec<D>> down{hn::Neg(region.w.x), hn::Neg(region.w.y), hn::Neg(region.w.z)};
-  const auto chord = chord_lanes(d, region.q, down, R, &blur);
-  const auto outside = hn::And(beside_edge, hn::Gt(chord.excess, chord.touch));
-  const auto by_ball = hn::AndNot(on, hn::And(outside, hn::Or(hn::Not(chord.toward), hn::Gt(chord.sure, zero))));
-  const auto meets = hn::And(by_ball, hn::And(chord.toward, hn::And(chord.pierces, chord.in_time)));
+  const auto &rx = region.x, &ry = region.y, &rz = region.z;
+  const auto ball =
+      verdict_of(d, chord_lanes(d, {rx.q, ry.q, rz.q}, {hn::Neg(rx.w), hn::Neg(ry.w), hn::Neg(rz.w)}, R, &blur));
+  const auto by_ball = hn::AndNot(hn::Or(on, hn::Or(unsure, ball.overlapping)), hn::And(beside_edge, ball.clear));
+  const auto meets = hn::And(by_ball, ball.hit);
 
   Verdict<D> out;
   out.hit = hn::Or(on_face, meets);
-  out.overlapping = hn::And(is_ordinary, hn::Lt(gap, hn::Neg(touch)));
+  out.overlapping = hn::And(is_ordinary, hn::Or(hn::Lt(gap, hn::Neg(touch)), inside));
   out.clear = hn::Or(hn::Or(on_face, by_ball), hn::Or(out.overlapping, hn::And(is_ordinary, box.never)));
-  out.time = hn::IfThenElse(on_face, box.first, hn::IfThenElse(meets, chord.time, one));
+  out.time = hn::IfThenElse(on_face, box.first, hn::IfThenElse(meets, ball.time, one));
   return out;
 }
 
-/// A box and a sphere; most rows are clearly `never` in all slabs.
+/// A box and a sphere.
 template <class See> struct RoundedBox : See {
-  static constexpr bool has_first_look = true;
-  template <class D, class A, class B> static HWY_INLINE hn::Mask<D> passes(D d, const A& box, const B& sphere) {
-    return batch::HWY_NAMESPACE::passes(d, See::of(d, box, sphere));
+  static constexpr bool looks_first = true;
+  template <class D, class A, class B> static HWY_INLINE hn::Mask<D> parts(D d, const A& box, const B& sphere) {
+    return batch::HWY_NAMESPACE::parts(d, See::of(d, box, sphere));
   }
   template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& box, const B& sphere) const {
     return rounded_box(d, See::of(d, box, sphere));
@@ -185,7 +199,7 @@ struct SeeTurned {
             {box(3), box(4), box(5)},
             sphere(3),
             hn::Add(no_blur(d), hn::Add(sum(p), sum(v))),
-            hn::Le(off, hn::Set(d, 4 * Bounds<hn::TFromD<D>>::length))};
+            hn::Le(off, hn::Set(d, Bounds<hn::TFromD<D>>::upright))};
   }
 };
 

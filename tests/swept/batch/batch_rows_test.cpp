@@ -143,6 +143,42 @@ TEST_P(BatchRowsOfBoxesAndBalls, of_points_are_answered_by_vectors) {
   }
 }
 
+/// Row by row and as one against many, the verdict is the scalar code's.
+template <class A, class B> void expect_as_scalar(const char* what, const Moving<A>& a, const Moving<B>& b) {
+  using S = typename A::Scalar;
+  RowTable<Moving<A>> as;
+  RowTable<Moving<B>> bs;
+  for (int i = 0; i < 16; ++i) {
+    as.push_back(a);
+    bs.push_back(b);
+  }
+  const ToiStatus truth = time_of_impact(a, b).status;
+  Answers<S> rows(16), many(16);
+  time_of_impact(as.rows(), bs.rows(), rows.rows());
+  time_of_impact(a, bs.rows(), many.rows());
+  EXPECT_EQ(rows.status[0], truth) << what;
+  EXPECT_EQ(many.status[0], truth) << what;
+}
+
+TEST_P(BatchRowsOfBoxesAndBalls, of_which_roundings_decide_are_the_scalar_codes) {
+  const Box box = at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}});
+  const Ball quick{{{-0x1.2b62542c11654p+4, 0x1.00003357b03ecp+0, 0x1.00003357b03ecp+0}, 0x1.2265b1f236eb0p-18},
+                   {0x1.61ef6182622c2p+4, -0x1.1f3d3ea1b5dd2p-31, -0x1.1f3d3ea1b5dd2p-31}};
+  expect_as_scalar("a quick axis that enters drowns the slope of two slow ones", box, quick);
+  const Ball leaving{{{0x1.588959c65a506p-2, 0x1.58fea0de3d819p+0, 0x1.5d28ff39531f7p+0}, 0x1.01ac5168fa606p-1},
+                     {0x1.bc319838a7d44p+1, -0x1.c5ae16db86eb5p-33, -0x1.c5ae16db86eb5p-33}};
+  expect_as_scalar("at R to rounding where a quick axis leaves", box, leaving);
+  expect_as_scalar("a point inside", box, Ball{{{0.5, 0.25, 0}, 0}, {1, 0, 0}});
+  const auto capsule = at_rest(Capsule<float>{{0, 0, 0}, {0x1.8c5e36p+9F, 0x1.30c856p+9F, 0}, 0.5F});
+  const Moving<Sphere<float>> along{{{-0x1.1e673ep-1F, 0x1.a9a472p-1F, 0}, 0.5F}, {0x1.405cb4p+9F, 0x1.ecad6cp+8F, 0}};
+  expect_as_scalar("almost along a capsule's axis", capsule, along);
+  constexpr float u = 0x1p-24F;
+  const Vec3<float> unit(1 + 30 * u, 1, 1);
+  const auto turned = at_rest(Obb<float>{{0, 0, 0}, {1, 0x1p-10F, 0x1p-10F}, unit.asDiagonal()});
+  const Moving<Sphere<float>> head_on{{{1 + 0x1p-6F + 0x1p-20F + 26 * u, 0, 0}, 0x1p-20F}, {-0x1p-6F, 0, 0}};
+  expect_as_scalar("an axis too long by 30 u", turned, head_on);
+}
+
 /// Rows whose boxes have bad axes among others, one at a time.
 template <class S> void expect_bad_axes_to_be_invalid() {
   RowTable<Moving<Obb<S>>> boxes;
