@@ -47,10 +47,10 @@ template <class D> struct RegionLanes {
     M goes_on, is_close;
   };
   HWY_INLINE End end(D d, hn::Vec<D> R, hn::Vec<D> noise) const {
-    const auto then_of = [&](const AxisLanes<D>& axis)
-                             HWY_ATTR {  // 0 on the axis that changes: what it rounds to may be no little speed
-                               return hn::IfThenElseZero(hn::Gt(axis.next, next), hn::NegMulAdd(axis.w, next, axis.q));
-                             };
+    // 0 on the axis that changes: what that is rounded to would drown a slow axis's part in whether it nears.
+    const auto then_of = [&](const AxisLanes<D>& axis) HWY_ATTR {
+      return hn::IfThenElseZero(hn::Gt(axis.next, next), hn::NegMulAdd(axis.w, next, axis.q));
+    };
     const Vec3Lanes<hn::Vec<D>> then{then_of(x), then_of(y), then_of(z)};
     const auto beyond = hn::Sub(dot(then, then), hn::Mul(R, R)), least = hn::Mul(noise, hn::Add(sum(then), R));
     const auto in_step = hn::Lt(next, hn::Set(d, hn::TFromD<D>(1)));
@@ -62,9 +62,8 @@ template <class D> struct RegionLanes {
 /// A sphere's center and its motion as its box sees them, in its own axes.
 template <class D> struct SeenFromBox {
   Vec3Lanes<hn::Vec<D>> p, v, h;
-  hn::Vec<D> R, blur;  ///< [length] `blur`: as of box_lanes
-  hn::Mask<D>
-      is_upright;  ///< the axes are as unit and at right angles as `blur` reckons with; false where one is no number
+  hn::Vec<D> R, blur;      ///< [length] `blur`: as of box_lanes
+  hn::Mask<D> is_upright;  ///< the axes are unit and at right angles, as `blur` reckons with
 };
 
 /// The second of the three by size.
@@ -97,63 +96,86 @@ template <class D> HWY_INLINE hn::Mask<D> parts(D d, const SeenFromBox<D>& seen)
   return hn::And(hn::And(ordinary(d, seen.h, seen.R, lengths), seen.is_upright), is_apart);
 }
 
-template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& seen) {
-  using S = hn::TFromD<D>;
-  const auto &p = seen.p, &h = seen.h;
-  const auto R = seen.R, zero = hn::Zero(d), one = hn::Set(d, S(1)), RR = hn::Mul(R, R);
-  const auto box = box_lanes(d, p, seen.v, h, R, seen.blur, one);
-  const auto is_ordinary = hn::And(box.ordinary, seen.is_upright);
+/// The start: clearly outside the rounded box, or inside.
+template <class D> struct StartLanes {
+  hn::Mask<D> outside, overlapping;
 
-  // At the start: how far outside, against R.
-  const Vec3Lanes<hn::Vec<D>> depth{hn::Sub(hn::Abs(p.x), h.x), hn::Sub(hn::Abs(p.y), h.y), hn::Sub(hn::Abs(p.z), h.z)};
-  const Vec3Lanes<hn::Vec<D>> excess{hn::Max(depth.x, zero), hn::Max(depth.y, zero), hn::Max(depth.z, zero)};
-  const auto gap = hn::Sub(dot(excess, excess), RR), noise = hn::Max(box.x.noise, hn::Max(box.y.noise, box.z.noise));
-  const auto inside = hn::Lt(hn::Max(depth.x, hn::Max(depth.y, depth.z)), hn::Neg(noise));
-  const auto reach = hn::Add(hn::Add(excess.x, excess.y), hn::Add(excess.z, R));
-  const auto touch = hn::Mul(hn::Mul(hn::Set(d, S(2)), noise), reach);
+  /// `noise` [length] of the place on every axis.
+  HWY_INLINE StartLanes(D d, const SeenFromBox<D>& seen, hn::Vec<D> noise) {
+    const auto &p = seen.p, &h = seen.h;
+    const auto zero = hn::Zero(d), R = seen.R;
+    const auto x = hn::Sub(hn::Abs(p.x), h.x), y = hn::Sub(hn::Abs(p.y), h.y), z = hn::Sub(hn::Abs(p.z), h.z);
+    const Vec3Lanes<hn::Vec<D>> excess{hn::Max(x, zero), hn::Max(y, zero), hn::Max(z, zero)};
+    const auto gap = hn::Sub(dot(excess, excess), hn::Mul(R, R));
+    const auto reach = hn::Add(hn::Add(excess.x, excess.y), hn::Add(excess.z, R));
+    const auto touch = hn::Mul(hn::Mul(hn::Set(d, hn::TFromD<D>(2)), noise), reach);
+    outside = hn::Gt(gap, touch);
+    const auto in_box = hn::Lt(hn::Max(x, hn::Max(y, z)), hn::Neg(noise));
+    overlapping = hn::Or(in_box, hn::Lt(gap, hn::Neg(touch)));
+  }
+};
 
-  // How far beyond the box it is on each axis when the widened slabs are entered, whenever in its noise that truly is.
-  const auto from = hn::Max(box.earliest, zero), to = hn::Max(box.latest, zero), start = hn::Max(box.first, zero);
-  const auto beyond = [&](const SlabLanes<D>& slab) HWY_ATTR {
-    return hn::Sub(hn::Abs(hn::NegMulAdd(start, slab.speed, slab.place)), slab.half);
-  };
-  const auto off = [&](const SlabLanes<D>& slab)
-                       HWY_ATTR { return hn::MulAdd(hn::Sub(to, from), slab.speed, slab.noise); };
-  const Vec3Lanes<hn::Vec<D>> at{beyond(box.x), beyond(box.y), beyond(box.z)}, by{off(box.x), off(box.y), off(box.z)};
-  const Vec3Lanes<hn::Vec<D>> least = minus(at, by), most = plus(at, by);
-  const auto enters = hn::And(hn::Lt(to, hn::Min(box.earliest_out, one)), hn::Gt(gap, touch));
-  const auto candidate = hn::And(is_ordinary, enters);
+/// How the widened slabs are entered during the step, whenever in its noise that truly is.
+template <class D> struct EntryLanes {
+  hn::Vec<D> from;          ///< [1] at the earliest
+  hn::Mask<D> on_face;      ///< beyond the box on one axis at most, and not from the start: it meets the face then
+  hn::Mask<D> beside_edge;  ///< beyond it on two axes or three
 
-  // Beyond one side at most, and not from the start: it meets the face at that time.
-  const auto on_face = hn::And(hn::And(candidate, hn::Gt(box.earliest, zero)), hn::Lt(median(most), zero));
-  const auto beside_edge = hn::And(candidate, hn::Gt(median(least), zero));
+  HWY_INLINE EntryLanes(D d, const BoxLanes<D>& box) {
+    const auto zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
+    from = hn::Max(box.earliest, zero);
+    const auto to = hn::Max(box.latest, zero), first = hn::Max(box.first, zero);
+    const auto beyond = [&](const SlabLanes<D>& slab) HWY_ATTR {
+      return hn::Sub(hn::Abs(hn::NegMulAdd(first, slab.speed, slab.place)), slab.half);
+    };
+    const auto off = [&](const SlabLanes<D>& slab)
+                         HWY_ATTR { return hn::MulAdd(hn::Sub(to, from), slab.speed, slab.noise); };
+    const Vec3Lanes<hn::Vec<D>> at{beyond(box.x), beyond(box.y), beyond(box.z)}, by{off(box.x), off(box.y), off(box.z)};
+    const auto enters = hn::Lt(to, hn::Min(box.earliest_out, one));
+    on_face = hn::And(hn::And(enters, hn::Gt(box.earliest, zero)), hn::Lt(median(plus(at, by)), zero));
+    beside_edge = hn::And(enters, hn::Gt(median(minus(at, by)), zero));
+  }
+};
 
-  // Else on to the region in which they touch, or pass: a ball around its corner or along its edge. It nears, or never did: on the
-  // widened slab that is entered last the distance is R or more, so where it grows the line has not been nearer before.
-  const auto four_noises = hn::Mul(hn::Set(d, S(4)), noise);
+/// From time `from` on to the region in which the center touches, or passes: a ball around its corner or along its edge. It nears, or
+/// never did: on the widened slab that is entered last the distance is R or more, so where it grows the line has not been nearer before.
+/// Asked of the lanes in `who`.
+template <class D>
+HWY_INLINE Verdict<D> walk_lanes(D d, const SeenFromBox<D>& seen, const BoxLanes<D>& box, hn::Vec<D> noise,
+                                 hn::Vec<D> from, hn::Mask<D> who) {
+  const auto four_noises = hn::Mul(hn::Set(d, hn::TFromD<D>(4)), noise);
   auto now = from;
   RegionLanes<D> region(d, box, now);
-  auto end = region.end(d, R, four_noises);
-  auto on = hn::And(beside_edge, end.goes_on), unsure = end.is_close;
+  auto end = region.end(d, seen.R, four_noises);
+  auto on = hn::And(who, end.goes_on), unsure = end.is_close;
   for (int round = 0; round < 2 && !hn::AllFalse(d, on); ++round) {
     now = hn::IfThenElse(on, region.next, now);
     region = RegionLanes<D>(d, box, now);
-    end = region.end(d, R, four_noises);
+    end = region.end(d, seen.R, four_noises);
     on = hn::And(on, end.goes_on);
     unsure = hn::Or(unsure, end.is_close);
   }
   const Blur<D> blur{noise, sum(seen.v)};
-  const auto &rx = region.x, &ry = region.y, &rz = region.z;
-  const auto ball =
-      verdict_of(d, chord_lanes(d, {rx.q, ry.q, rz.q}, {hn::Neg(rx.w), hn::Neg(ry.w), hn::Neg(rz.w)}, R, &blur));
-  const auto by_ball = hn::AndNot(hn::Or(on, hn::Or(unsure, ball.overlapping)), hn::And(beside_edge, ball.clear));
-  const auto meets = hn::And(by_ball, ball.hit);
+  const auto &x = region.x, &y = region.y, &z = region.z;
+  const Vec3Lanes<hn::Vec<D>> down{hn::Neg(x.w), hn::Neg(y.w), hn::Neg(z.w)};
+  Verdict<D> out = verdict_of(d, chord_lanes(d, {x.q, y.q, z.q}, down, seen.R, &blur));
+  out.clear = hn::AndNot(hn::Or(on, hn::Or(unsure, out.overlapping)), hn::And(who, out.clear));
+  return out;
+}
 
-  Verdict<D> out;
-  out.hit = hn::Or(on_face, meets);
-  out.overlapping = hn::And(is_ordinary, hn::Or(hn::Lt(gap, hn::Neg(touch)), inside));
-  out.clear = hn::Or(hn::Or(on_face, by_ball), hn::Or(out.overlapping, hn::And(is_ordinary, box.never)));
-  out.time = hn::IfThenElse(on_face, box.first, hn::IfThenElse(meets, ball.time, one));
+template <class D> HWY_INLINE Verdict<D> rounded_box(D d, const SeenFromBox<D>& seen) {
+  const auto one = hn::Set(d, hn::TFromD<D>(1));
+  const auto box = box_lanes(d, seen.p, seen.v, seen.h, seen.R, seen.blur, one);
+  const auto noise = hn::Max(box.x.noise, hn::Max(box.y.noise, box.z.noise));
+  const StartLanes<D> start(d, seen, noise);
+  const EntryLanes<D> entry(d, box);
+  const auto on_face = hn::And(start.outside, entry.on_face);
+  Verdict<D> out = walk_lanes(d, seen, box, noise, entry.from, hn::And(start.outside, entry.beside_edge));
+  out.hit = hn::Or(on_face, hn::And(out.clear, out.hit));
+  out.overlapping = start.overlapping;
+  const auto told = hn::Or(hn::Or(on_face, out.clear), hn::Or(start.overlapping, box.never));
+  out.clear = hn::And(hn::And(box.ordinary, seen.is_upright), told);
+  out.time = hn::IfThenElse(on_face, box.first, hn::IfThenElse(out.hit, out.time, one));
   return out;
 }
 

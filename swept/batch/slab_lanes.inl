@@ -1,4 +1,4 @@
-// A line p + v t and the box [-h, h] widened by R, lane by lane: discrete/entry's slab times, with what is clear.
+// A line p + v t and the box [-h, h] widened by R, lane by lane: the slab times of swept/closed_form/rounded_box_entry.hpp, with what is clear.
 
 #if defined(THINWALL_BATCH_SLAB_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef THINWALL_BATCH_SLAB_LANES
@@ -61,11 +61,11 @@ template <class D> struct BoxLanes {
   using V = hn::Vec<D>;
   using M = hn::Mask<D>;
   SlabLanes<D> x, y, z;
-  V first;             ///< [1] when p enters the last of the widened slabs
-  V earliest, latest;  ///< [1] between which that truly lies
-  V earliest_out, latest_out;
-  M never;  ///< clearly not in all of them during the step
-  M ordinary;
+  V first;                     ///< [1] when p enters the last of the widened slabs
+  V earliest, latest;          ///< [1] between which that truly lies
+  V earliest_out, latest_out;  ///< [1] between which it leaves the first of them
+  M never;                     ///< clearly not in all of them during the step
+  M ordinary;                  ///< as ordinary()
 };
 
 /// A length that is none where places are exact, for `blur`: a flat box and a point in its plane have noise too, and so have numbers
