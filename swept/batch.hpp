@@ -66,6 +66,8 @@ BatchReport answer(const A& a, const B& b, const ToiRows<S>& out, const BatchOpt
 /// Throws std::invalid_argument where spans differ in length, or answers share memory with what is read or one another.
 template <batch::BatchSide A, batch::BatchSide B>
 BatchReport time_of_impact(const A& a, const B& b, const ToiRows<batch::ScalarOf<A>>& out, BatchOptions options = {}) {
+  static_assert(batch::is_rows<A> || batch::is_rows<B>,
+                "one side at least must be rows: RowsOf, or rows() of a RowTable");
   const batch::Side<A> side_a(a);
   const batch::Side<B> side_b(b);
   if constexpr (batch::rank_of<A> < batch::rank_of<B>) {
@@ -83,6 +85,7 @@ BatchReport time_of_impact(const A& a, const B& b, const ToiRows<batch::ScalarOf
 template <batch::BatchSide Rays, batch::BatchSide Boxes>
 BatchReport raycast(const Rays& rays, const Boxes& boxes, const ToiRows<batch::ScalarOf<Rays>>& out,
                     BatchOptions options = {}) {
+  static_assert(batch::is_rows<Rays> || batch::is_rows<Boxes>, "one side at least must be rows, of rays or of boxes");
   const batch::Side<Rays> ray_side(rays);
   const batch::Side<Boxes> box_side(boxes);
   return batch::answer(box_side, ray_side, out, options,
