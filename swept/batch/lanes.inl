@@ -114,7 +114,7 @@ HWY_INLINE ChordLanes<D> chord_lanes(D d, const Vec3Lanes<hn::Vec<D>>& p, const 
   auto noise = hn::MulAdd(set(B::graze), RR, hn::Mul(set(B::far), pp));
   auto end = hn::Mul(set(B::end), hn::Add(size, denominator));
   if (blur != nullptr) {
-    const auto place = hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Add(hn::Abs(p.z), R));
+    const auto place = hn::Add(sum(p), R);
     out.touch = hn::MulAdd(hn::Mul(set(4), blur->place), place, out.touch);
     noise = hn::MulAdd(hn::MulAdd(set(8 / B::graze), blur->place, hn::Mul(set(4), R)), blur->place, noise);
     end = hn::MulAdd(hn::Mul(set(B::end_of_blur), blur->place), hn::Add(place, blur->path), end);

@@ -81,7 +81,7 @@ template <class D> HWY_INLINE hn::Mask<D> parts(D d, const SeenFromBox<D>& seen)
   const Vector W{hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)};
   const Vector m{hn::MulAdd(half, v.x, seen.p.x), hn::MulAdd(half, v.y, seen.p.y), hn::MulAdd(half, v.z, seen.p.z)};
   const Vector M{hn::Abs(m.x), hn::Abs(m.y), hn::Abs(m.z)}, moment = cross(m, v);
-  const auto path = hn::Add(W.x, hn::Add(W.y, W.z));
+  const auto path = sum(v);
   const auto lengths = hn::Add(hn::Add(hn::Add(M.x, H.x), hn::Add(M.y, H.y)), hn::Add(hn::Add(M.z, H.z), path));
   const auto noise = hn::Mul(hn::Set(d, Bounds<S>::length), hn::Add(lengths, seen.blur));
   const auto along = [&](hn::Vec<D> at, hn::Vec<D> reach, hn::Vec<D> w)

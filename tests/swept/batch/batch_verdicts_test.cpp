@@ -121,8 +121,8 @@ template <class S> void judge_every_pair() {
   judge_rows<Capsule<S>, Sphere<S>>("capsule sphere", count);
   judge_rows<Aabb<S>, Aabb<S>>("aabb aabb", count);
   judge_rays<S>(count);
-  judge_one_against_many<Aabb<S>, Sphere<S>>("one aabb", count / 10);
-  judge_one_against_many<Obb<S>, Sphere<S>>("one obb", count / 10);
+  judge_one_against_many<Aabb<S>, Sphere<S>>("aabb, 1st of 16", count / 10);
+  judge_one_against_many<Obb<S>, Sphere<S>>("obb, 1st of 16", count / 10);
 }
 
 TEST(BatchVerdicts, are_the_scalar_codes_own_in_double) { judge_every_pair<double>(); }
