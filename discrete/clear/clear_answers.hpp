@@ -64,7 +64,7 @@ struct ClearRayHit {
     made->t = value(t);
     store(point, made->point);
     store(normal, made->normal);
-    if (!hit) made.reset();
+    keep_if(hit, made);
     return made;
   }
 };
