@@ -66,17 +66,20 @@ template <class A> inline constexpr bool has_exact_cast = !requires(const A& sha
 /// The closed form's ladder. The clear rung answers in plain arithmetic what no rounding can decide (swept/clear/, discrete/clear/):
 /// nearly everything. The rest is asked of the careful rung (swept/closed_form/), which asks itself once more in a wider scalar
 /// where even it is in doubt. A float's query climbs in double. docs/closed_forms.md draws it.
-template <class Method, Shape A, Shape B>
+/// Given A and B the other way round, the answer is `turned`: a clear one while it is in registers.
+template <bool turned = false, class Method, Shape A, Shape B>
 THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  const auto turn = [](const Toi<typename A::Scalar>& toi) { return turned ? flipped(toi) : toi; };
   if constexpr (std::is_same_v<Method, ClosedForm<double>> && HasClearImpact<A, B>) {
-    const ClearToi answer = clear_impact(a, b, method.min_separation);
+    ClearToi answer = clear_impact(a, b, method.min_separation);
+    if (turned) answer.normal = packed::all(0) - answer.normal;
     if (answer.clear) [[likely]]
       return answer.toi();
-    return careful_impact(method, a, b);
+    return turn(careful_impact(method, a, b));
   } else if constexpr (std::is_same_v<Method, ClosedForm<float>> && has_exact_cast<A> && has_exact_cast<B>) {
-    return impact_in_double(method, a, b);
+    return turn(impact_in_double(method, a, b));
   } else {
-    return checked_impact(method, a, b);
+    return turn(checked_impact(method, a, b));
   }
 }
 
@@ -96,7 +99,7 @@ THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Method& method, const 
   static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both shapes must have the same scalar");
   static_assert(serves<Method, A, B>, "this method does not serve this pair of shapes");
   if constexpr (A::rank < B::rank) {
-    return flipped(impact_by_ladder(method, b, a));
+    return impact_by_ladder<true>(method, b, a);
   } else {
     return impact_by_ladder(method, a, b);
   }

@@ -21,29 +21,75 @@
 
 namespace thinwall::packed {
 
-template <class Number, int count> struct Register {
-  using Type [[gnu::vector_size(count * sizeof(Number))]] = Number;
-};
-using Two = Register<double, 2>::Type;
-using Four = Register<double, 4>::Type;
+using Two [[gnu::vector_size(16)]] = double;
+using Four [[gnu::vector_size(32)]] = double;
 
-template <class Number> struct PairOf {
-  typename Register<Number, 2>::Type v;
+/// Of `double`, numbers; of `bool`, masks: of a lane all bits, or none.
+template <class Kind> struct PairOf {
+  Two v;
 };
 #ifdef __AVX__
-template <class Number> struct LanesOf {
-  typename Register<Number, 4>::Type v;
+template <class Kind> struct LanesOf {
+  Four v;
 };
 #else
-template <class Number> struct LanesOf {
-  typename Register<Number, 2>::Type xy, zz;
+template <class Kind> struct LanesOf {
+  Two xy, zz;
 };
 #endif
-using Bits = std::int64_t;
 using Pair = PairOf<double>;
 using Lanes = LanesOf<double>;
-using PairMask = PairOf<Bits>;  ///< of a lane all bits, or none
-using LanesMask = LanesOf<Bits>;
+using PairMask = PairOf<bool>;
+using LanesMask = LanesOf<bool>;
+
+// ---- Of registers. By the machine's own instructions: from expressions GCC makes others, of whole numbers, with constants that take four.
+
+#ifdef __AVX__
+#define THINWALL_OF_REGISTERS(name, two, four)                                                \
+  THINWALL_HOT Two name(const Two& x, const Two& y) { return std::bit_cast<Two>(two); }       \
+  THINWALL_HOT Four name(const Four& x, const Four& y) { return std::bit_cast<Four>(four); }
+#elif defined(__SSE2__)
+#define THINWALL_OF_REGISTERS(name, two, four) \
+  THINWALL_HOT Two name(const Two& x, const Two& y) { return two; }
+#endif
+#ifdef __SSE2__
+// The second, where one of the two is not a number.
+THINWALL_OF_REGISTERS(least, _mm_min_pd(x, y), _mm256_min_pd(x, y))
+THINWALL_OF_REGISTERS(most, _mm_max_pd(x, y), _mm256_max_pd(x, y))
+// False, where one of the two is not a number.
+THINWALL_OF_REGISTERS(below, _mm_cmplt_pd(x, y), _mm256_cmp_pd(x, y, _CMP_LT_OS))
+THINWALL_OF_REGISTERS(at_most, _mm_cmple_pd(x, y), _mm256_cmp_pd(x, y, _CMP_LE_OS))
+// Bit by bit.
+THINWALL_OF_REGISTERS(bits_of_both, _mm_and_pd(x, y), _mm256_and_pd(x, y))
+THINWALL_OF_REGISTERS(bits_of_either, _mm_or_pd(x, y), _mm256_or_pd(x, y))
+THINWALL_OF_REGISTERS(bits_of_one, _mm_xor_pd(x, y), _mm256_xor_pd(x, y))
+THINWALL_OF_REGISTERS(bits_without, _mm_andnot_pd(y, x), _mm256_andnot_pd(y, x))
+#undef THINWALL_OF_REGISTERS
+#else
+using Bits [[gnu::vector_size(16)]] = std::int64_t;
+THINWALL_HOT Bits whole(const Two& x) { return std::bit_cast<Bits>(x); }
+THINWALL_HOT Two least(const Two& x, const Two& y) { return x < y ? x : y; }
+THINWALL_HOT Two most(const Two& x, const Two& y) { return x > y ? x : y; }
+THINWALL_HOT Two below(const Two& x, const Two& y) { return std::bit_cast<Two>(x < y); }
+THINWALL_HOT Two at_most(const Two& x, const Two& y) { return std::bit_cast<Two>(x <= y); }
+THINWALL_HOT Two bits_of_both(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) & whole(y)); }
+THINWALL_HOT Two bits_of_either(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) | whole(y)); }
+THINWALL_HOT Two bits_of_one(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) ^ whole(y)); }
+THINWALL_HOT Two bits_without(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) & ~whole(y)); }
+#endif
+
+THINWALL_HOT Two chosen(const Two& which, const Two& yes, const Two& no) {
+#ifdef __AVX__
+  return _mm_blendv_pd(no, yes, which);
+#else
+  return bits_of_either(bits_of_both(which, yes), bits_without(no, which));
+#endif
+}
+#ifdef __AVX__
+THINWALL_HOT Four chosen(const Four& which, const Four& yes, const Four& no) {
+  return _mm256_blendv_pd(no, yes, which);
+}
+#endif
 
 // ---- Lane by lane: f of the registers of x.
 
@@ -58,18 +104,6 @@ template <class To, class F, class... Given> THINWALL_HOT LanesOf<To> each(const
 #endif
 }
 
-#ifdef __SSE2__  // beside a constant GCC would compare and mask
-THINWALL_HOT Two least(const Two& x, const Two& y) { return _mm_min_pd(x, y); }
-THINWALL_HOT Two most(const Two& x, const Two& y) { return _mm_max_pd(x, y); }
-#ifdef __AVX__
-THINWALL_HOT Four least(const Four& x, const Four& y) { return _mm256_min_pd(x, y); }
-THINWALL_HOT Four most(const Four& x, const Four& y) { return _mm256_max_pd(x, y); }
-#endif
-#else
-THINWALL_HOT Two least(const Two& x, const Two& y) { return x < y ? x : y; }
-THINWALL_HOT Two most(const Two& x, const Two& y) { return x > y ? x : y; }
-#endif
-
 #define THINWALL_LANE_BY_LANE(name, To, From, expression)                                                       \
   template <template <class> class Pack> THINWALL_HOT Pack<To> name(const Pack<From>& a, const Pack<From>& b) { \
     return each<To>([](const auto& x, const auto& y) { return expression; }, a, b);                             \
@@ -83,40 +117,35 @@ THINWALL_LANE_BY_LANE(operator/, double, double, x / y)
 THINWALL_LANE_BY_LANE(min, double, double, least(x, y))
 THINWALL_LANE_BY_LANE(max, double, double, most(x, y))
 // False, where one of the two is not a number.
-THINWALL_LANE_BY_LANE(operator<, Bits, double, x < y)
-THINWALL_LANE_BY_LANE(operator<=, Bits, double, x <= y)
-THINWALL_LANE_BY_LANE(operator&, Bits, Bits, x & y)
-THINWALL_LANE_BY_LANE(operator|, Bits, Bits, x | y)
+THINWALL_LANE_BY_LANE(operator<, bool, double, below(x, y))
+THINWALL_LANE_BY_LANE(operator<=, bool, double, at_most(x, y))
+THINWALL_LANE_BY_LANE(operator&, bool, bool, bits_of_both(x, y))
+THINWALL_LANE_BY_LANE(operator|, bool, bool, bits_of_either(x, y))
 // clang-format on
 #undef THINWALL_LANE_BY_LANE
 
-/// The bits of a register of numbers, and the numbers of its bits.
-template <class Numbers> THINWALL_HOT auto bits_of(const Numbers& x) {
-  return std::bit_cast<typename Register<Bits, sizeof(x) / sizeof(double)>::Type>(x);
-}
-template <class All> THINWALL_HOT auto numbers_of(const All& x) {
-  return std::bit_cast<typename Register<double, sizeof(x) / sizeof(double)>::Type>(x);
-}
-inline constexpr Bits sign_bit = std::numeric_limits<Bits>::min();
+/// -0, a sign alone, in every lane of such a register.
+THINWALL_HOT Two minus_zero(const Two&) { return Two{-0.0, -0.0}; }
+#ifdef __AVX__
+THINWALL_HOT Four minus_zero(const Four&) { return Four{-0.0, -0.0, -0.0, -0.0}; }
+#endif
 
 template <template <class> class Pack> THINWALL_HOT Pack<double> abs(const Pack<double>& a) {
-  return each<double>([](const auto& x) { return numbers_of(bits_of(x) & ~sign_bit); }, a);
+  return each<double>([](const auto& x) { return bits_without(x, minus_zero(x)); }, a);
 }
 /// a as it is where s is downwards: a where s is negative, -0 included, else -a.
 template <template <class> class Pack> THINWALL_HOT Pack<double> against(const Pack<double>& a, const Pack<double>& s) {
-  return each<double>([](const auto& x, const auto& y) { return numbers_of(bits_of(x) ^ (~bits_of(y) & sign_bit)); }, a,
+  return each<double>([](const auto& x, const auto& y) { return bits_of_one(x, bits_without(minus_zero(y), y)); }, a,
                       s);
 }
 /// yes where `which`, else no.
 template <template <class> class Pack>
-THINWALL_HOT Pack<double> select(const Pack<Bits>& which, const Pack<double>& yes, const Pack<double>& no) {
-  return each<double>(
-      [](const auto& m, const auto& x, const auto& y) { return numbers_of((m & bits_of(x)) | (~m & bits_of(y))); },
-      which, yes, no);
+THINWALL_HOT Pack<double> select(const Pack<bool>& which, const Pack<double>& yes, const Pack<double>& no) {
+  return each<double>([](const auto& m, const auto& x, const auto& y) { return chosen(m, x, y); }, which, yes, no);
 }
 /// a where `which`, else 0.
-template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack<Bits>& which, const Pack<double>& a) {
-  return each<double>([](const auto& m, const auto& x) { return numbers_of(m & bits_of(x)); }, which, a);
+template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack<bool>& which, const Pack<double>& a) {
+  return each<double>([](const auto& m, const auto& x) { return bits_of_both(m, x); }, which, a);
 }
 
 // ---- Across lanes.
@@ -124,6 +153,7 @@ template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack
 THINWALL_HOT Pair both(double x) { return {Two{x, x}}; }
 THINWALL_HOT Pair firsts(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 0, 0)}; }
 THINWALL_HOT Pair seconds(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 1, 1)}; }
+THINWALL_HOT Pair swapped(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 1, 0)}; }
 THINWALL_HOT Pair firsts(const Pair& a, const Pair& b) { return {__builtin_shufflevector(a.v, b.v, 0, 2)}; }
 THINWALL_HOT Pair seconds(const Pair& a, const Pair& b) { return {__builtin_shufflevector(a.v, b.v, 1, 3)}; }
 THINWALL_HOT double value(const Pair& a) { return a.v[0]; }
@@ -136,10 +166,15 @@ THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
 THINWALL_HOT Lanes lanes(const double* x) {
   return std::bit_cast<Lanes>(_mm256_blend_pd(_mm256_broadcast_sd(x + 2), _mm256_castpd128_pd256(_mm_loadu_pd(x)), 3));
 }
-THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
-  return {typename Register<Bits, 4>::Type{x, y, z, z}};
+THINWALL_HOT constexpr LanesMask lanes(double x, double y, double z) { return {Four{x, y, z, z}}; }
+/// Of what is there twice.
+template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) {
+#ifdef __AVX2__
+  return {_mm256_broadcastsd_pd(x.v)};
+#else
+  return {Four{x.v[0], x.v[0], x.v[0], x.v[0]}};
+#endif
 }
-THINWALL_HOT LanesMask all(const PairMask& m) { return {__builtin_shufflevector(m.v, m.v, 0, 0, 0, 0)}; }
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {__builtin_shufflevector(a.v, a.v, 0, 1)}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) {
   return std::bit_cast<Pair>(_mm256_extractf128_pd(std::bit_cast<__m256d>(a), 1));
@@ -153,10 +188,8 @@ THINWALL_HOT Lanes lanes(const double* x) {
   std::memcpy(&a.xy, x, sizeof a.xy);
   return a;
 }
-THINWALL_HOT constexpr LanesMask lanes(Bits x, Bits y, Bits z) {
-  return {typename Register<Bits, 2>::Type{x, y}, typename Register<Bits, 2>::Type{z, z}};
-}
-THINWALL_HOT LanesMask all(const PairMask& m) { return {m.v, m.v}; }  ///< of one mask twice
+THINWALL_HOT constexpr LanesMask lanes(double x, double y, double z) { return {Two{x, y}, Two{z, z}}; }
+template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) { return {x.v, x.v}; }
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {a.xy}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) { return {a.zz}; }
 THINWALL_HOT Lanes yzx(const Lanes& a) {
@@ -165,7 +198,6 @@ THINWALL_HOT Lanes yzx(const Lanes& a) {
 #endif
 
 THINWALL_HOT Lanes lanes(const Vec3<double>& v) { return lanes(v.data()); }
-THINWALL_HOT Lanes all(const Pair& x) { return all(value(x)); }  ///< of a number twice
 THINWALL_HOT void store(const Lanes& a, Vec3<double>& to) {
   const Pair xy = xy_of(a);
   std::memcpy(to.data(), &xy, sizeof xy);
@@ -177,7 +209,7 @@ THINWALL_HOT unsigned bits(const PairMask& m) {
 #ifdef __SSE2__
   return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(m)));
 #else
-  return (m.v[0] & 1U) | (m.v[1] & 2U);
+  return (whole(m.v)[0] & 1U) | (whole(m.v)[1] & 2U);
 #endif
 }
 THINWALL_HOT unsigned bits(const LanesMask& m) {
@@ -203,19 +235,31 @@ THINWALL_HOT Pair root(const Pair& a) {
 
 /// The sum of a, and that of b.
 THINWALL_HOT Pair two_sums(const Lanes& a, const Lanes& b) {
-  return (firsts(xy_of(a), xy_of(b)) + seconds(xy_of(a), xy_of(b))) + firsts(zz_of(a), zz_of(b));
+#ifdef __AVX__
+  const Lanes x_and_z{__builtin_shufflevector(a.v, b.v, 0, 4, 2, 6)};
+#else
+  const Lanes x_and_z{firsts(xy_of(a), xy_of(b)).v, firsts(zz_of(a), zz_of(b)).v};
+#endif
+  return (xy_of(x_and_z) + seconds(xy_of(a), xy_of(b))) + zz_of(x_and_z);
 }
-THINWALL_HOT Pair sum(const Lanes& a) { return two_sums(a, a); }
+THINWALL_HOT Pair sum(const Lanes& a) { return (xy_of(a) + swapped(xy_of(a))) + zz_of(a); }
 THINWALL_HOT Pair dot(const Lanes& a, const Lanes& b) { return sum(a * b); }
 THINWALL_HOT Lanes cross(const Lanes& a, const Lanes& b) { return yzx(a * yzx(b) - yzx(a) * b); }
 THINWALL_HOT Lanes unit(const Lanes& a) { return a / all(root(dot(a, a))); }
-THINWALL_HOT Pair largest_of(const Lanes& a) { return max(firsts(max(xy_of(a), zz_of(a))), seconds(xy_of(a))); }
-THINWALL_HOT Pair smallest_of(const Lanes& a) { return min(firsts(min(xy_of(a), zz_of(a))), seconds(xy_of(a))); }
+THINWALL_HOT Pair largest_of(const Lanes& a) {
+  const Pair with_z = max(xy_of(a), zz_of(a));
+  return max(with_z, swapped(with_z));
+}
+THINWALL_HOT Pair smallest_of(const Lanes& a) {
+  const Pair with_z = min(xy_of(a), zz_of(a));
+  return min(with_z, swapped(with_z));
+}
 
 /// All bits of the lane of the lowest bit set.
 THINWALL_HOT LanesMask lowest(unsigned which) {
-  static constexpr LanesMask x = lanes(-1, 0, 0), y = lanes(0, -1, 0), none = lanes(0, 0, 0);
-  static constexpr LanesMask first[8] = {none, x, y, x, lanes(0, 0, -1), x, y, x};
+  constexpr double yes = std::bit_cast<double>(std::int64_t(-1));
+  static constexpr LanesMask x = lanes(yes, 0, 0), y = lanes(0, yes, 0), none = lanes(0, 0, 0);
+  static constexpr LanesMask first[8] = {none, x, y, x, lanes(0, 0, yes), x, y, x};
   return first[which];
 }
 

@@ -30,7 +30,7 @@ THINWALL_HOT Vectors<Lanes> spread(const Lanes& v) {
 THINWALL_HOT Vectors<Lanes> transposed(const Lanes& a, const Lanes& b, const Lanes& c) {
   const auto even = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6), odd = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
   const auto next = __builtin_shufflevector(c.v, c.v, 1, 1, 3, 3);
-  return {{__builtin_shufflevector(even, c.v, 0, 1, 4, 5)},
+  return {{__builtin_shufflevector(even, c.v, 0, 1, 4, 4)},
           {__builtin_shufflevector(odd, next, 0, 1, 4, 5)},
           {__builtin_shufflevector(even, c.v, 2, 3, 6, 7)}};
 }

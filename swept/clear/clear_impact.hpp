@@ -110,12 +110,12 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
                                    double gap) {
   using packed::Lanes, packed::all, packed::both, packed::lanes, packed::twice;
   const double r = sphere.shape.radius, s = capsule.shape.radius;
-  const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
-  const Lanes p = center - a, v = path - lanes(capsule.displacement), core = lanes(capsule.shape.b) - a;
   const auto ends = twice(sphere.shape.center) - packed::side_by_side(capsule.shape.a, capsule.shape.b);
   const auto along = twice(sphere.displacement) - twice(capsule.displacement);
   const ClearSide line(ends, along, twice(capsule.shape.b) - twice(capsule.shape.a), both(r + s + gap));
   const ClearSegmentEntry entry = clear_segment_entry(line, ends, along);
+  const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
+  const Lanes p = center - a, v = path - lanes(capsule.displacement), core = lanes(capsule.shape.b) - a;
   const Lanes time = all(entry.time), normal = unit((p - core * all(entry.on)) + v * time);
   return {all_of(entry.clear & clear_sizes(r, s, gap) & clear_of_end(entry.time)), entry.time, normal,
           (center + path * time) - normal * all(r + gap / 2)};
