@@ -66,7 +66,7 @@ THINWALL_HOT ClearContact clear_contact(const Sphere<double>& a, const Sphere<do
   const packed::Lanes normal = between / all(distance);
   const PairMask in_range = (both(packed::least_square) <= min(RR, square)) &
                             (max(RR, square) <= both(packed::most_square)) &
-                            (both(0) <= min(both(a.radius), both(b.radius)));
+                            (both(0) <= packed::pair(a.radius, b.radius));
   return {all_of(in_range & clearly_apart(square, RR)),
           all_of(square < RR),
           normal * all(a.radius),

@@ -40,7 +40,7 @@ inline constexpr double near_end = 0x1p-10;
 }  // namespace packed
 
 THINWALL_HOT packed::PairMask clearly_apart(const packed::Pair& a, const packed::Pair& b) {
-  return (a * packed::both(packed::more_than_rounding) < b) | (b * packed::both(packed::more_than_rounding) < a);
+  return b * packed::both(packed::more_than_rounding - 1) < abs(a - b);
 }
 
 /// The line p + v t and the ball around the origin whose radius squared is RR, by the moment p x v. Each number twice.
@@ -111,8 +111,8 @@ struct ClearSlabs {
   /// Which of `first` and `last` comes first.
   THINWALL_HOT packed::PairMask in_order() const {
     using packed::both;
-    const packed::Pair rounding = min(last, first) * both(packed::more_than_rounding - 1);
-    return (max(rounding, both(packed::least_time)) < abs(first - last)) & (both(packed::least_time) < time);
+    const packed::Pair part = abs(first - last);
+    return (last * both(packed::more_than_rounding - 1) < part) & (both(packed::least_time) < min(time, part));
   }
   THINWALL_HOT bool clear() const {
     return packed::both(packed::both(all_of(in_range), any_of(outside)), all_of(in_order()));

@@ -151,6 +151,7 @@ template <template <class> class Pack> THINWALL_HOT Pack<double> keep(const Pack
 // ---- Across lanes.
 
 THINWALL_HOT Pair both(double x) { return {Two{x, x}}; }
+THINWALL_HOT Pair pair(double x, double y) { return {Two{x, y}}; }
 THINWALL_HOT Pair firsts(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 0, 0)}; }
 THINWALL_HOT Pair seconds(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 1, 1)}; }
 THINWALL_HOT Pair swapped(const Pair& a) { return {__builtin_shufflevector(a.v, a.v, 1, 0)}; }

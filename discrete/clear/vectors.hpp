@@ -51,7 +51,7 @@ THINWALL_HOT Lanes only(const LanesMask& one, const Vectors<Lanes>& of) {
 /// One vector, twice; or two.
 THINWALL_HOT Vectors<Pair> twice(const Vec3<double>& a) { return {both(a[0]), both(a[1]), both(a[2])}; }
 THINWALL_HOT Vectors<Pair> side_by_side(const Vec3<double>& a, const Vec3<double>& b) {
-  return {{Two{a[0], b[0]}}, {Two{a[1], b[1]}}, {Two{a[2], b[2]}}};
+  return {pair(a[0], b[0]), pair(a[1], b[1]), pair(a[2], b[2])};
 }
 
 }  // namespace thinwall::packed

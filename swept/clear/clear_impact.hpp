@@ -46,7 +46,7 @@ THINWALL_HOT packed::PairMask clear_of_end(const packed::Pair& time) {
 /// No radius and no gap is negative, or not a number.
 THINWALL_HOT packed::PairMask clear_sizes(double r, double s, double gap) {
   using packed::both;
-  return both(0) <= min(both(gap), min(both(r), both(s)));
+  return both(0) <= min(both(gap), packed::pair(r, s));
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Sphere<double>>& a, const Moving<Sphere<double>>& b, double gap) {
