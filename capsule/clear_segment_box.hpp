@@ -81,11 +81,11 @@ struct ClearSegmentBox {
   /// Of the squared distance, halved, at three places on the segment that starts at X. Where it crosses the plane of a face, that face's
   /// axis has no part in it, to the bit: what is level stays so.
   THINWALL_HOT packed::Lanes slope(const packed::Vectors<packed::Lanes>& X, const packed::Lanes& s) const {
-    using packed::all, packed::lanes;
+    using packed::all, packed::mask;
     const packed::LanesMask at_end = (s <= all(0)) | (all(1) <= s);
-    return (keep(at_end | lanes(0, -1, -1), slope_of(X.x, D.x, H.x, s)) +
-            keep(at_end | lanes(-1, 0, -1), slope_of(X.y, D.y, H.y, s))) +
-           keep(at_end | lanes(-1, -1, 0), slope_of(X.z, D.z, H.z, s));
+    return (keep(at_end | mask(false, true, true), slope_of(X.x, D.x, H.x, s)) +
+            keep(at_end | mask(true, false, true), slope_of(X.y, D.y, H.y, s))) +
+           keep(at_end | mask(true, true, false), slope_of(X.z, D.z, H.z, s));
   }
   THINWALL_HOT static packed::Lanes slope_of(const packed::Lanes& from, const packed::Lanes& along,
                                              const packed::Lanes& half, const packed::Lanes& s) {

@@ -159,6 +159,9 @@ THINWALL_HOT Pair firsts(const Pair& a, const Pair& b) { return {__builtin_shuff
 THINWALL_HOT Pair seconds(const Pair& a, const Pair& b) { return {__builtin_shufflevector(a.v, b.v, 1, 3)}; }
 THINWALL_HOT double value(const Pair& a) { return a.v[0]; }
 
+/// All bits, or none.
+THINWALL_HOT constexpr double all_bits(bool yes) { return std::bit_cast<double>(-std::int64_t{yes}); }
+
 #ifdef __AVX__
 THINWALL_HOT Lanes all(double x) { return {Four{x, x, x, x}}; }
 THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
@@ -167,7 +170,7 @@ THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
 THINWALL_HOT Lanes lanes(const double* x) {
   return std::bit_cast<Lanes>(_mm256_blend_pd(_mm256_broadcast_sd(x + 2), _mm256_castpd128_pd256(_mm_loadu_pd(x)), 3));
 }
-THINWALL_HOT constexpr LanesMask lanes(double x, double y, double z) { return {Four{x, y, z, z}}; }
+THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) { return {Four{all_bits(x), all_bits(y), all_bits(z), all_bits(z)}}; }
 /// Of what is there twice.
 template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) {
 #ifdef __AVX2__
@@ -189,7 +192,9 @@ THINWALL_HOT Lanes lanes(const double* x) {
   std::memcpy(&a.xy, x, sizeof a.xy);
   return a;
 }
-THINWALL_HOT constexpr LanesMask lanes(double x, double y, double z) { return {Two{x, y}, Two{z, z}}; }
+THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) {
+  return {Two{all_bits(x), all_bits(y)}, Two{all_bits(z), all_bits(z)}};
+}
 template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) { return {x.v, x.v}; }
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {a.xy}; }
 THINWALL_HOT Pair zz_of(const Lanes& a) { return {a.zz}; }
@@ -258,9 +263,8 @@ THINWALL_HOT Pair smallest_of(const Lanes& a) {
 
 /// All bits of the lane of the lowest bit set.
 THINWALL_HOT LanesMask lowest(unsigned which) {
-  constexpr double yes = std::bit_cast<double>(std::int64_t(-1));
-  static constexpr LanesMask x = lanes(yes, 0, 0), y = lanes(0, yes, 0), none = lanes(0, 0, 0);
-  static constexpr LanesMask first[8] = {none, x, y, x, lanes(0, 0, yes), x, y, x};
+  static constexpr LanesMask x = mask(true, false, false), y = mask(false, true, false), z = mask(false, false, true);
+  static constexpr LanesMask first[8] = {mask(false, false, false), x, y, x, z, x, y, x};
   return first[which];
 }
 
