@@ -29,6 +29,13 @@ struct ClearSegmentBox {
     return firsts(both) - min(seconds(both), packed::both(0));
   }
 
+  /// The slabs across each of the box's axes and the segment: where an edge is met, or passed.
+  THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
+                           const packed::Pair& noise) const {
+    const packed::Lanes y = yzx(abs(d)), z = yzx(y), h1 = yzx(h), length = root(y * y + z * z);
+    stretch.narrow(cross(p, d), cross(v, d), (h1 * z + yzx(h1) * y) + length * all(R), (y + z) * all(noise));
+  }
+
   /// Which part it is of: the faces it is outside of, turned towards the box, and whether it is on the segment's side.
   struct Part {
     ClearNearest nearest;

@@ -29,18 +29,21 @@ struct ClearSegments {
   packed::Lanes to_s;               ///< x.to_s is the place on the first's line that is nearest to the second's
   packed::PairMask crossed;         ///< far enough from parallel for that
   packed::Pair speed, of_d, of_e, of_normal;  ///< squares of the motion and of its parts along the three
+  packed::Pair through;                       ///< v.normal
+  packed::Pair extents;                       ///< the normal's length, and the product of the segments'
 
   THINWALL_HOT ClearSegments(const packed::Lanes& first, const packed::Lanes& second, const packed::Lanes& v)
       : d(first), e(second), normal(cross(first, second)), size(sum(abs(first) + abs(second))) {
     using packed::Pair, packed::all, packed::both;
     const Pair lengths = two_sums(d * d, e * e), per = both(1) / lengths, others = two_sums(d * e, normal * normal);
-    const Pair along = two_sums(v * d, v * e), through = two_sums(v * v, v * normal), parts = along * along * per;
+    const Pair along = two_sums(v * d, v * e), of_v = two_sums(v * v, v * normal), parts = along * along * per;
     const Pair per_nn = both(1) / seconds(others);
     de = firsts(others), per_dd = firsts(per), per_ee = seconds(per);
     to_s = cross(e, normal) * all(per_nn);
     crossed = both(0x1p-20) * (firsts(lengths) * seconds(lengths)) < seconds(others);
-    speed = firsts(through), of_d = firsts(parts), of_e = seconds(parts);
-    of_normal = seconds(through) * seconds(through) * per_nn;
+    speed = firsts(of_v), through = seconds(of_v), of_d = firsts(parts), of_e = seconds(parts);
+    of_normal = through * through * per_nn;
+    extents = root(firsts(seconds(others), firsts(lengths) * seconds(lengths)));
   }
 
   THINWALL_HOT packed::Lanes low() const { return min(d, packed::all(0)) - max(e, packed::all(0)); }
@@ -48,6 +51,12 @@ struct ClearSegments {
   THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
     const packed::Pair along = two_sums(n * d, n * e), none = packed::both(0);
     return max(firsts(along), none) - min(seconds(along), none);
+  }
+
+  /// The slab across both: where their sides meet, or pass.
+  THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
+                           const packed::Pair& noise) const {
+    stretch.narrow(dot(p, normal), through, firsts(extents) * R, seconds(extents) * noise);
   }
 
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {

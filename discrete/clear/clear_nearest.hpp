@@ -15,6 +15,34 @@ struct ClearNearest {
   bool one = true;     ///< no other point is as near, and which it is no rounding decides
 };
 
+/// When a path may be near a core: within all slabs that have been asked.
+struct ClearStretch {
+  packed::Pair free, last;  ///< [1] before and after these there is no contact
+  packed::Pair first;       ///< [1] where `free` would be if nothing were rounded
+
+  THINWALL_HOT explicit ClearStretch(const packed::Pair& until)
+      : free(packed::both(0)), last(until), first(packed::both(0)) {}
+
+  /// To when places p + v t, each a number, are within `reach`, or within `noise` of it. One that is, and does not move, tells nothing.
+  THINWALL_HOT void narrow(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& reach,
+                           const packed::Lanes& noise) {
+    using packed::Lanes, packed::all;
+    const Lanes P = against(p, v), W = abs(v), zero = all(0), enter = P - reach;
+    first = max(first, largest_of(max(enter / W, zero)));
+    free = max(free, largest_of(max((enter - noise) / W, zero)));
+    last = min(last, smallest_of(min((P + reach + noise) / W, all(last))));
+  }
+  /// The same of one number.
+  THINWALL_HOT void narrow(const packed::Pair& p, const packed::Pair& v, const packed::Pair& reach,
+                           const packed::Pair& noise) {
+    using packed::Pair;
+    const Pair P = against(p, v), W = abs(v), times = firsts(P - reach - noise, P + reach + noise) / W;
+    first = max((P - reach) / W, first);
+    free = max(firsts(times), free);
+    last = min(seconds(times), last);
+  }
+};
+
 /// The number between 0 and 1 that is nearest to x; 0 or 1 for what is not a number.
 THINWALL_HOT packed::Pair clear_clamp(const packed::Pair& x) { return max(min(x, packed::both(1)), packed::both(0)); }
 

@@ -16,6 +16,8 @@ struct ClearTriangle {
       beside;                     ///< of each edge: one over its square, and the square of the motion at right angles
   packed::Pair speed, of_normal;  ///< squares of the motion and of its part along the normal
   packed::PairMask broad;         ///< no needle, whose plane roundings tilt
+  packed::Pair through;           ///< v.normal
+  packed::Pair extents;           ///< the normal's length, and the product of those of e1 and e2
 
   THINWALL_HOT ClearTriangle(const packed::Lanes& to_b, const packed::Lanes& to_c, const packed::Lanes& v)
       : e1(to_b), e2(to_c), normal(cross(to_b, to_c)), size(sum(abs(to_b) + abs(to_c))) {
@@ -24,10 +26,11 @@ struct ClearTriangle {
     edge = packed::transposed(d[0], d[1], d[2]), from = packed::transposed(none, e1, e2);
     inward = packed::transposed(cross(normal, d[0]), cross(normal, d[1]), cross(normal, d[2]));
     const Pair of_v = two_sums(v * v, v * normal);
-    per_nn = both(1) / dot(normal, normal);
-    speed = firsts(of_v), of_normal = seconds(of_v) * seconds(of_v) * per_nn;
+    const Pair lengths = two_sums(e1 * e1, e2 * e2), nn = dot(normal, normal), ee = firsts(lengths) * seconds(lengths);
+    per_nn = both(1) / nn;
+    speed = firsts(of_v), through = seconds(of_v), of_normal = through * through * per_nn;
     per_length = all(1) / dot(edge, edge);
-    broad = both(0x1p-8) * (dot(e1, e1) * dot(e2, e2)) * per_nn < both(1);
+    broad = both(0x1p-8) * ee * per_nn < both(1), extents = root(firsts(nn, ee));
     const Lanes along = dot(edge, spread(v));
     beside = all(speed) - along * along * per_length;
   }
@@ -37,6 +40,12 @@ struct ClearTriangle {
   THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
     const packed::Pair along = two_sums(n * e1, n * e2);
     return max(max(firsts(along), seconds(along)), packed::both(0));
+  }
+
+  /// The slab of its plane: where its face is met, or passed.
+  THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
+                           const packed::Pair& noise) const {
+    stretch.narrow(dot(p, normal), through, firsts(extents) * R, seconds(extents) * noise);
   }
 
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {

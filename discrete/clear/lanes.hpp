@@ -91,6 +91,16 @@ THINWALL_HOT Four chosen(const Four& which, const Four& yes, const Four& no) {
 }
 #endif
 
+// std::sqrt jumps, for the sake of errno.
+#ifdef __SSE2__
+THINWALL_HOT Two root_of(const Two& x) { return _mm_sqrt_pd(x); }
+#ifdef __AVX__
+THINWALL_HOT Four root_of(const Four& x) { return _mm256_sqrt_pd(x); }
+#endif
+#else
+THINWALL_HOT Two root_of(const Two& x) { return Two{std::sqrt(x[0]), std::sqrt(x[1])}; }
+#endif
+
 // ---- Lane by lane: f of the registers of x.
 
 template <class To, class F, class... Given> THINWALL_HOT PairOf<To> each(const F& f, const PairOf<Given>&... x) {
@@ -231,12 +241,8 @@ THINWALL_HOT bool any_of(const LanesMask& m) { return bits(m) != 0U; }
 /// Both, without a jump.
 THINWALL_HOT bool both(bool a, bool b) { return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0U; }
 
-THINWALL_HOT Pair root(const Pair& a) {
-#ifdef __SSE2__
-  return std::bit_cast<Pair>(_mm_sqrt_pd(std::bit_cast<__m128d>(a)));  // std::sqrt jumps, for the sake of errno
-#else
-  return {Two{std::sqrt(a.v[0]), std::sqrt(a.v[1])}};
-#endif
+template <template <class> class Pack> THINWALL_HOT Pack<double> root(const Pack<double>& a) {
+  return each<double>([](const auto& x) { return root_of(x); }, a);
 }
 
 /// The sum of a, and that of b.

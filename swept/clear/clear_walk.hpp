@@ -54,15 +54,16 @@ THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, cons
   walk.noise = size * both(0x1p-46);
   const bool in_range = all_of((size * both(0x1p-14) <= R) & (size * size * both(0x1p-100) <= speed) &
                                (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size));
-  // while it is in the slabs of the core's bounds, widened
   const Lanes low = core.low(), high = core.high(), middle = (low + high) * all(0.5);
-  const Lanes widened = (high - middle) + all(R + walk.noise), P = against(p - middle, v), W = abs(v);
-  Pair free = max(largest_of((P - widened) / W), both(0)), last = min(smallest_of((P + widened) / W), until);
+  ClearStretch stretch(until);
+  stretch.narrow(p - middle, v, (high - middle) + all(R), all(walk.noise));
+  core.narrow(stretch, p, R, walk.noise);
+  Pair free = stretch.free, last = stretch.last;
   if (all_of(last < free)) {
     walk.clear = in_range;
     return walk;
   }
-  Pair now = free;
+  Pair now = min(stretch.first, last);
   ClearLooks<Core> look{core};
   for (; in_range && walk.rounds <= most_rounds; ++walk.rounds) {
     const ClearNearest& nearest = look(p + v * all(now));
