@@ -190,12 +190,14 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
                                (abs(p) + W + h <= all(packed::most_length)));
   const bool sure = both(both(frame.clear(), in_range), ray.max_t >= 0);
   if (both(order.misses, sure)) return ClearRayHit::miss();
-  const Lanes enter = near / W;
+  const Lanes enter = near / W, off = noise / W;
   const packed::Pair first = largest_of(enter);
+  const unsigned may_be_last = bits(all(largest_of(enter - off)) <= enter + off);
   const packed::LanesMask axis = packed::lowest(bits(all(first) <= enter));
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
   const bool outside = any_of(noise + noise < abs(p) - h);
-  return {both(sure, both(order.meets, outside)), true, first, center + frame.out_of(on_box),
+  const bool one_face = (may_be_last & (may_be_last - 1)) == 0;
+  return {both(both(sure, one_face), both(order.meets, outside)), true, first, center + frame.out_of(on_box),
           frame.out_of(keep(axis, against(all(1), v)))};
 }
 

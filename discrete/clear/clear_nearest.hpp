@@ -27,19 +27,19 @@ struct ClearStretch {
   THINWALL_HOT void narrow(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& reach,
                            const packed::Lanes& noise) {
     using packed::Lanes, packed::all;
-    const Lanes P = against(p, v), W = abs(v), zero = all(0), enter = P - reach;
-    first = max(first, largest_of(max(enter / W, zero)));
-    free = max(free, largest_of(max((enter - noise) / W, zero)));
-    last = min(last, smallest_of(min((P + reach + noise) / W, all(last))));
+    const Lanes P = against(p, v), per_v = all(1) / abs(v), zero = all(0), enter = P - reach;
+    first = max(first, largest_of(max(enter * per_v, zero)));
+    free = max(free, largest_of(max((enter - noise) * per_v, zero)));
+    last = min(last, smallest_of(min((P + reach + noise) * per_v, all(last))));
   }
   /// The same of one number.
   THINWALL_HOT void narrow(const packed::Pair& p, const packed::Pair& v, const packed::Pair& reach,
                            const packed::Pair& noise) {
-    using packed::Pair;
-    const Pair P = against(p, v), W = abs(v), times = firsts(P - reach - noise, P + reach + noise) / W;
-    first = max((P - reach) / W, first);
-    free = max(firsts(times), free);
-    last = min(seconds(times), last);
+    using packed::Pair, packed::both;
+    const Pair P = against(p, v), per_v = both(1) / abs(v), enter = P - reach;
+    first = max(enter * per_v, first);
+    free = max((enter - noise) * per_v, free);
+    last = min((P + reach + noise) * per_v, last);
   }
 };
 
