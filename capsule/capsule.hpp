@@ -208,8 +208,8 @@ THINWALL_HOT ClearContact clear_core_contact(const Core& core, const ClearNeares
   using packed::Pair, packed::both, packed::all;
   const packed::Lanes& n = nearest.gap;
   const Pair size = sum(abs(x)) + core.size + both(r + s), length = root(dot(n, n)), between = both(r + s) - length;
-  const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size) &
-                                    (both(0) <= packed::pair(r, s));
+  const packed::PairMask in_range =
+      (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size) & (both(0) <= packed::pair(r, s));
   const packed::PairMask wide = size * both(0x1p-20) <= length, decided = size * both(0x1p-46) < abs(between);
   const packed::PairMask behind = core.reach(n) - dot(n, nearest.at) <= size * length * both(0x1p-40);
   return {both(nearest.one, all_of(in_range & wide & decided & behind)),

@@ -45,8 +45,8 @@ using LanesMask = LanesOf<bool>;
 // ---- Of registers. By the machine's own instructions: from expressions GCC makes others, of whole numbers, with constants that take four.
 
 #ifdef __AVX__
-#define THINWALL_OF_REGISTERS(name, two, four)                                                \
-  THINWALL_HOT Two name(const Two& x, const Two& y) { return std::bit_cast<Two>(two); }       \
+#define THINWALL_OF_REGISTERS(name, two, four)                                          \
+  THINWALL_HOT Two name(const Two& x, const Two& y) { return std::bit_cast<Two>(two); } \
   THINWALL_HOT Four name(const Four& x, const Four& y) { return std::bit_cast<Four>(four); }
 #elif defined(__SSE2__)
 #define THINWALL_OF_REGISTERS(name, two, four) \
@@ -180,7 +180,9 @@ THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
 THINWALL_HOT Lanes lanes(const double* x) {
   return std::bit_cast<Lanes>(_mm256_blend_pd(_mm256_broadcast_sd(x + 2), _mm256_castpd128_pd256(_mm_loadu_pd(x)), 3));
 }
-THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) { return {Four{all_bits(x), all_bits(y), all_bits(z), all_bits(z)}}; }
+THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) {
+  return {Four{all_bits(x), all_bits(y), all_bits(z), all_bits(z)}};
+}
 /// Of what is there twice.
 template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) {
 #ifdef __AVX2__
