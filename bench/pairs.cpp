@@ -128,11 +128,7 @@ template <class A, class B, class Ask, class Careful, class DepthOf>
 void add_rungs(const std::string& what, double goal, Ask ask, Careful careful, DepthOf depth_of) {
   using Query = Pose<A, B>;
   add_discrete<A, B>(what, goal, ask, depth_of, share_of<Query>(&any_poses<A, B>, [](const Query& q) {
-                       if constexpr (HasClearOverlap<A, B>) {
-                         return clear_overlap(q.a, q.b).clear;
-                       } else {
-                         return clear_contact_either_way(q.a, q.b).clear;
-                       }
+                       return clear_overlap_either_way(q.a, q.b).clear;
                      }));
   add_timed(
       what + "/careful", &any_poses<A, B>, {}, [careful](const Query& q) { return careful(q.a, q.b); },

@@ -92,6 +92,21 @@ template <class A, class B> THINWALL_HOT ClearContact clear_contact_either_way(c
   }
 }
 
+/// The clear rung tells whether they share a point, by a question of its own or by a contact's.
+template <class A, class B>
+inline constexpr bool has_clear_overlap =
+    HasClearOverlap<A, B> || HasClearOverlap<B, A> || HasClearContact<A, B> || HasClearContact<B, A>;
+template <class A, class B> THINWALL_HOT ClearOverlap clear_overlap_either_way(const A& a, const B& b) {
+  if constexpr (HasClearOverlap<A, B>) {
+    return clear_overlap(a, b);
+  } else if constexpr (HasClearOverlap<B, A>) {
+    return clear_overlap(b, a);
+  } else {
+    const ClearContact answer = clear_contact_either_way(a, b);
+    return {answer.clear, answer.touching};
+  }
+}
+
 /// The careful rung of overlaps(): any input, at any scale.
 template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, const B& b) {
   return overlaps_within(a, b, typename A::Scalar(0));
@@ -99,18 +114,10 @@ template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, 
 
 /// True if the shapes share a point; touching counts.
 template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
-  if constexpr (HasClearOverlap<A, B>) {
-    const ClearOverlap answer = clear_overlap(a, b);
+  if constexpr (has_clear_overlap<A, B>) {
+    const ClearOverlap answer = clear_overlap_either_way(a, b);
     if (answer.clear) [[likely]]
       return answer.overlaps;
-  } else if constexpr (HasClearOverlap<B, A>) {
-    const ClearOverlap answer = clear_overlap(b, a);
-    if (answer.clear) [[likely]]
-      return answer.overlaps;
-  } else if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    const ClearContact answer = clear_contact_either_way(a, b);
-    if (answer.clear) [[likely]]
-      return answer.touching;
   }
   return careful_overlaps(a, b);
 }

@@ -3,26 +3,18 @@
 /// one twice.
 ///
 /// A vector that is written number by number and read in pairs waits for the store, and a jump that is a coin's toss costs more
-/// than a square root. So what is computed stays in registers from load to store, and answers are selected by masks. The registers
-/// are GCC's and Clang's own vectors: for Lanes one of four numbers where the machine has them (the fourth is of no meaning), else
-/// two of two; and plain numbers where there are none. The bits are the same everywhere: every sum has one order, (x + y) + z.
+/// than a square root. So what is computed stays in registers (registers.hpp) from load to store, and answers are selected by masks.
+/// Lanes are one register of four numbers where the machine has them, else two of two; the fourth repeats the third. The bits are the
+/// same everywhere: every sum has one order, (x + y) + z.
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
+#include <thinwall/discrete/clear/registers.hpp>
 #include <thinwall/discrete/scalar.hpp>
 
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
-
 namespace thinwall::packed {
-
-using Two [[gnu::vector_size(16)]] = double;
-using Four [[gnu::vector_size(32)]] = double;
 
 /// Of `double`, numbers; of `bool`, masks: of a lane all bits, or none.
 template <class Kind> struct PairOf {
@@ -41,65 +33,6 @@ using Pair = PairOf<double>;
 using Lanes = LanesOf<double>;
 using PairMask = PairOf<bool>;
 using LanesMask = LanesOf<bool>;
-
-// ---- Of registers. By the machine's own instructions: from expressions GCC makes others, of whole numbers, with constants that take four.
-
-#ifdef __AVX__
-#define THINWALL_OF_REGISTERS(name, two, four)                                          \
-  THINWALL_HOT Two name(const Two& x, const Two& y) { return std::bit_cast<Two>(two); } \
-  THINWALL_HOT Four name(const Four& x, const Four& y) { return std::bit_cast<Four>(four); }
-#elif defined(__SSE2__)
-#define THINWALL_OF_REGISTERS(name, two, four) \
-  THINWALL_HOT Two name(const Two& x, const Two& y) { return two; }
-#endif
-#ifdef __SSE2__
-// The second, where one of the two is not a number.
-THINWALL_OF_REGISTERS(least, _mm_min_pd(x, y), _mm256_min_pd(x, y))
-THINWALL_OF_REGISTERS(most, _mm_max_pd(x, y), _mm256_max_pd(x, y))
-// False, where one of the two is not a number.
-THINWALL_OF_REGISTERS(below, _mm_cmplt_pd(x, y), _mm256_cmp_pd(x, y, _CMP_LT_OS))
-THINWALL_OF_REGISTERS(at_most, _mm_cmple_pd(x, y), _mm256_cmp_pd(x, y, _CMP_LE_OS))
-// Bit by bit.
-THINWALL_OF_REGISTERS(bits_of_both, _mm_and_pd(x, y), _mm256_and_pd(x, y))
-THINWALL_OF_REGISTERS(bits_of_either, _mm_or_pd(x, y), _mm256_or_pd(x, y))
-THINWALL_OF_REGISTERS(bits_of_one, _mm_xor_pd(x, y), _mm256_xor_pd(x, y))
-THINWALL_OF_REGISTERS(bits_without, _mm_andnot_pd(y, x), _mm256_andnot_pd(y, x))
-#undef THINWALL_OF_REGISTERS
-#else
-using Bits [[gnu::vector_size(16)]] = std::int64_t;
-THINWALL_HOT Bits whole(const Two& x) { return std::bit_cast<Bits>(x); }
-THINWALL_HOT Two least(const Two& x, const Two& y) { return x < y ? x : y; }
-THINWALL_HOT Two most(const Two& x, const Two& y) { return x > y ? x : y; }
-THINWALL_HOT Two below(const Two& x, const Two& y) { return std::bit_cast<Two>(x < y); }
-THINWALL_HOT Two at_most(const Two& x, const Two& y) { return std::bit_cast<Two>(x <= y); }
-THINWALL_HOT Two bits_of_both(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) & whole(y)); }
-THINWALL_HOT Two bits_of_either(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) | whole(y)); }
-THINWALL_HOT Two bits_of_one(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) ^ whole(y)); }
-THINWALL_HOT Two bits_without(const Two& x, const Two& y) { return std::bit_cast<Two>(whole(x) & ~whole(y)); }
-#endif
-
-THINWALL_HOT Two chosen(const Two& which, const Two& yes, const Two& no) {
-#ifdef __AVX__
-  return _mm_blendv_pd(no, yes, which);
-#else
-  return bits_of_either(bits_of_both(which, yes), bits_without(no, which));
-#endif
-}
-#ifdef __AVX__
-THINWALL_HOT Four chosen(const Four& which, const Four& yes, const Four& no) {
-  return _mm256_blendv_pd(no, yes, which);
-}
-#endif
-
-// std::sqrt jumps, for the sake of errno.
-#ifdef __SSE2__
-THINWALL_HOT Two root_of(const Two& x) { return _mm_sqrt_pd(x); }
-#ifdef __AVX__
-THINWALL_HOT Four root_of(const Four& x) { return _mm256_sqrt_pd(x); }
-#endif
-#else
-THINWALL_HOT Two root_of(const Two& x) { return Two{std::sqrt(x[0]), std::sqrt(x[1])}; }
-#endif
 
 // ---- Lane by lane: f of the registers of x.
 
@@ -133,12 +66,6 @@ THINWALL_LANE_BY_LANE(operator&, bool, bool, bits_of_both(x, y))
 THINWALL_LANE_BY_LANE(operator|, bool, bool, bits_of_either(x, y))
 // clang-format on
 #undef THINWALL_LANE_BY_LANE
-
-/// -0, a sign alone, in every lane of such a register.
-THINWALL_HOT Two minus_zero(const Two&) { return Two{-0.0, -0.0}; }
-#ifdef __AVX__
-THINWALL_HOT Four minus_zero(const Four&) { return Four{-0.0, -0.0, -0.0, -0.0}; }
-#endif
 
 template <template <class> class Pack> THINWALL_HOT Pack<double> abs(const Pack<double>& a) {
   return each<double>([](const auto& x) { return bits_without(x, minus_zero(x)); }, a);

@@ -52,6 +52,24 @@ TEST(ClearLanes, least_and_largest_are_of_all_three) {
   }
 }
 
+TEST(ClearLanes, where_there_are_four_the_fourth_repeats_the_third) {
+  for (const double far : {100.0, -100.0}) {
+    const Lanes p = lanes(Vec3<double>(1, far, 2)), q = lanes(Vec3<double>(far, 3, 1)),
+                r = lanes(Vec3<double>(2, far, 3));
+    const Vectors<Lanes> rows = transposed(p, q, r), all_of_p = spread(p);
+    for (const Lanes& x : {p, yzx(p), yzx(yzx(p)), rows.x, rows.y, rows.z, all_of_p.y, packed::cross(p, q), p + q * r,
+                           only(lowest(1), rows), keep(mask(true, false, true), p), all(far), all(sum(p))}) {
+      const Vec3<double> v = stored(x);
+      EXPECT_EQ(value(largest_of(x)), v.maxCoeff()) << v.transpose();
+      EXPECT_EQ(value(smallest_of(x)), v.minCoeff()) << v.transpose();
+      for (const Pair& sums : {sum(x), two_sums(x, x)}) {
+        EXPECT_EQ(value(firsts(sums)), (v[0] + v[1]) + v[2]) << v.transpose();
+        EXPECT_EQ(value(seconds(sums)), (v[0] + v[1]) + v[2]) << v.transpose();
+      }
+    }
+  }
+}
+
 TEST(ClearLanes, a_comparison_with_what_is_not_a_number_is_false) {
   const Lanes x = lanes(Vec3<double>(1, nan, 3)), y = lanes(Vec3<double>(2, 2, 2));
   EXPECT_EQ(bits(x < y), 1U);
