@@ -56,7 +56,9 @@ struct ClearSegments {
   /// The slab across both: where their sides meet, or pass.
   THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
                            const packed::Pair& noise) const {
-    stretch.narrow(dot(p, normal), through, firsts(extents) * R, seconds(extents) * noise);
+    const packed::Pair reach =
+        select(packed::both(0x1p-450) <= seconds(extents), firsts(extents) * R, packed::both(ClearStretch::everywhere));
+    stretch.narrow(dot(p, normal), through, reach, seconds(extents) * noise);
   }
 
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {

@@ -17,6 +17,8 @@ struct ClearNearest {
 
 /// When a path may be near a core: within all slabs that have been asked.
 struct ClearStretch {
+  static constexpr double everywhere = 0x1p1000;  ///< a reach that tells nothing
+
   packed::Pair free, last;  ///< [1] before and after these there is no contact
   packed::Pair first;       ///< [1] where `free` would be if nothing were rounded
 

@@ -21,7 +21,9 @@ SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Ve
   if (!shared.ever()) return shared;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const S n_j = -d[k], n_k = d[j], length = sqrt(n_j * n_j + n_k * n_k);
+    const int e = safe_exponent(largest(d[j], d[k]));  // along an axis, but for so little that its square would be lost
+    const S n_j = times_power_of_two(S(-d[k]), -e), n_k = times_power_of_two(d[j], -e);
+    const S length = sqrt(n_j * n_j + n_k * n_k);
     shared.narrow(3 + i, middle[j] * n_j + middle[k] * n_k, v[j] * n_j + v[k] * n_k,
                   h[j] * largest(n_j) + h[k] * largest(n_k) + R * length);
   }

@@ -351,6 +351,19 @@ TEST(LadderFilters, a_walk_proves_what_its_core_says) {
   EXPECT_TRUE(SaidCore{.at = packed::lanes(V(0.5, 0, 0))}.walk(right, -by, 1).clear);
 }
 
+TEST(LadderFilters, what_underflows_parts_nothing) {
+  const V across(8, 0, 0);
+  const auto meets = [](const auto& a, const auto& b) { return time_of_impact(a, b).status == ToiStatus::hit; };
+  EXPECT_TRUE(meets(Moving<Rod>{{{-6, 0, 1.2}, {-5, 0x1p-600, 1.2}, 0.3}, across}, at_rest(Box{{0, 0, 0}, {1, 1, 1}})));
+  const Mat3<double> all_but_upright = (Mat3<double>() << 1, 0, 0, 0, 1, 0x1p-1040, 0, 0, 1).finished();
+  const Turned turned{{0, 0, 0}, {1, 1, 1}, all_but_upright};
+  EXPECT_TRUE(meets(Moving<Rod>{{{-6, 0, 1.2}, {-6, 1, 1.2}, 0.3}, across}, at_rest(turned)));
+  const Rod dot{{-4, 0, 0.3}, {-4 + 0x1p-50, 0, 0.3}, 0.3}, speck{{0, 0, 0}, {0, 0x1p-500, 0}, 0.2};
+  EXPECT_TRUE(meets(Moving<Rod>{dot, across}, at_rest(speck)));
+  const Flat crumb{{0, 0, 0}, {0x1p-300, 0, 0}, {0, 0x1p-300, 0}};
+  EXPECT_TRUE(meets(Moving<Ball>{{{-4, 0, 0.3}, 0.5}, across}, at_rest(crumb)));
+}
+
 TEST(LadderFilters, a_ray_that_meets_two_faces_of_a_turned_box_at_once_is_in_doubt) {
   const Turned box{{0, -1.5, -0x1.fe932d64p+0}, {0.5, 1, 2}, Mat3<double>::Identity()};
   const Ray<double> slowly_down{{-0x1.00800001p+8, -0x1.ffffff54dfb02p-2, -0x1.ec8b4b8ff20ep+1},
@@ -514,7 +527,8 @@ template <class Shape> std::size_t ray_agrees_if_clear(const Ray<double>& ray, c
   EXPECT_EQ(clear.has_value(), careful.has_value());
   EXPECT_EQ(clear.has_value(), door.has_value());
   if (!clear || !careful || !door) return 1;
-  const double size = ray.origin.cwiseAbs().sum() + ray.direction.cwiseAbs().sum() * std::max(1.0, careful->t) + magnitude(shape);
+  const double size =
+      ray.origin.cwiseAbs().sum() + ray.direction.cwiseAbs().sum() * std::max(1.0, careful->t) + magnitude(shape);
   EXPECT_NEAR(clear->t, careful->t, 4 * u * size / std::abs(careful->normal.dot(ray.direction)));
   EXPECT_EQ(clear->t, door->t);
   return 1;
