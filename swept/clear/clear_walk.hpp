@@ -1,8 +1,9 @@
 #pragma once
 /// The clear cases of core_entry.hpp: when a moving point first comes within R of a convex core, part by part.
 ///
-/// A guess, and a proof. The chord of the part that is nearest now, extended without end, says when that is entered; there the nearest
-/// part is asked for again. Each time the plane across the gap n, which has the core behind it, shows how long before or after
+/// A guess, and a proof. Slabs that the core lies in, rounded, say when the point may be near it first: where it meets a face or a side, that is
+/// when. Else the chord of the part that is nearest then, extended without end, says when that is entered; there the nearest part is asked for
+/// again. Each time the plane across the gap n, which has the core behind it, shows how long before or after
 /// there is no contact: n.(p + v t) > reach(n) + R |n|. A miss is proven once these times leave none of the step. A hit is proven where the gap
 /// is R to a few roundings and closes, and a plane has parted the two at the start: the distance to a convex core is convex. Its time is
 /// the plane's own, (n.(p - at) - R |n|) / -n.v, of which what the gap is off R counts by its square.
@@ -41,8 +42,8 @@ struct ClearLooks<Core> {
   }
 };
 
-/// The point p + v t within a step and a core rounded by R. The core has bounds, low() and high(); nearest(x); how far it reaches along a
-/// vector, reach(n), times its length; and `size`, no less than the sum of what its numbers come of.
+/// The point p + v t within a step and a core rounded by R. The core has bounds, low() and high(), and more slabs, narrow(); nearest(x); how far
+/// it reaches along a vector, reach(n), times its length; and `size`, no less than the sum of what its numbers come of.
 template <class Core>
 THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, const packed::Lanes& v,
                                   const packed::Pair& R) {
