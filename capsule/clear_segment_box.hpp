@@ -32,7 +32,8 @@ struct ClearSegmentBox {
   /// The slabs across each of the box's axes and the segment: where an edge is met, or passed.
   THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
                            const packed::Pair& noise) const {
-    const packed::Lanes y = yzx(abs(d)), z = yzx(y), h1 = yzx(h), length = root(y * y + z * z);
+    const packed::Lanes y = yzx(abs(d)), z = yzx(y), h1 = yzx(h), squares = y * y + z * z;
+    const packed::Lanes length = root(squares + packed::all(ClearStretch::least_square));
     stretch.narrow(cross(p, d), cross(v, d), (h1 * z + yzx(h1) * y) + length * all(R), (y + z) * all(noise));
   }
 

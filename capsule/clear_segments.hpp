@@ -43,7 +43,7 @@ struct ClearSegments {
     crossed = both(0x1p-20) * (firsts(lengths) * seconds(lengths)) < seconds(others);
     speed = firsts(of_v), through = seconds(of_v), of_d = firsts(parts), of_e = seconds(parts);
     of_normal = through * through * per_nn;
-    extents = root(firsts(seconds(others), firsts(lengths) * seconds(lengths)));
+    extents = root(firsts(seconds(others), firsts(lengths) * seconds(lengths)) + both(ClearStretch::least_square));
   }
 
   THINWALL_HOT packed::Lanes low() const { return min(d, packed::all(0)) - max(e, packed::all(0)); }
@@ -56,9 +56,7 @@ struct ClearSegments {
   /// The slab across both: where their sides meet, or pass.
   THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
                            const packed::Pair& noise) const {
-    const packed::Pair reach =
-        select(packed::both(0x1p-450) <= seconds(extents), firsts(extents) * R, packed::both(ClearStretch::everywhere));
-    stretch.narrow(dot(p, normal), through, reach, seconds(extents) * noise);
+    stretch.narrow(dot(p, normal), through, firsts(extents) * R, seconds(extents) * noise);
   }
 
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {

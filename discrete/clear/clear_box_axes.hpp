@@ -13,7 +13,12 @@ struct ClearBoxAxes {
   packed::Lanes noise;  ///< [length] of every place and reach
 
   /// No number of the rows is so small, and not zero, that its products with lengths would underflow and part what overlaps.
-  THINWALL_HOT bool in_range() const { return all_of(are_plain(rows.x) & are_plain(rows.y) & are_plain(rows.z)); }
+  THINWALL_HOT bool in_range() const {
+    const auto is_plain = [](const packed::Lanes& x) {
+      return (packed::all(0x1p-500) <= abs(x)) | (abs(x) <= packed::all(0));
+    };
+    return all_of(is_plain(rows.x) & is_plain(rows.y) & is_plain(rows.z));
+  }
 
   /// visit(along, reach, noise) of each group: `along` gives the part of a vector, spread, along the three axes, `reach` how far both boxes
   /// reach along them together. The axes are a's, b's, and each of a's crossed with b's, which are not of unit length and may have none.

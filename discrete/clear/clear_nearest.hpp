@@ -17,7 +17,8 @@ struct ClearNearest {
 
 /// When a path may be near a core: within all slabs that have been asked.
 struct ClearStretch {
-  static constexpr double everywhere = 0x1p1000;  ///< a reach that tells nothing
+  /// What the square of an axis's length is taken to be more: where it would be lost the slab is too wide, not too narrow.
+  static constexpr double least_square = 0x1p-960;
 
   packed::Pair free, last;  ///< [1] before and after these there is no contact
   packed::Pair first;       ///< [1] where `free` would be if nothing were rounded

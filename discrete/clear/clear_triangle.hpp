@@ -30,7 +30,7 @@ struct ClearTriangle {
     per_nn = both(1) / nn;
     speed = firsts(of_v), through = seconds(of_v), of_normal = through * through * per_nn;
     per_length = all(1) / dot(edge, edge);
-    broad = both(0x1p-8) * ee * per_nn < both(1), extents = root(firsts(nn, ee));
+    broad = both(0x1p-8) * ee * per_nn < both(1), extents = root(firsts(nn, ee) + both(ClearStretch::least_square));
     const Lanes along = dot(edge, spread(v));
     beside = all(speed) - along * along * per_length;
   }
@@ -45,9 +45,7 @@ struct ClearTriangle {
   /// The slab of its plane: where its face is met, or passed.
   THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
                            const packed::Pair& noise) const {
-    const packed::Pair reach =
-        select(packed::both(0x1p-450) <= seconds(extents), firsts(extents) * R, packed::both(ClearStretch::everywhere));
-    stretch.narrow(dot(p, normal), through, reach, seconds(extents) * noise);
+    stretch.narrow(dot(p, normal), through, firsts(extents) * R, seconds(extents) * noise);
   }
 
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {

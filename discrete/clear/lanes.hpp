@@ -174,9 +174,6 @@ template <template <class> class Pack> THINWALL_HOT Pack<double> root(const Pack
   return each<double>([](const auto& x) { return root_of(x); }, a);
 }
 
-/// Zero, or large enough that squares, and products with lengths, do not underflow.
-THINWALL_HOT LanesMask are_plain(const Lanes& x) { return (all(0x1p-500) <= abs(x)) | (abs(x) <= all(0)); }
-
 /// The sum of a, and that of b.
 THINWALL_HOT Pair two_sums(const Lanes& a, const Lanes& b) {
 #ifdef __AVX__

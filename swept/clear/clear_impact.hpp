@@ -197,8 +197,8 @@ THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, 
     normal = n / all(length);
   }
   const bool plain = all_of(clear_sizes(r, r, gap) & clear_of_end(time, closing, walk.noise));
-  return {both(both(walk.clear, frame.clear()), both(plain, all_of((all(0) <= h) & are_plain(core.d)))), time,
-          all(0) - normal, ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
+  return {both(both(walk.clear, frame.clear()), both(plain, all_of(all(0) <= h))), time, all(0) - normal,
+          ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Aabb<double>>& box,
                                    double gap) {
