@@ -162,7 +162,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   }
   ClearEntry entry{both(clear, (axes | bits(slabs.last < slabs.first)) != 0), slabs.time, clear_face_normal(axes, v)};
   if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
-  const Lanes enter = slabs.low / slabs.W, leave = slabs.high / slabs.W;
+  const Lanes enter = slabs.low / slabs.W, leave = min(slabs.high / slabs.W, all(ClearEntry::never));
   const PairMask fine = largest_of(noise) * both(0x1p32) < R;
   Pair now = slabs.first;
   for (int part = 0; part < 4; ++part) {

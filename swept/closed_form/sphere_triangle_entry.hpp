@@ -20,8 +20,10 @@ SharedTime<S> point_and_triangle_share(const Vec3<S>& p, const Vec3<S>& v, const
   SharedTime<S> shared;
   for (int i = 0; i < 3; ++i) shared.narrow(i, from_middle[i], v[i], half[i] + wide);
   if (!shared.ever()) return shared;
-  const Vec3<S> normal = cross(e1, e2);  // turned by rounding, which moves the corners along it
-  const S off = gap_noise(S(1)) * largest(e1) * largest(e2) * largest(p, e1, e2);
+  const Vec3<S> side1 = times_power_of_two(e1, -safe_exponent(largest(e1)));
+  const Vec3<S> side2 = times_power_of_two(e2, -safe_exponent(largest(e2)));
+  const Vec3<S> normal = cross(side1, side2);  // turned by rounding, which moves the corners along it
+  const S off = gap_noise(S(1)) * largest(side1) * largest(side2) * largest(p, e1, e2);
   shared.narrow(3, p.dot(normal), v.dot(normal), wide * sqrt(normal.squaredNorm()) + off);
   return shared;
 }

@@ -362,6 +362,9 @@ TEST(LadderFilters, what_underflows_parts_nothing) {
   EXPECT_TRUE(meets(Moving<Rod>{dot, across}, at_rest(speck)));
   const Flat crumb{{0, 0, 0}, {0x1p-300, 0, 0}, {0, 0x1p-300, 0}};
   EXPECT_TRUE(meets(Moving<Ball>{{{-4, 0, 0.3}, 0.5}, across}, at_rest(crumb)));
+  const Flat needle{{0, 0, 0}, {1, 0, 0}, {0, 0x1p-548, 0}};
+  const Toi<double> by_face = time_of_impact(Moving<Ball>{{{0.125, 0, 3}, 0x1p-16}, {0, 0, -4}}, at_rest(needle));
+  EXPECT_EQ(by_face.time, 0.75 - 0x1p-18);
 }
 
 TEST(LadderFilters, a_ray_that_meets_two_faces_of_a_turned_box_at_once_is_in_doubt) {
