@@ -62,7 +62,8 @@ TurningInstant<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane
 /// Error: early by at most what it takes to close a gap of `tolerance` times the speed bound |path| + sum of angle times the farthest
 /// point's distance from the axis; a miss nearer than that may be a hit, and so may one that rounding hides: of shapes without a radius half
 /// the digits of their size.
-/// Degenerate: no motion is `apart`, or `overlapping`; very many turns are `gave_up`, or a hit that rounding hides.
+/// Degenerate: no motion is `apart`, or `overlapping`; very many turns are `gave_up`, or a hit that rounding hides; lengths so far
+/// apart that the smaller ones' squares are lost at the larger ones' scale are `gave_up`.
 /// Source: derived in docs/turning.md; the idea of advancement is Mirtich's, 1996.
 template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
@@ -90,6 +91,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
       }
     }
     const Separation<T> closest = separation_unchecked(a_now, b_now);
+    if (!is_finite(closest.normal)) return {ToiStatus::gave_up, k, rounded_down_to<S>(now.time)};
     const T gap = closest.distance - T(method.min_separation);
     if (now.time == T(0) && gap <= near && overlaps_unchecked(a.shape, b.shape, T(method.min_separation)))
       return overlapping_at_start(a, b, 1);
