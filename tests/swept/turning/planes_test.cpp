@@ -8,7 +8,9 @@
 #include <limits>
 #include <random>
 #include <thinwall/swept/certified/turning_certified.hpp>
+#include <thinwall/swept/turning/turning_advancement.hpp>
 #include <thinwall/swept/turning/turning_bounds.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
 
 #include <gtest/gtest.h>
 
@@ -236,6 +238,15 @@ TEST(TurningBounds, hold_at_any_scale) {
       EXPECT_LE(there.half_extents[i], std::ldexp(near.half_extents[i], e) * (1 + 1e-12) + 1e-321) << e;
     }
   }
+}
+
+TEST(TurningBounds, a_turn_whose_angle_is_no_number_is_given_up) {
+  const double most = std::numeric_limits<double>::max();
+  const Turning<Capsule<double>> rod{{V(0, 0, 0), V(0, 0, 2), 0.2}, V::Zero(), V(0, most, most)};
+  const Turning<Triangle<double>> vast{{V(0, -8, -8), V(-8, 0.25, -0.5), V(7, -4, most)}, V::Zero(), V::Zero()};
+  const Toi<double> toi = time_of_impact(rod, vast);
+  EXPECT_EQ(toi.status, ToiStatus::gave_up);
+  EXPECT_EQ(toi.time, 0);
 }
 
 template <class A, class B> void check_certified(int& proven, int& asked) {
