@@ -62,8 +62,8 @@ TurningInstant<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane
 /// Error: early by at most what it takes to close a gap of `tolerance` times the speed bound |path| + sum of angle times the farthest
 /// point's distance from the axis; a miss nearer than that may be a hit, and so may one that rounding hides: of shapes without a radius half
 /// the digits of their size.
-/// Degenerate: no motion is `apart`, or `overlapping`; very many turns are `gave_up`, or a hit that rounding hides; lengths so far
-/// apart that the smaller ones' squares are lost at the larger ones' scale are `gave_up`.
+/// Degenerate: no motion is `apart`, or `overlapping`; very many turns are `gave_up`, or a hit that rounding hides; a rotation
+/// whose length is out of range may be `gave_up`.
 /// Source: derived in docs/turning.md; the idea of advancement is Mirtich's, 1996.
 template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
