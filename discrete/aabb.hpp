@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
+#include <thinwall/discrete/entry/exact_box_entry.hpp>
 #include <thinwall/discrete/sphere.hpp>
 
 namespace thinwall {
@@ -104,34 +106,36 @@ template <Scalar S> CoreGap<S> core_gap(const Aabb<S>& box, const Sphere<S>& sph
 
 /// The slab method, branching on axes without motion so that 0 * infinity never arises.
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Aabb<S>& box) {
-  const Vec3<S> start = ray.origin - box.center;
-  S enter = -S(1), leave = ray.max_t;
-  int axis = -1;
+  const Vec3<S> start = ray.origin - box.center, &h = box.half_extents, &v = ray.direction;
+  Vec3<S> enter = Vec3<S>::Constant(-std::numeric_limits<S>::infinity()), leave = -enter;
   for (int i = 0; i < 3; ++i) {
-    const S& h = box.half_extents[i];
-    const S& speed = ray.direction[i];
-    if (speed == S(0)) {
-      if (start[i] > h || start[i] < -h) return std::nullopt;
+    if (v[i] == S(0)) {
+      if (largest(start[i]) > h[i]) return std::nullopt;
       continue;
     }
-    const S near = (S(speed > S(0) ? -h : h) - start[i]) / speed;
-    const S far = (S(speed > S(0) ? h : -h) - start[i]) / speed;
-    if (near > enter) {
-      enter = near;
-      axis = i;
-    }
-    leave = std::min(leave, far);
+    const S near = v[i] > S(0) ? -h[i] : h[i];
+    enter[i] = (near - start[i]) / v[i];
+    leave[i] = (-near - start[i]) / v[i];
   }
-  if (excess_of(start, box.half_extents) == Vec3<S>::Zero() && ray.max_t >= S(0)) {
-    return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
+  int axis = 0;
+  S t = enter.maxCoeff(&axis), until = std::min(ray.max_t, leave.minCoeff());
+  bool inside = excess_of(start, h) == Vec3<S>::Zero();
+  if (!inside && is_last_in_doubt(enter, leave, axis)) {
+    const Vec3<S> none = Vec3<S>::Zero();
+    const Entry<S> entry = exact_box_entry<S>({ray.origin, box.center}, {v, none}, {h, none}, ray.max_t);
+    entry.normal.cwiseAbs().maxCoeff(&axis);
+    inside = entry.inside;
+    t = entry.time;
+    until = ray.max_t;
   }
-  if (!(enter <= leave) || enter < S(0)) return std::nullopt;
+  if (inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
+  if (!(t >= S(0) && t <= until)) return std::nullopt;
   RayHit<S> hit;
-  hit.t = enter;
-  hit.normal = axis_vector<S>(axis, ray.direction[axis] > S(0));
-  const Vec3<S> offset = start + ray.direction * enter;
-  hit.point = box.center + offset.cwiseMin(box.half_extents).cwiseMax(-box.half_extents);
-  hit.point[axis] = box.center[axis] + hit.normal[axis] * box.half_extents[axis];
+  hit.t = t;
+  hit.normal = axis_vector<S>(axis, v[axis] > S(0));
+  const Vec3<S> offset = start + v * t;
+  hit.point = box.center + offset.cwiseMin(h).cwiseMax(-h);
+  hit.point[axis] = box.center[axis] + hit.normal[axis] * h[axis];
   return hit;
 }
 
@@ -183,9 +187,11 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double
   const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents), v = packed::lanes(ray.direction);
   const Lanes p = packed::lanes(ray.origin) - center;
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
-  const LanesMask axis = packed::lowest(bits(all(slabs.first) <= slabs.enter));
+  const ClearSlabs::Last last = slabs.last_entered();
+  const LanesMask axis = packed::lowest(last.axes);
+  const bool clear = both(all_of(slabs.in_range & last.sure), last.at_most_one());
   const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
-  return {both(slabs.clear(), ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
+  return {both(both(clear, all_of(slabs.in_order())), ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
           center + select(axis, against(h, v), clamped), keep(axis, against(all(1), v))};
 }
 

@@ -108,14 +108,25 @@ struct ClearSlabs {
         time(select(last < first, packed::both(ClearEntry::never), first)),
         in_range((extent <= packed::all(packed::most_length)) & (packed::all(0) <= h)),
         outside(R * packed::all(packed::more_than_rounding) < abs(p) - h) {}
+  /// The axes entered last, where nothing is widened: all of them where the start is not outside. If that is at most one, and all lanes are
+  /// `sure`, no rounding of its time hides another; nor is there one to be hidden in a miss, which may have several.
+  struct Last {
+    unsigned axes, of_hit;
+    packed::LanesMask sure;
+
+    THINWALL_HOT bool at_most_one() const { return (of_hit & (of_hit - 1U)) == 0U; }
+  };
+  THINWALL_HOT Last last_entered() const {
+    using packed::all, packed::both;
+    const packed::LanesMask early = enter < all(first * both(1 - 0x1p-20));
+    const unsigned axes = bits(early) ^ 7U, hit = 0U - static_cast<unsigned>(all_of(first <= last));
+    return {axes, axes & hit, early | (extent * all(0x1p-28) <= low)};
+  }
   /// Which of `first` and `last` comes first.
   THINWALL_HOT packed::PairMask in_order() const {
     using packed::both;
     const packed::Pair part = abs(first - last);
     return (last * both(packed::more_than_rounding - 1) < part) & (both(packed::least_time) < min(time, part));
-  }
-  THINWALL_HOT bool clear() const {
-    return packed::both(packed::both(all_of(in_range), any_of(outside)), all_of(in_order()));
   }
 };
 

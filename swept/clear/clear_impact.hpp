@@ -76,9 +76,9 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const ClearSlabs slabs(center_b - center_a, v, half_a + half_b, zero, 1);
   const Lanes time = all(slabs.first), at_a = center_a + path_a * time, at_b = center_b + path_b * time;
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
-  const bool sizes = all_of((zero <= min(half_a, half_b)) & slabs.in_range);
-  return {both(both(sizes, gap == 0), both(any_of(slabs.outside), all_of(slabs.in_order()))), slabs.time,
-          clear_face_normal(bits(time <= slabs.enter), v), point};
+  const ClearSlabs::Last last = slabs.last_entered();
+  const bool clear = both(all_of((zero <= min(half_a, half_b)) & slabs.in_range & last.sure), last.at_most_one());
+  return {both(both(clear, all_of(slabs.in_order())), gap == 0), slabs.time, clear_face_normal(last.axes, v), point};
 }
 
 /// As against an aligned box, in the box's own axes; and the time once more by the plane of contact, whose normal n is the world's, and g in
