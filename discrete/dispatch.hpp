@@ -9,7 +9,7 @@
 /// body ever makes it: a pair skipped in silence is tunneling by omission. The two arguments may have different lists:
 /// walls that never meet each other, triangles for one, belong in a list of their own.
 ///
-/// Costs: two indirect jumps a query, which mixed types mispredict. To ask about many pairs, see grouped_pairs.hpp.
+/// Costs: two indirect jumps a query, which mixed types mispredict. To ask about many pairs, group them: below.
 
 #include <cstddef>
 #include <cstdint>

@@ -256,8 +256,8 @@ template <Scalar S> S box_noise(const BoxPair<S>& pair) {
   return gap_noise(largest(pair.between, pair.half_a, pair.half_b));
 }
 
-/// The face of B that looks most squarely at the face of A across `axis`, clipped to it: in the coordinates of
-/// face_polygon.hpp, x and y along A's next two axes, z the depth below A's face.
+/// The face of B that looks most squarely at the face of A across `axis`, clipped to it: seen as its polygons are,
+/// x and y along A's next two axes, z the depth below A's face.
 template <Scalar S> FacePolygon<S> facing_polygon(const BoxPair<S>& pair, int axis, bool negative) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   int incident = 0;

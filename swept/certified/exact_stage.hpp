@@ -101,10 +101,10 @@ template <Shape A, Shape B> ExactCore exact_core(const Moving<A>& a, const Movin
   return query;
 }
 
-// ---- The polytope K(t) of exact_core.hpp in integers: every coordinate over one power of two, the largest that divides all.
+// ---- The polytope K(t) of above in integers: every coordinate over one power of two, the largest that divides all.
 //
 // Numbers: a coordinate of a corner of K is the sum of at most 32 terms below 2^high in multiples of 2^low, so an integer
-// of at most L = high - low + 5 bits. integer_bits() gives the bits of the largest number that gjk.hpp makes of them.
+// of at most L = high - low + 5 bits. integer_bits() gives the bits of the largest number that the walk below makes of them.
 
 /// Integers of any size, and of a fixed one that needs no memory from the heap.
 using UnboundedInteger =
