@@ -16,8 +16,8 @@ struct SphereSphere {
   static constexpr std::size_t columns_a = 7, columns_b = 7;
 
   template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& a, const B& b) const {
-    const Vec3Lanes<hn::Vec<D>> p{hn::Sub(b(0), a(0)), hn::Sub(b(1), a(1)), hn::Sub(b(2), a(2))};
-    const Vec3Lanes<hn::Vec<D>> v{hn::Sub(b(4), a(4)), hn::Sub(b(5), a(5)), hn::Sub(b(6), a(6))};
+    const Vec3Lanes<hn::Vec<D>> p = minus(vector_at(b, 0), vector_at(a, 0));
+    const Vec3Lanes<hn::Vec<D>> v = minus(vector_at(b, 4), vector_at(a, 4));
     Verdict<D> out = verdict_of(d, chord_lanes(d, p, v, hn::Add(a(3), b(3))));
     out.clear = hn::And(out.clear, hn::Ge(hn::Min(a(3), b(3)), hn::Zero(d)));
     return out;

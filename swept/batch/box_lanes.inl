@@ -39,8 +39,8 @@ struct AabbAabb {
 
   template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& a, const B& b) const {
     const auto zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
-    const VectorOf<D> p{hn::Sub(b(0), a(0)), hn::Sub(b(1), a(1)), hn::Sub(b(2), a(2))};
-    const VectorOf<D> v{hn::Sub(b(6), a(6)), hn::Sub(b(7), a(7)), hn::Sub(b(8), a(8))};
+    const VectorOf<D> p = minus(vector_at(b, 0), vector_at(a, 0));
+    const VectorOf<D> v = minus(vector_at(b, 6), vector_at(a, 6));
     const VectorOf<D> h{hn::Add(a(3), b(3)), hn::Add(a(4), b(4)), hn::Add(a(5), b(5))};
     auto out = sharp_box(d, box_lanes(d, p, v, h, zero, no_blur(d), one), one);
     const VectorOf<D> halves{hn::Min(a(3), b(3)), hn::Min(a(4), b(4)), hn::Min(a(5), b(5))};
@@ -54,8 +54,8 @@ struct AabbRay {
 
   template <class D, class A, class B> HWY_INLINE Verdict<D> operator()(D d, const A& box, const B& ray) const {
     const auto zero = hn::Zero(d), until = ray(6);
-    const VectorOf<D> p{hn::Sub(ray(0), box(0)), hn::Sub(ray(1), box(1)), hn::Sub(ray(2), box(2))};
-    const VectorOf<D> v{ray(3), ray(4), ray(5)}, h{box(3), box(4), box(5)};
+    const VectorOf<D> p = minus(vector_at(ray, 0), vector_at(box, 0));
+    const VectorOf<D> v = vector_at(ray, 3), h = vector_at(box, 3);
     auto out = sharp_box(d, box_lanes(d, p, v, h, zero, no_blur(d), until), until);
     const auto counts = [&](hn::Vec<D> x) HWY_ATTR {  // in any time that the ray may take
       return hn::Or(hn::Ge(hn::Abs(x), hn::Set(d, Bounds<hn::TFromD<D>>::still)), hn::Eq(x, zero));

@@ -27,10 +27,10 @@ struct CapsuleSphere {
     using Limits = Bounds<S>;
     using Vector = Vec3Lanes<hn::Vec<D>>;
     const auto zero = hn::Zero(d), one = hn::Set(d, S(1));
-    const Vector a{capsule(0), capsule(1), capsule(2)}, b{capsule(3), capsule(4), capsule(5)};
-    const Vector c{sphere(0), sphere(1), sphere(2)};
+    const Vector a = vector_at(capsule, 0), b = vector_at(capsule, 3);
+    const Vector c = vector_at(sphere, 0);
     const Vector m = minus(c, a), axis = minus(b, a);
-    const Vector v{hn::Sub(sphere(4), capsule(7)), hn::Sub(sphere(5), capsule(8)), hn::Sub(sphere(6), capsule(9))};
+    const Vector v = minus(vector_at(sphere, 4), vector_at(capsule, 7));
     const auto R = hn::Add(capsule(6), sphere(3)), RR = hn::Mul(R, R);
     const auto dd = dot(axis, axis), mm = dot(m, m), vv = dot(v, v);
 

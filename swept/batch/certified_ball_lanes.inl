@@ -25,8 +25,8 @@ struct CertifiedSphereSphere {
     const auto set = [d](double x) HWY_ATTR { return hn::Set(d, x); };
     constexpr double u = 0x1p-53;
     const auto zero = hn::Zero(d), one = set(1), least = set(0x1p-400), most = set(0x1p400);
-    const Vec3Lanes<hn::Vec<D>> p{hn::Sub(a(0), b(0)), hn::Sub(a(1), b(1)), hn::Sub(a(2), b(2))};
-    const Vec3Lanes<hn::Vec<D>> v{hn::Sub(a(4), b(4)), hn::Sub(a(5), b(5)), hn::Sub(a(6), b(6))};
+    const Vec3Lanes<hn::Vec<D>> p = minus(vector_at(a, 0), vector_at(b, 0));
+    const Vec3Lanes<hn::Vec<D>> v = minus(vector_at(a, 4), vector_at(b, 4));
     const auto R = hn::Add(a(3), b(3)), RR = hn::Mul(R, R);
     const auto pp = dot(p, p), vv = dot(v, v), size = hn::Add(pp, RR);
 

@@ -22,6 +22,10 @@ template <class V> struct Vec3Lanes {
   V x, y, z;
 };
 
+/// Three of the columns of a body, from the k-th on.
+template <class Columns> HWY_INLINE auto vector_at(const Columns& columns, int k) {
+  return Vec3Lanes<decltype(columns(0))>{columns(k), columns(k + 1), columns(k + 2)};
+}
 template <class V> HWY_INLINE Vec3Lanes<V> minus(const Vec3Lanes<V>& a, const Vec3Lanes<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }

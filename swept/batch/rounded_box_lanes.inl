@@ -195,9 +195,9 @@ struct SeeUpright {
 
   template <class D, class A, class B> static HWY_INLINE SeenFromBox<D> of(D d, const A& box, const B& sphere) {
     const auto zero = hn::Zero(d);
-    return {{hn::Sub(sphere(0), box(0)), hn::Sub(sphere(1), box(1)), hn::Sub(sphere(2), box(2))},
-            {hn::Sub(sphere(4), box(6)), hn::Sub(sphere(5), box(7)), hn::Sub(sphere(6), box(8))},
-            {box(3), box(4), box(5)},
+    return {minus(vector_at(sphere, 0), vector_at(box, 0)),
+            minus(vector_at(sphere, 4), vector_at(box, 6)),
+            vector_at(box, 3),
             sphere(3),
             no_blur(d),
             hn::Eq(zero, zero)};
@@ -209,16 +209,16 @@ struct SeeTurned {
 
   template <class D, class A, class B> static HWY_INLINE SeenFromBox<D> of(D d, const A& box, const B& sphere) {
     using Vector = Vec3Lanes<hn::Vec<D>>;
-    const Vector p{hn::Sub(sphere(0), box(0)), hn::Sub(sphere(1), box(1)), hn::Sub(sphere(2), box(2))};
-    const Vector v{hn::Sub(sphere(4), box(15)), hn::Sub(sphere(5), box(16)), hn::Sub(sphere(6), box(17))};
-    const Vector ax{box(6), box(7), box(8)}, ay{box(9), box(10), box(11)}, az{box(12), box(13), box(14)};
+    const Vector p = minus(vector_at(sphere, 0), vector_at(box, 0));
+    const Vector v = minus(vector_at(sphere, 4), vector_at(box, 15));
+    const Vector ax = vector_at(box, 6), ay = vector_at(box, 9), az = vector_at(box, 12);
     const auto one = hn::Set(d, hn::TFromD<D>(1));
     const auto off =
         hn::Add(sum(Vector{hn::Sub(dot(ax, ax), one), hn::Sub(dot(ay, ay), one), hn::Sub(dot(az, az), one)}),
                 sum(Vector{dot(ax, ay), dot(ay, az), dot(az, ax)}));
     return {{dot(ax, p), dot(ay, p), dot(az, p)},
             {dot(ax, v), dot(ay, v), dot(az, v)},
-            {box(3), box(4), box(5)},
+            vector_at(box, 3),
             sphere(3),
             hn::Add(no_blur(d), hn::Add(sum(p), sum(v))),
             hn::Le(off, hn::Set(d, Bounds<hn::TFromD<D>>::upright))};
