@@ -384,8 +384,8 @@ std::unique_ptr<Run> configure_speed(const Settings& settings, const RunOptions&
   if (std::ranges::none_of(programs, [&](const std::string& program) { return is_program(folder / program); })) {
     settings.complain("benchmarks",
                       fmt::format("a folder that holds at least one of the benchmark programs asked for; {} has none. "
-                                  "Build them: cmake --preset release -DTHINWALL_BUILD_BENCH=ON && cmake --build "
-                                  "--preset release",
+                                  "Build them: cmake --preset bench && cmake --build "
+                                  "--preset bench",
                                   folder.string()));
   }
   std::vector<Task<BenchOutput>> tasks;
