@@ -82,10 +82,6 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
   return tests;
 }
 
-bool all_passed(const std::vector<SelfTest>& tests) {
-  return std::all_of(tests.begin(), tests.end(), [](const SelfTest& test) { return test.passed(); });
-}
-
 std::string self_test_text(const std::vector<SelfTest>& tests) {
   std::string text;
   for (const SelfTest& t : tests) {

@@ -2,6 +2,7 @@
 /// Do measured counts agree with theory, over many cells at once? A theory that is wrong, or a measurement that is,
 /// fails here; chance alone fails a right one once in a thousand times, however many names and parts it has.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,7 +44,14 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells);
 std::string self_test_text(const std::vector<SelfTest>& tests);
 
 Table self_test_table(const std::vector<SelfTest>& tests);
-bool all_passed(const std::vector<SelfTest>& tests);
+
+/// Of verdicts of whatever kind.
+template <class Verdict> bool all_passed(const std::vector<Verdict>& verdicts) {
+  return std::ranges::all_of(verdicts, &Verdict::passed);
+}
+
+/// As a summary says it: `Self-test: counts passed.`
+inline const char* verdict_text(bool passed) { return passed ? "passed" : "FAILED"; }
 
 /// Do standard residuals, one of each of several cells, spread as standard normal numbers do? Their squares are added.
 struct ResidualTest {

@@ -77,23 +77,30 @@ Plot& Plot::height(double share) {
   return *this;
 }
 
-Plot& Plot::curve(std::string label, const std::function<double(double)>& f) {
+Plot& Plot::curve(std::string label, const std::function<double(double)>& f, Mark mark) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return curve(std::move(label), f, nan, nan);
+  return curve(std::move(label), f, nan, nan, mark);
 }
 
-Plot& Plot::curve(std::string label, const std::function<double(double)>& f, double from, double to) {
-  curves_.push_back({std::move(label), f, from, to});
+Plot& Plot::curve(std::string label, const std::function<double(double)>& f, double from, double to, Mark mark) {
+  curves_.push_back({std::move(label), f, from, to, mark});
   return *this;
 }
 
-Plot& Plot::line(std::string label, std::vector<double> xs, std::vector<double> ys) {
-  panel_.series.push_back({.label = std::move(label),
-                           .mark = Mark::line,
-                           .x = std::move(xs),
-                           .y = std::move(ys),
-                           .lower = {},
-                           .upper = {}});
+Plot& Plot::line(std::string label, std::vector<double> xs, std::vector<double> ys, Mark mark) {
+  panel_.series.push_back(
+      {.label = std::move(label), .mark = mark, .x = std::move(xs), .y = std::move(ys), .lower = {}, .upper = {}});
+  return *this;
+}
+
+Plot& Plot::through(std::string_view column, const std::string& label) {
+  Plot lines = Plot(table_).x(x_).y(column).by(by_).mark(Mark::line);
+  const auto at = [x = place_of(x_)](const auto& row) { return number_in(row[x]); };
+  std::ranges::stable_sort(lines.table_.rows, {}, at);
+  for (Series& series : Panel(lines).series) {
+    series.label = label;
+    panel_.series.push_back(std::move(series));
+  }
   return *this;
 }
 
@@ -130,7 +137,7 @@ Plot::operator Panel() const {
     if (!(from < to)) continue;
     Series& series = panel.series.emplace_back();
     series.label = curve.label;
-    series.mark = Mark::line;
+    series.mark = curve.mark;
     for (int i = 0; i <= curve_points; ++i) {
       const double share = static_cast<double>(i) / curve_points;
       const double at = panel.log_x ? from * std::pow(to / from, share) : from + (to - from) * share;

@@ -38,9 +38,12 @@ class Plot {
   Plot& height(double share);
 
   /// A line over the range of x that the rows have, or from `from` to `to`; NaN leaves a gap.
-  Plot& curve(std::string label, const std::function<double(double)>& f);
-  Plot& curve(std::string label, const std::function<double(double)>& f, double from, double to);
-  Plot& line(std::string label, std::vector<double> xs, std::vector<double> ys);
+  Plot& curve(std::string label, const std::function<double(double)>& f, Mark mark = Mark::line);
+  Plot& curve(std::string label, const std::function<double(double)>& f, double from, double to,
+              Mark mark = Mark::line);
+  Plot& line(std::string label, std::vector<double> xs, std::vector<double> ys, Mark mark = Mark::line);
+  /// A line for each value of the `by` column, from left to right through what another column says. After `x` and `by`.
+  Plot& through(std::string_view column, const std::string& label);
 
   operator Panel() const;  // NOLINT(google-explicit-constructor): it stands where a panel does
 
@@ -49,6 +52,7 @@ class Plot {
     std::string label;
     std::function<double(double)> f;
     double from, to;
+    Mark mark;
   };
 
   std::size_t place_of(std::string_view column) const;

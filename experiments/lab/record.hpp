@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -229,6 +230,13 @@ template <class Row, class Key> std::vector<Group<Row>> group_by(const std::vect
     found->push_back(&row);
   }
   return groups;
+}
+
+/// Those for which it is so, in their order.
+template <class Row, class IsIt> std::vector<Row> rows_where(const std::vector<Row>& rows, const IsIt& is_it) {
+  std::vector<Row> some;
+  std::ranges::copy_if(rows, std::back_inserter(some), is_it);
+  return some;
 }
 
 /// What the records of a group add up to.
