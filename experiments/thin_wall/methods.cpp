@@ -16,29 +16,71 @@ namespace {
 
 // Which theory is whose. A method that is not named here has none, and its cells say so.
 
+/// Contact so short against the step is lost in the rounding of a pose, and it is chance whether a pose is found in it.
+bool rounding_decides(const Cell& cell, double contact) { return contact <= 0x1p-45 * step_length(cell); }
+
 template <class Method> Theory theory_of(const Method&, const Cell&) { return {}; }
 template <Scalar S> Theory theory_of(const EndOfStep<S>&, const Cell& cell) { return pose_theory(cell, 1); }
 template <Scalar S> Theory theory_of(const Substeps<S>& method, const Cell& cell) {
   return pose_theory(cell, method.n);
 }
-template <Scalar S> Theory theory_of(const CentreRay<S>&, const Cell& cell) { return center_ray_theory(cell); }
+
 template <Scalar S> Theory theory_of(const SweptVolumeRay<S>&, const Cell& cell) {
-  return swept_volume_ray_theory(cell);
+  if (cell.wall == Wall::finite) return {.probability = 0};
+  return {.probability = 0,
+          .lateness = center_ray_lateness(cell.radius / cosine(cell), step_length(cell)),
+          .through = 0,
+          .why = "0: the swept volume is seen",
+          .why_late = "min(v h, r / cos a)"};
 }
+
+template <Scalar S> Theory theory_of(const CentreRay<S>&, const Cell& cell) {
+  if (cell.wall == Wall::infinite) {  // no line misses the wall itself
+    Theory theory = theory_of(SweptVolumeRay<S>{}, cell);
+    theory.why = "0: a ray meets any infinite wall";
+    return theory;
+  }
+  if (cell.angle_deg != 0) return {};
+  return {.probability = center_ray_miss_probability(rounded_box(cell), step_length(cell))};
+}
+
+/// The track of a wall at rest is the wall: a ray from the center, and at its hit the ball is in contact. A point is there
+/// on the wall's face itself.
 template <Scalar S> Theory theory_of(const SweepThenConfirm<S>&, const Cell& cell) {
-  return confirmed_ray_theory(cell);
+  if (rounding_decides(cell, cell.radius)) return {};
+  Theory theory = theory_of(CentreRay<S>{}, cell);
+  if (cell.wall == Wall::infinite) theory.why = "0: a wall at rest is its own track";
+  return theory;
 }
-template <Scalar S> Theory theory_of(const Speculative<S>&, const Cell& cell) { return speculative_theory(cell); }
+
+/// The plane before an infinite wall is the wall. Beside one that ends, the plane reaches on, and so do its hits.
+template <Scalar S> Theory theory_of(const Speculative<S>&, const Cell& cell) {
+  Theory theory = early_theory(cell, cell.wall == Wall::finite ? 1 : 0);
+  theory.why = "0: it looks a whole step ahead";
+  return theory;
+}
+
 template <Scalar S> Theory theory_of(const ConservativeAdvancement<S>& method, const Cell& cell) {
   return early_theory(cell, static_cast<double>(method.tolerance));
-}
-template <Scalar S> Theory theory_of(const Bisection<S>& method, const Cell& cell) {
-  return late_theory(cell, static_cast<double>(method.tolerance));
 }
 template <Scalar S> Theory theory_of(const Inclusion<S>& method, const Cell& cell) {
   return early_theory(cell, static_cast<double>(method.tolerance));
 }
-template <Scalar S> Theory theory_of(const ClosedForm<S>&, const Cell&) { return exact_theory(); }
+
+/// Seen before the middle of the wall, it turns back. At a rim there is no depth that is safe.
+template <Scalar S> Theory theory_of(const Bisection<S>& method, const Cell& cell) {
+  if (rounding_decides(cell, slab_chord(cell))) return {};
+  const double latest = static_cast<double>(method.tolerance) * step_length(cell);
+  Theory theory = {
+      .probability = 0, .latest = latest, .why = "0: finds the least of a convex gap", .why_late = "tolerance v h"};
+  if (cell.wall == Wall::infinite && latest < slab_chord(cell) / 2) theory.through = 0;
+  return theory;
+}
+
+template <Scalar S> Theory theory_of(const ClosedForm<S>&, const Cell&) {
+  return {
+      .probability = 0, .lateness = Lateness{0, 0, 0}, .through = 0, .why = "0: exact to rounding", .why_late = "0"};
+}
 
 /// It moves into what lies along `normal`.
 bool approaches(const Flight& flight, const Vec3<double>& normal) { return flight.displacement.dot(normal) > 0; }
@@ -77,13 +119,13 @@ void fire_at(const Method& method, const Target& target, const Vec3<double>& sta
   };
   ++tally.shots;
   for (std::int64_t k = 0;; ++k) {
-    const Vec3<double> pose = start + static_cast<double>(k) * target.displacement;
-    if (is_past(target, pose)) {
+    const Flight pose = {start + static_cast<double>(k) * target.displacement, target.displacement};
+    if (has_left(target, pose)) {
       ++tally.tunneled;
       if (response == Response::bounce) ++tally.behind;
       return;
     }
-    const Toi<S> toi = query({pose, target.displacement});
+    const Toi<S> toi = query(pose);
     ++tally.queries;
     tally.evaluations += toi.evaluations;
     if (toi.status == ToiStatus::apart) continue;
@@ -113,47 +155,68 @@ template <Scalar S, class Method> void ask_all(const Method& method, std::span<c
   }
 }
 
-/// The settings a method is run with: itself, but for the one whose number of poses is a factor of the experiment.
-template <class Method> std::vector<Method> variants(const Method& method, std::span<const std::int64_t>) {
-  return {method};
+template <Scalar S, class Method>
+ThinWallMethod shot_at(const Method& method, std::string name, int poses_per_step, Response response) {
+  return {std::move(name),
+          std::same_as<S, float> ? "float" : "double",
+          poses_per_step,
+          static_cast<double>(std::numeric_limits<S>::epsilon()),
+          [method, response](const Target& target, const Vec3<double>& start, Tally& tally) {
+            fire_at<S>(method, target, start, response, tally);
+          },
+          [method](const Cell& cell) { return theory_of(method, cell); },
+          [method](const ShotStep& step) -> StepAnswer {
+            const Toi<S> toi = time_of_impact(method, cast<S>(step.ball), cast<S>(step.wall));
+            return {toi.status, static_cast<double>(toi.time)};
+          },
+          [method](std::span<const ShotStep> steps) { ask_all<S>(method, steps); }};
 }
-template <Scalar S> std::vector<Substeps<S>> variants(const Substeps<S>&, std::span<const std::int64_t> poses) {
-  std::vector<Substeps<S>> all;
-  for (const std::int64_t n : poses) all.push_back({.n = static_cast<int>(n)});
-  return all;
-}
-
-template <class Method> int poses_of(const Method&) { return 0; }
-template <Scalar S> int poses_of(const EndOfStep<S>&) { return 1; }
-template <Scalar S> int poses_of(const Substeps<S>& method) { return method.n; }
-
-template <class Method> std::string name_of(const Method&) { return std::string(Method::name); }
-template <Scalar S> std::string name_of(const Substeps<S>& m) { return fmt::format("{}_{}", Substeps<S>::name, m.n); }
 
 template <Scalar S>
-void append(std::string_view scalar, std::span<const std::string> names, std::span<const std::int64_t> poses,
-            Response response, std::vector<ThinWallMethod>& all) {
+void append(std::span<const std::string> names, std::span<const std::int64_t> poses, Response response,
+            std::vector<ThinWallMethod>& all) {
   for_each_type(Methods<S>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (serves<Method, Sphere<S>, Aabb<S>>) {
       if (std::ranges::find(names, Method::name) == names.end()) return;
-      for (const Method& method : variants(Method{}, poses)) {
-        all.push_back({name_of(method), std::string(scalar), poses_of(method),
-                       static_cast<double>(std::numeric_limits<S>::epsilon()),
-                       [method, response](const Target& target, const Vec3<double>& start, Tally& tally) {
-                         fire_at<S>(method, target, start, response, tally);
-                       },
-                       [method](const Cell& cell) { return theory_of(method, cell); },
-                       [method](const ShotStep& step) -> StepAnswer {
-                         const Toi<S> toi = time_of_impact(method, cast<S>(step.ball), cast<S>(step.wall));
-                         return {toi.status, static_cast<double>(toi.time)};
-                       },
-                       [method](std::span<const ShotStep> steps) { ask_all<S>(method, steps); }});
+      if constexpr (std::same_as<Method, Substeps<S>>) {
+        for (const std::int64_t n : poses) {
+          const Method method = {.n = static_cast<int>(n)};
+          all.push_back(shot_at<S>(method, fmt::format("{}_{}", Method::name, n), method.n, response));
+        }
+      } else {
+        all.push_back(shot_at<S>(Method{}, std::string(Method::name), std::same_as<Method, EndOfStep<S>>, response));
       }
     }
   });
 }
 
 }  // namespace
+
+Theory pose_theory(const Cell& cell, int poses_per_step) {
+  const double spacing = step_length(cell) / poses_per_step;
+  if (cell.wall == Wall::finite) {
+    const RoundedBox box = rounded_box(cell);
+    return {.probability = miss_probability(box, direction(cell), spacing),
+            .through = unturned_probability(box, direction(cell), spacing)};
+  }
+  const double chord = slab_chord(cell);
+  const bool once = poses_per_step == 1;
+  return {.probability = miss_probability(chord, spacing),
+          .lateness = pose_lateness(chord, spacing),
+          .through = miss_probability(chord / 2, spacing),
+          .why = once ? "max(0, 1 - (w + 2r) / (v h cos a))" : "max(0, 1 - n (w + 2r) / (v h cos a))",
+          .why_late = once ? "min(v h, (w + 2r) / cos a)" : "min(v h / n, (w + 2r) / cos a)"};
+}
+
+Theory early_theory(const Cell& cell, double tolerance) {
+  Theory theory = {.probability = 0,
+                   .latest = 0,
+                   .widest = tolerance * step_length(cell),
+                   .why = "0: free up to its answer, proven",
+                   .why_late = "0"};
+  if (cell.wall == Wall::infinite) theory.through = 0;  // at a rim it may be pushed neither back nor ahead
+  return theory;
+}
 
 void respond(const Target& target, const Vec3<double>& normal, Flight& flight) {
   const Sphere<double> ball{flight.position, target.radius};
@@ -184,9 +247,9 @@ std::vector<ThinWallMethod> thin_wall_methods(std::span<const std::string> names
   std::vector<ThinWallMethod> all;
   for (const std::string& scalar : scalars) {
 #ifndef THINWALL_DOUBLE_ALONE  // as the page is compiled, in half the time
-    if (scalar == "float") append<float>(scalar, names, substeps, response, all);
+    if (scalar == "float") append<float>(names, substeps, response, all);
 #endif
-    if (scalar == "double") append<double>(scalar, names, substeps, response, all);
+    if (scalar == "double") append<double>(names, substeps, response, all);
   }
   return all;
 }
@@ -208,22 +271,17 @@ Tally fire(const Cell& cell, const ThinWallMethod& method, const Volley& volley,
   return tally;
 }
 
-std::vector<std::int64_t> stratified_counts(const Cell& cell, std::span<const ThinWallMethod> methods,
-                                            std::uint64_t seed) {
+std::int64_t tunneled_evenly(const Cell& cell, const ThinWallMethod& method, std::uint64_t seed) {
   const Target fired = target(cell);
   // The offset's counter is one that no independent shot has.
   constexpr std::uint64_t no_trial = std::numeric_limits<std::uint64_t>::max();
   const double offset = uniform(random_words(random_stream(cell, seed), no_trial, 0)[0]);
-  std::vector<std::int64_t> counts;
-  for (const ThinWallMethod& method : methods) {
-    Tally tally;
-    for (std::int64_t i = 0; i < stratified_shots; ++i) {
-      const double phase = (static_cast<double>(i) + offset) / static_cast<double>(stratified_shots);
-      method.fire(fired, start_at_phase(fired, phase), tally);
-    }
-    counts.push_back(tally.tunneled);
+  Tally tally;
+  for (std::int64_t i = 0; i < stratified_shots; ++i) {
+    const double phase = (static_cast<double>(i) + offset) / static_cast<double>(stratified_shots);
+    method.fire(fired, start_at_phase(fired, phase), tally);
   }
-  return counts;
+  return tally.tunneled;
 }
 
 }  // namespace thinwall

@@ -21,27 +21,21 @@
 
 namespace thinwall {
 
-/// What theory expects of a cell (theory.cpp). Derived in docs/tunneling_theory.md.
+/// What theory expects of a cell. Derived in docs/tunneling_theory.md.
 struct Theory {
-  std::optional<double> probability;   ///< of tunneling
-  std::optional<Lateness> lateness;    ///< [m] along the path, of the detected
-  std::optional<double> latest;        ///< [m] the most there can be, where nothing is said of its mean
-  double widest = 0;                   ///< [m] how far from the wall a detection may be, rounding aside
-  std::optional<double> through = {};  ///< of a bounce: of tunneling or being pushed out on the wrong side
-  const char* why = "";                ///< of an infinite wall: the formula of the probability, in the letters of docs/
-  const char* why_late = "";           ///< ... and of the largest lateness
+  std::optional<double> probability = {};  ///< of tunneling
+  std::optional<Lateness> lateness = {};   ///< [m] along the path, of the detected
+  std::optional<double> latest = {};       ///< [m] the most there can be, where nothing is said of its mean
+  double widest = 0;                       ///< [m] how far from the wall a detection may be, rounding aside
+  std::optional<double> through = {};      ///< of a bounce: of tunneling or being pushed out on the wrong side
+  const char* why = "";                    ///< of an infinite wall: the formula of the probability, as docs/ writes it
+  const char* why_late = "";               ///< ... and of the largest lateness
 
   std::optional<double> largest_lateness() const { return lateness ? std::optional(lateness->largest) : latest; }
 };
 
 Theory pose_theory(const Cell& cell, int poses_per_step);
-Theory center_ray_theory(const Cell& cell);
-Theory swept_volume_ray_theory(const Cell& cell);
-Theory confirmed_ray_theory(const Cell& cell);
-Theory speculative_theory(const Cell& cell);
 Theory early_theory(const Cell& cell, double tolerance);  ///< [1] of a step: detects so much before contact at most
-Theory late_theory(const Cell& cell, double tolerance);   ///< [1] of a step: detects so much after contact at most
-Theory exact_theory();
 
 /// What is counted over the shots of one cell, method and scalar.
 struct Tally {
@@ -73,10 +67,7 @@ struct Tally {
   bool operator==(const Tally&) const = default;
 };
 
-/// What becomes of a ball that was seen. The bounce is the response of an ordinary engine, with restitution 1 and a wall that
-/// stays: the ball is put where the query saw it, pushed out of the wall along the normal by what it is in, and reflected if it
-/// approaches. The normal of a pose in the wall is the one of least penetration. A ball that was seen too deep is past the
-/// middle, and the short way out leads ahead: it leaves with the velocity it came with, as if there were no wall.
+/// What becomes of a ball that was seen: docs/thin_wall.md, "With a bounce".
 enum class Response { none, bounce };
 inline constexpr std::array<std::string_view, 2> response_names = {"none", "bounce"};
 
@@ -89,7 +80,7 @@ struct Flight {
 /// Pushes the ball out along `normal`, which points into the wall, and reflects it there if it approaches.
 void respond(const Target& target, const Vec3<double>& normal, Flight& flight);
 
-/// Beyond the wall on some axis and moving away, as is_past() says of a shot.
+/// Beyond the wall on some axis and moving away: it cannot touch any more.
 bool has_left(const Target& target, const Flight& flight);
 
 /// One step of a shot, as it is put to a method.
@@ -145,10 +136,8 @@ Tally fire(const Cell& cell, const ThinWallMethod& method, const Volley& volley,
 /// that the phases are as evenly spread over the gap between two poses as they are over the step.
 inline constexpr std::int64_t stratified_shots = 1009;
 
-/// Of phases spread evenly over the step instead of drawn one by one, the number that tunneled, by method. Chance is all but gone,
-/// so that the count must be within one of n p: a far sharper test of the formula than any number of independent shots, and no
-/// test of the random numbers at all. For an infinite wall, where the phase is all there is to draw.
-std::vector<std::int64_t> stratified_counts(const Cell& cell, std::span<const ThinWallMethod> methods,
-                                            std::uint64_t seed);
+/// The number that tunneled of phases spread evenly over the step, not drawn: within one of n p, almost without chance. For an infinite
+/// wall, where the phase is all there is to draw.
+std::int64_t tunneled_evenly(const Cell& cell, const ThinWallMethod& method, std::uint64_t seed);
 
 }  // namespace thinwall

@@ -172,11 +172,4 @@ double path_to_contact(const Target& target, const Vec3<double>& start) {
   return steps * target.step_length;
 }
 
-bool is_past(const Target& target, const Vec3<double>& position) {
-  for (int i = 0; i < 3; ++i) {
-    if (target.displacement[i] > 0 && position[i] > target.half_extents[i] + target.radius) return true;
-  }
-  return false;
-}
-
 }  // namespace thinwall

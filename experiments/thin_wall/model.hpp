@@ -27,8 +27,8 @@ struct Cell {
   double radius;     ///< [m] >= 0; not both 0 with thickness
   double thickness;  ///< [m] >= 0
   double angle_deg;  ///< [deg] in [0, 90), between the motion and the wall's normal
-  Wall wall;
-  double wall_size;  ///< [m] side of the square wall; 0 if it is infinite
+  Wall wall = Wall::infinite;
+  double wall_size = 0;  ///< [m] side of the square wall; 0 if it is infinite
 
   bool operator==(const Cell&) const = default;
 };
@@ -41,13 +41,7 @@ inline constexpr Range allowed_angle = {.lower = 0, .upper = 89.9, .unit = "deg"
 
 /// The bullet of the textbook: 10 m/s, 60 steps a second, before the wall at one frame and behind it at the next.
 /// Ball and wall together are 5 cm thick and a step is 17 cm, so that it is missed 7 times in 10.
-inline constexpr Cell bullet = {.speed = 10,
-                                .step = 1.0 / 60,
-                                .radius = 0.02,
-                                .thickness = 0.01,
-                                .angle_deg = 0,
-                                .wall = Wall::infinite,
-                                .wall_size = 0};
+inline constexpr Cell bullet = {.speed = 10, .step = 1.0 / 60, .radius = 0.02, .thickness = 0.01, .angle_deg = 0};
 
 /// What keeps a cell, each of whose numbers is in its range, from being fired: which of them, and what is expected of it. `speed` may be
 /// the fault of `step` as well.
@@ -97,8 +91,5 @@ double gap(const Target& target, const Vec3<double>& position);
 /// it is convex along the line, so the iterates rise to contact and never pass it.
 /// Degenerate: a line that grazes, and for rounding misses, yields its closest approach.
 double path_to_contact(const Target& target, const Vec3<double>& start);
-
-/// The ball is beyond the wall on some axis and moving away: it cannot touch any more.
-bool is_past(const Target& target, const Vec3<double>& position);
 
 }  // namespace thinwall

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
@@ -23,53 +22,67 @@ struct ShotPlan {
 /// Throws UsageError.
 ShotPlan make_plan(const Settings& settings, const RunOptions& options);
 
+/// At evenly spread phases, too: at an infinite wall, in double.
+bool is_fired_evenly(const Cell& cell, const ThinWallMethod& method);
+
 struct ThinWallRow {
   Cell cell;
-  std::string method, scalar;
+  const ThinWallMethod* method;  ///< one of the plan's
   Theory theory;
-  Tally tally;
-  int poses_per_step;    ///< as the method's
-  double step_ratio;     ///< [1] v h cos(angle) / (w + 2 r)
-  double lateness_unit;  ///< [m] of tally.lateness
-  double resolution;     ///< [m] how well the scalar holds a pose of this cell
-  double seconds;        ///< of computing all shots, aiming included
+  Tally tally = {};
+  std::optional<std::int64_t> tunneled_evenly = {};  ///< of `stratified_shots`
+  double seconds = 0;                                ///< of computing all shots, aiming included
 };
 
-/// `tallies[i]` and `seconds[i]` are of cell i / methods and method i % methods.
-std::vector<ThinWallRow> make_rows(const ShotPlan& plan, const std::vector<Tally>& tallies,
-                                   const std::vector<double>& seconds);
+/// By cell, then method; nothing is counted yet. The plan must outlive them.
+std::vector<ThinWallRow> rows_of(const ShotPlan& plan);
 
-/// Every row with a theory of tunneling, or of going through when it bounces.
-std::vector<CellCount> tunneled_counts(const std::vector<ThinWallRow>& rows);
-std::vector<CellCount> through_counts(const std::vector<ThinWallRow>& rows);
+/// What a shot may come to: how many did, and the chance of it.
+struct Fate {
+  std::int64_t (*count)(const Tally&);
+  std::optional<double> Theory::*chance;
+};
+inline constexpr Fate tunneling = {[](const Tally& t) { return t.tunneled; }, &Theory::probability};
+inline constexpr Fate going_through = {[](const Tally& t) { return t.went_through(); }, &Theory::through};
+
+/// Of every row with a theory of it.
+std::vector<CellCount> counts_of(const std::vector<ThinWallRow>& rows, const Fate& fate);
 
 /// In an infinite wall a ball ends behind it if and only if it went through. True if all counts say so.
 bool ends_agree(const std::vector<ThinWallRow>& rows);
 
-/// Does the lateness of detection agree with theory? Means by their standard residuals, extremes by their bounds. A hit with a gap
-/// between ball and wall that the method does not own up to would be a false one: it is looked for in every cell, also where there
-/// is no theory. The verdict on one method at one scalar.
-struct LatenessTest {
-  std::string method, scalar;
-  std::int64_t cells = 0;        ///< in which anything was detected
-  std::int64_t false_cells = 0;  ///< ... with a gap between ball and wall, by more than theory or rounding explains
-  std::int64_t late_cells = 0;   ///< ... later than theory's largest lateness, by more than rounding explains
-  ResidualTest mean = {};        ///< where theory varies, and enough was detected for the mean to be near normal
-  bool passed() const { return false_cells == 0 && late_cells == 0 && mean.passed(); }
+/// Of the shots for which theory has a chance: how many, and of how many that came true or was expected to.
+struct Foretold {
+  std::int64_t shots = 0, counted = 0;
+  double expected = 0;
+
+  double share() const { return static_cast<double>(counted) / static_cast<double>(shots); }  ///< NaN of none
+  double theory() const { return expected / static_cast<double>(shots); }
 };
-std::vector<LatenessTest> lateness_test(const std::vector<ThinWallRow>& rows);
 
-/// What of a plan is fired at evenly spread phases: the cells with an infinite wall, at every method in double.
-ShotPlan evenly_spread(const ShotPlan& plan);
+/// A method at a scalar over all of its cells, and the verdicts on it.
+struct ThinWallTotal {
+  const ThinWallMethod* method;
+  Tally tally = {};                           ///< without lateness, whose unit is each cell's own
+  std::int64_t cells = 0, clean_cells = 0;    ///< clean: none tunneled
+  Foretold tunneled = {}, through = {};       ///< through: tunneled, or pushed out on the wrong side
+  std::optional<double> worst_residual = {};  ///< [1] of the cells that can be judged alone, the one farthest from 0
 
-/// The verdict on one method.
-struct StratifiedTest {
-  std::string method;
-  std::int64_t cells = 0;        ///< with a theory
+  // Lateness: means by their standard residuals, extremes by their bounds. A hit with a gap between ball and wall that the
+  // method does not own up to would be a false one: it is looked for in every cell, also where there is no theory.
+  std::int64_t detected_cells = 0;  ///< in which anything was
+  std::int64_t false_cells = 0;     ///< ... with a gap between ball and wall, by more than theory or rounding explains
+  std::int64_t late_cells = 0;      ///< ... later than theory's largest lateness, by more than rounding explains
+  ResidualTest lateness = {};       ///< where theory varies, and enough was detected for the mean to be near normal
+
+  // Evenly spread phases.
+  std::int64_t even_cells = 0;   ///< with a theory
   double largest_deviation = 0;  ///< [1] of |k - n p| over those cells
-  bool passed() const { return largest_deviation <= 1; }
+
+  bool is_clean() const { return tally.tunneled + tally.undecided == 0; }
+  bool lateness_passes() const { return false_cells == 0 && late_cells == 0 && lateness.passed(); }
+  bool even_passes() const { return largest_deviation <= 1; }
 };
-/// `counts[i]` is what stratified_counts returned for cell i.
-std::vector<StratifiedTest> stratified_test(const ShotPlan& plan, const std::vector<std::vector<std::int64_t>>& counts);
+std::vector<ThinWallTotal> totals_of(const std::vector<ThinWallRow>& rows);
 
 }  // namespace thinwall
