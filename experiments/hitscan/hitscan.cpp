@@ -16,6 +16,7 @@
 #include <thinwall/experiments/hitscan/theory.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -31,10 +32,6 @@ using Rows = std::vector<Row>;
 using Tally = HitscanTally;
 using Spread = HitscanSpread;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::string_view rule_name(const Row& row) { return row.rule.name; }
-
 // Of a row, or of a total.
 constexpr auto is_timed = [](const auto& row) { return row.tally.lateness.count > 0; };
 constexpr auto missed = [](const auto& row) { return row.tally.missed; };
@@ -42,29 +39,16 @@ constexpr auto true_hits = [](const auto& row) { return row.tally.touching; };
 constexpr auto false_hits = [](const auto& row) { return row.tally.false_hits; };
 constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 
-std::optional<double> quotient(double part, double whole) {
-  return whole > 0 ? std::optional(part / whole) : std::nullopt;
+std::optional<double> quotient(auto part, auto whole) {
+  return whole > 0 ? std::optional(static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
 }
-std::optional<double> quotient(std::int64_t part, std::int64_t whole) {
-  return quotient(static_cast<double>(part), static_cast<double>(whole));
-}
-std::optional<double> missed_share(const Row& row) { return quotient(missed(row), true_hits(row)); }
+std::optional<double> missed_share(const auto& row) { return quotient(missed(row), true_hits(row)); }
 std::optional<double> missed_share_theory(const Row& row) { return quotient(row.expected.missed, row.expected.touch); }
-std::optional<double> false_share_theory(const Row& row) {
-  return quotient(row.expected.false_hits, row.expected.reported);
-}
 
-double mean_path_error(const Row& row) { return row.tally.path_error.mean(length_unit(row.cell)); }
 double steps_late(const Row& row) { return row.tally.lateness.mean(time_unit(row.cell)) / row.cell.step; }
-double time_of(const Row& row) { return flight_time(row.cell); }
 
-Rows chosen(const Rows& rows, const std::function<bool(const Row&)>& choice) {
-  Rows result;
-  std::ranges::copy_if(rows, std::back_inserter(result), choice);
-  return result;
-}
 Rows of_rule(const Rows& rows, const HitscanRule& rule) {
-  return chosen(rows, [&](const Row& row) { return row.rule.name == rule.name; });
+  return rows_where(rows, [&](const Row& row) { return row.rule.name == rule.name; });
 }
 
 // What the tables show.
@@ -80,7 +64,9 @@ Columns<Row> row_columns() {
              text("rule", "How a hit is found.", rule_name),
              text("shot", "Which of the known shots it is; empty for the others.",
                   [](const Row& r) { return known_name(r.cell); }),
-             hitscan_factors().columns(&Row::cell), value("flight_time", "s", "From the muzzle to the range.", time_of),
+             hitscan_factors().columns(&Row::cell),
+             value("flight_time", "s", "From the muzzle to the range.",
+                   [](const Row& r) { return flight_time(r.cell); }),
              value("deflection", "m", "Of the arc from the line of fire, at the range, by gravity and wind.",
                    [](const Row& r) { return deflection(r.cell); }),
              fields(&Row::tally, {"shots", "touching"}),
@@ -92,9 +78,10 @@ Columns<Row> row_columns() {
              value("reported", "1", "Hits that the rule reports.", reported), fields(&Row::tally, {"false_hits"}),
              share("false_share", "false_hits / reported; missing if nothing is reported.", false_hits, reported,
                    "false_"),
-             value("false_theory", "1", "The share by theory.", false_share_theory),
+             value("false_theory", "1", "The share by theory.",
+                   [](const Row& r) { return quotient(r.expected.false_hits, r.expected.reported); }),
              value("path_error_mean", "m", "From the rule's path to the arc, where they cross the plane of the target.",
-                   mean_path_error),
+                   [](const Row& r) { return r.tally.path_error.mean(length_unit(r.cell)); }),
              value("path_error_theory", "m", "The same by theory.",
                    [](const Row& r) { return r.expected.path_error.mean; }),
              value("path_error_max", "m", "The largest.", extreme(&Tally::path_error, &Spread::most)),
@@ -137,7 +124,7 @@ std::vector<Total> totals_of(const Rows& rows) {
   std::vector<Total> totals;
   for (const Group<Row>& group : group_by(rows, rule_name)) {
     Total& total = totals.emplace_back();
-    total.rule = rule_name(*group[0]);
+    total.rule = group[0]->rule.name;
     total.tally = total_of(group, &Row::tally);
     for (const Row* row : group) {
       const Tally& t = row->tally;
@@ -183,16 +170,13 @@ Table reach_table(const std::vector<Cell>& cells) {
       return found ? std::optional(time_to(arc_of<double>(c), *found)) : std::nullopt;
     };
   };
-  const auto columns = columns_of<Cell>(
-      value("speed", "m/s", "At the muzzle.", &Cell::speed),
-      value("drag", "1/s", "Share of its speed, as seen from the air, that the bullet loses a second.", &Cell::drag),
-      value("wind", "m/s", "Across the line of fire.", &Cell::wind),
-      value("gravity", "m/s^2", "Downward.", &Cell::gravity),
-      value("target", "m", "Radius of the target.", &Cell::target),
-      value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
-      value("time_5_percent", "s", "Flight time to there.", time(0.05)),
-      value("range_50_percent", "m", "Range at which half of the hits are missed.", range(0.5)),
-      value("time_50_percent", "s", "Flight time to there.", time(0.5)));
+  const auto columns =
+      columns_of<Cell>(hitscan_factors().columns(std::identity(), {"speed", "drag"}),
+                       hitscan_factors().columns(std::identity(), {"wind", "gravity", "target"}),
+                       value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
+                       value("time_5_percent", "s", "Flight time to there.", time(0.05)),
+                       value("range_50_percent", "m", "Range at which half of the hits are missed.", range(0.5)),
+                       value("time_50_percent", "s", "Flight time to there.", time(0.5)));
   return in_report(
       table("reach",
             "How far hitscan is good: the range at which the ray misses a share of the hits of a bullet without "
@@ -226,37 +210,32 @@ Table moments_table(const std::vector<HitscanMomentTest>& tests) {
 
 // What the pictures show.
 
-using Read = std::function<double(const Row&)>;
-
-double off(const Row& row) { return deflection(row.cell) / row.cell.target; }
 double speed_there(const Row& row) {
   const auto there = at_distance(arc_of<double>(row.cell), row.cell.range);
   return std::hypot(there.vx, there.vs);
 }
 
+std::optional<double> missed_residual(const Row& row) {
+  if (!can_be_judged(row.tally.shots, row.expected.missed)) return std::nullopt;
+  return standard_residual(missed(row), row.tally.shots, row.expected.missed);
+}
+
+/// [step] Of next_frame.
+std::optional<Measured> lateness(const Row& row) {
+  if (!row.expected.lateness) return std::nullopt;
+  return normal_mean(steps_late(row), row.expected.lateness->sigma / row.cell.step, row.tally.lateness.count);
+}
+
 /// What is drawn of a row, with its bars.
 Plot drawn(const Rows& rows) {
-  const auto is_judged = [](const Row& r) { return can_be_judged(r.tally.shots, r.expected.missed); };
-  const auto late_bar = [](double sign) {
-    return [=](const Row& r) -> std::optional<double> {
-      if (!r.expected.lateness) return std::nullopt;
-      const double sigma = r.expected.lateness->sigma / std::sqrt(static_cast<double>(r.tally.lateness.count));
-      return steps_late(r) + sign * 1.96 * sigma / r.cell.step;
-    };
-  };
   const auto columns = columns_of<Row>(
-      text("rule", "", rule_name),
+      row_columns(),
       text("bullet", "", [](const Row& r) { return fmt::format("bullet radius {:g} mm", 1e3 * r.cell.radius); }),
-      value("off", "", "", off), value("time", "", "", time_of), value("speed", "", "", speed_there),
-      value("path_error", "", "", mean_path_error), share("missed", "", missed, true_hits, "missed_"),
-      share("false", "", false_hits, reported, "false_"),
-      where(is_judged,
-            value("residual", "", "",
-                  [](const Row& r) { return standard_residual(missed(r), r.tally.shots, r.expected.missed); })),
-      where(is_timed,
-            columns_of<Row>(ValueColumn{"late", "", "", steps_late, "late_lower", "late_upper"},
-                            value("late_lower", "", "", late_bar(-1)), value("late_upper", "", "", late_bar(1)),
-                            value("early", "", "", [](const Row& r) { return -steps_late(r); }))));
+      value("off", "", "", [](const Row& r) { return deflection(r.cell) / r.cell.target; }),
+      value("speed_there", "", "", speed_there), value("residual", "", "", missed_residual),
+      where(is_timed, columns_of<Row>(measured("late", "", "", lateness, "late_"),
+                                      value("early", "", "", [](const Row& r) { return -steps_late(r); }))),
+      value("flight", "", "", [](const Row& r) { return flight_time(r.cell) / r.cell.step; }));
   return plot(table("drawn", "", columns, rows));
 }
 
@@ -266,56 +245,22 @@ std::set<double> radii_of(const Rows& rows) {
   return radii;
 }
 
-Series curve(const char* label) {
-  return {.label = label, .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
-}
-void add_point(Series& series, double x, double y) {
-  series.x.push_back(x);
-  series.y.push_back(y);
-}
-
-/// Through what theory says of each row, for each radius, with gaps.
-Series theory_through(Rows rows, const Read& x, const Read& y) {
-  Series series = curve("theory");
-  std::ranges::stable_sort(rows, {}, x);
-  for (const double radius : radii_of(rows)) {
-    for (const Row& row : rows) {
-      if (row.cell.radius == radius) add_point(series, x(row), y(row));
-    }
-    add_point(series, series.x.back(), nan);
-  }
-  return series;
-}
-
-/// The lens of flat fire over the deflection, for each radius.
-Series flat_curves(const Rows& rows, double (*share)(double target, double radius, double deflection)) {
-  Series series = curve("theory, flat fire");
-  const auto [least, most] = std::ranges::minmax(rows, {}, off);
-  const double from = off(least), to = off(most), target = rows.front().cell.target;
-  constexpr int points = 400;
-  for (const double radius : radii_of(rows)) {
-    for (int i = 0; i <= points; ++i) {
-      const double x = from * std::pow(to / from, static_cast<double>(i) / points);
-      add_point(series, x, share(target, radius, x * target));
-    }
-    add_point(series, to, nan);
-  }
-  return series;
-}
-
 /// Of hitscan, all with some deflection.
 Figure missed_figure(const Rows& rays) {
-  const auto over_deflection = [&](const char* y, const char* label, double height) -> Panel {
+  const auto over_deflection = [&](const char* y, const char* label, double height) {
     return drawn(rays)
         .x("off", Axis::log, "deflection at the range / radius of the target [1]")
         .y(y, Axis::linear, label)
         .by("bullet")
         .height(height);
   };
-  Panel unseen = over_deflection("missed", "true hits missed [1]", 1.3);
-  Panel wrong = over_deflection("false", "hits that are false [1]", 1.3);
-  unseen.series.push_back(flat_curves(rays, flat_missed));
-  wrong.series.push_back(flat_curves(rays, flat_false));
+  Plot unseen = over_deflection("missed_share", "true hits missed [1]", 1.3);
+  Plot wrong = over_deflection("false_share", "hits that are false [1]", 1.3);
+  const double target = rays.front().cell.target;
+  for (const double radius : radii_of(rays)) {
+    unseen.curve("theory, flat fire", [=](double off) { return flat_missed(target, radius, off * target); });
+    wrong.curve("theory, flat fire", [=](double off) { return flat_false(target, radius, off * target); });
+  }
   return {.name = "missed",
           .title = "What the ray of an instant bullet misses, and hits falsely",
           .caption =
@@ -328,22 +273,17 @@ Figure missed_figure(const Rows& rays) {
 
 /// Of every rule, one radius and air.
 Figure path_error_figure(const Rows& rows) {
-  const Rows ray = of_rule(rows, hitscan_ray), frames = of_rule(rows, next_frame), steps = of_rule(rows, swept_steps);
-  Panel panel = drawn(chosen(rows, [](const Row& r) { return r.rule.name != hitscan_ball.name; }))
-                    .x("time", Axis::log, "flight time [s]")
-                    .y("path_error", Axis::log, "mean distance from the arc [m]")
-                    .by("rule");
-  for (const Rows* of_one : {&ray, &frames, &steps}) {
-    if (!of_one->empty())
-      panel.series.push_back(theory_through(*of_one, time_of, [](const Row& r) { return r.expected.path_error.mean; }));
-  }
   return {.name = "path_error",
           .title = "How far each rule's path is from the arc at the range",
           .caption =
               "Mean distance from the arc where the path crosses the plane of the target, against the flight "
               "time, and the theory. The ray is off by the whole fall; the rules that go step by step by that of "
               "a step, or less in a first step that reaches the target.",
-          .panels = {panel}};
+          .panels = {drawn(rows_where(rows, [](const Row& r) { return r.rule.name != hitscan_ball.name; }))
+                         .x("flight_time", Axis::log, "flight time [s]")
+                         .y("path_error_mean", Axis::log, "mean distance from the arc [m]")
+                         .by("rule")
+                         .through("path_error_theory", "theory")}};
 }
 
 /// Without panels if no rule has a time.
@@ -356,41 +296,36 @@ Figure lateness_figure(const Rows& rows) {
                        "where its center does; flights of a step or more. Below, how much too early hitscan "
                        "reports: the whole flight, until it hits nothing the bullet hits.",
                    .panels = {}};
+  const Rows timed = rows_where(rows, is_timed), instant = of_rule(timed, hitscan_ray);
   const Rows framed =
-      chosen(of_rule(rows, next_frame), [](const Row& r) { return is_timed(r) && flight_time(r.cell) >= r.cell.step; });
+      rows_where(of_rule(timed, next_frame), [](const Row& r) { return flight_time(r.cell) >= r.cell.step; });
   if (!framed.empty()) {
-    Panel panel = drawn(framed)
-                      .x("speed", Axis::log, "speed at the target [m/s]")
-                      .y("late", Axis::linear, "mean lateness of next_frame [steps]")
-                      .by("bullet");
-    panel.series.push_back(
-        theory_through(framed, speed_there, [](const Row& r) { return r.expected.lateness->mean / r.cell.step; }));
-    figure.panels.push_back(std::move(panel));
+    figure.panels.push_back(drawn(framed)
+                                .x("speed_there", Axis::log, "speed at the target [m/s]")
+                                .y("late", Axis::linear, "mean lateness of next_frame [steps]")
+                                .by("bullet")
+                                .through("lateness_theory", "theory"));
   }
-  const Rows instant = chosen(of_rule(rows, hitscan_ray), is_timed);
   if (!instant.empty()) {
-    Panel panel = drawn(instant)
-                      .x("time", Axis::log, "flight time [s]")
-                      .y("early", Axis::log, "hitscan is early by [steps]")
-                      .by("bullet");
-    const double radius = *radii_of(instant).begin();
-    panel.series.push_back(theory_through(chosen(instant, [&](const Row& r) { return r.cell.radius == radius; }),
-                                          time_of, [](const Row& r) { return time_of(r) / r.cell.step; }));
-    figure.panels.push_back(std::move(panel));
+    figure.panels.push_back(drawn(instant)
+                                .x("flight_time", Axis::log, "flight time [s]")
+                                .y("early", Axis::log, "hitscan is early by [steps]")
+                                .by("bullet")
+                                .through("flight", "theory"));
   }
   return figure;
 }
 
 /// Those whose rule was asked. Of the known shots none, of several targets and steps the first.
 std::vector<Figure> figures_of(const Rows& rows) {
-  const Rows asked = chosen(rows, [](const Row& r) { return !is_known(r.cell); });
+  const Rows asked = rows_where(rows, [](const Row& r) { return !is_known(r.cell); });
   if (asked.empty()) return {};
   const Cell& one = asked.front().cell;
   const Rows alike =
-      chosen(asked, [&](const Row& r) { return r.cell.target == one.target && r.cell.step == one.step; });
-  const Rows bent = chosen(alike, [](const Row& r) { return deflection(r.cell) > 0; });
+      rows_where(asked, [&](const Row& r) { return r.cell.target == one.target && r.cell.step == one.step; });
+  const Rows bent = rows_where(alike, [](const Row& r) { return deflection(r.cell) > 0; });
   const Rows rays = of_rule(bent, hitscan_ray);
-  const Rows of_one_kind = chosen(bent, [&](const Row& r) {
+  const Rows of_one_kind = rows_where(bent, [&](const Row& r) {
     return r.cell.drag == one.drag && r.cell.wind == one.wind && r.cell.radius == one.radius;
   });
   std::vector<Figure> figures;
@@ -420,7 +355,7 @@ std::string known_answer(const Rows& rows) {
 /// thickest bullet.
 std::string ray_answer(const Rows& rows) {
   const Rows rays =
-      chosen(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
+      rows_where(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
   if (rays.empty()) return "";
   const std::set<double> radii = radii_of(rays);
   const double thin = *radii.begin(), thick = *radii.rbegin();
@@ -451,8 +386,7 @@ std::string total_answer(const Total& t) {
     return fmt::format(
         "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; it "
         "misses {} of the true hits, and {} of its own are false. ",
-        t.lateness(), t.latest, percent(quotient(missed(t), true_hits(t))),
-        percent(quotient(false_hits(t), reported(t))));
+        t.lateness(), t.latest, percent(missed_share(t)), percent(quotient(false_hits(t), reported(t))));
   }
   if (t.rule == swept_steps.name) {
     return fmt::format(
@@ -475,7 +409,6 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
   const std::vector<Total> totals = totals_of(rows);
   const std::vector<SelfTest> counts = self_test(counts_of(rows));
   const std::vector<HitscanMomentTest> moments = moment_tests(rows);
-  const bool moments_pass = std::ranges::all_of(moments, &HitscanMomentTest::passed);
   const auto columns = row_columns();
   const Table all =
       table("cells", "Every cell at every rule: what it misses, what it hits falsely, how far off and how late it is.",
@@ -486,7 +419,7 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
             columns.without({"drag", "flight_time", "deflection", "touching", "touching_theory", "missed", "reported",
                              "false_hits", "path_error_max", "point_error_mean", "path_error_bound", "point_error_max",
                              "lateness_min", "lateness_max"}),
-            chosen(rows, [](const Row& r) { return is_known(r.cell); })));
+            rows_where(rows, [](const Row& r) { return is_known(r.cell); })));
   const Table rules = rules_table(totals);
   return {.answer = answer_of(rows, totals),
           .summary = terminal(known, {"shot", "rule", "missed_share", "missed_theory", "false_share", "false_theory",
@@ -494,21 +427,20 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
                      "\n" +
                      terminal(rules, {"rule", "touching", "missed", "missed_expected", "reported", "false_hits",
                                       "false_expected", "lateness_mean", "path_error_max"}) +
-                     fmt::format("\nSelf-test: counts {}, errors {}.\n", all_passed(counts) ? "passed" : "FAILED",
-                                 moments_pass ? "passed" : "FAILED"),
+                     fmt::format("\nSelf-test: counts {}, errors {}.\n", verdict_text(all_passed(counts)),
+                                 verdict_text(all_passed(moments))),
           .tables = {known, reach_table(cells), rules, counts_test_table(counts), moments_table(moments), all},
           .figures = figures_of(rows),
           .sections = {{"Self-test", self_test_text(counts)}},
-          .self_test_passed = all_passed(counts) && moments_pass};
+          .self_test_passed = all_passed(counts) && all_passed(moments)};
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   std::vector<std::string_view> names;
   std::ranges::transform(hitscan_rules, std::back_inserter(names), &HitscanRule::name);
-  const std::vector<std::string> asked = settings.choices_or_all("rule", names);
   std::vector<HitscanRule> rules;
-  std::ranges::copy_if(hitscan_rules, std::back_inserter(rules),
-                       [&](const HitscanRule& rule) { return std::ranges::find(asked, rule.name) != asked.end(); });
+  for (const std::string& name : settings.choices_or_all("rule", names))
+    rules.push_back(*std::ranges::find(hitscan_rules, name, &HitscanRule::name));
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::vector<Cell> cells = make_hitscan_cells(settings);
   std::vector<Task<std::vector<Tally>>> tasks;

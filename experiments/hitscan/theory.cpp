@@ -78,6 +78,51 @@ double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
   return part * fallen(length) - fallen(since);
 }
 
+/// [m] From the rule's path to the arc at the range.
+HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c) {
+  if (rule.path == FlightPath::line) return {deflection(c), 0};  // the same in every shot
+  return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
+}
+
+/// [m] No path error is larger.
+double path_error_bound(const HitscanRule& rule, const HitscanCell& c) {
+  const auto arc = arc_of<double>(c);
+  switch (rule.path) {
+    case FlightPath::line: return deflection(c);
+    case FlightPath::tangents: return arc.pull * pull_factor(arc.drag, c.step);  // its own speed takes the ray that far
+    case FlightPath::chords: break;
+  }
+  const double tau = undragged_time(arc.drag, c.step), longest = tau / (1 - arc.drag * tau);
+  return arc.pull * longest * longest / 8;  // the arc's curvature over tau is at most pull / (1 - drag * tau)^2
+}
+
+/// [s] What is left of the step in which the center gets to the target, and how much earlier the ball touches.
+HitscanMoments next_frame_lateness(const HitscanCell& c) {
+  const auto arc = arc_of<double>(c);
+  const auto there = at_distance(arc, c.range);
+  const double speed = std::hypot(there.vx, there.vs), outer = reach(c);
+  double ahead = 0, ahead_squared = 0, depth = 0;  // means over a disc, in rings of equal area
+  constexpr int rings = 2000;
+  for (int i = 0; i < rings; ++i) {
+    const double squared = c.target * c.target * (i + 0.5) / rings;
+    const double inner = std::sqrt(c.target * c.target - squared), lead = std::sqrt(outer * outer - squared) - inner;
+    ahead += lead / rings;
+    ahead_squared += lead * lead / rings;
+    depth += inner / rings;
+  }
+  const double arrival = flight_time(c) - depth / speed;
+  const HitscanMoments rest = over_phases(next_frame, c, [&](double phase) {
+    const FrameAt frame = first_frame(c, phase, arrival, [&](double begins, double since, double length) {
+      const auto start = after(arc, begins);
+      const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;
+      return tau + arc.pull * start.vs / square * pull_factor(arc.drag, tau) <= length;  // along the ray
+    });
+    return frame.ends - arrival;
+  });
+  const double variance = std::max(0.0, ahead_squared - ahead * ahead) / (speed * speed);
+  return {rest.mean + ahead / speed, std::hypot(rest.sigma, std::sqrt(variance))};
+}
+
 constexpr int count_phases = 32;
 
 std::vector<PathPiece> pieces_of(FlightPath path, const HitscanCell& c, double phase) {
@@ -149,13 +194,6 @@ Areas areas_of(const HitscanRule& rule, const HitscanCell& c) {
 double drawn_area(const HitscanCell& c) {
   const double disc = disc_radius(c);
   return 2 * std::numbers::pi * disc * disc - lens_area(disc, disc, deflection(c));
-}
-
-HitscanMomentTest& test_of(std::vector<HitscanMomentTest>& tests, const HitscanRule& rule, const char* quantity) {
-  const auto found = std::ranges::find_if(
-      tests, [&](const HitscanMomentTest& t) { return t.rule == rule.name && t.quantity == quantity; });
-  if (found != tests.end()) return *found;
-  return tests.emplace_back(HitscanMomentTest{.rule = std::string(rule.name), .quantity = quantity});
 }
 
 void judge(HitscanMomentTest& test, const HitscanSpread& spread, double unit,
@@ -232,48 +270,6 @@ double lens_area(double radius_a, double radius_b, double apart) {
   return segment(radius_a, x) + segment(radius_b, apart - x);
 }
 
-HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c) {
-  if (rule.path == FlightPath::line) return {deflection(c), 0};  // the same in every shot
-  return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
-}
-
-double path_error_bound(const HitscanRule& rule, const HitscanCell& c) {
-  const auto arc = arc_of<double>(c);
-  switch (rule.path) {
-    case FlightPath::line: return deflection(c);
-    case FlightPath::tangents: return arc.pull * pull_factor(arc.drag, c.step);  // its own speed takes the ray that far
-    case FlightPath::chords: break;
-  }
-  const double tau = undragged_time(arc.drag, c.step), longest = tau / (1 - arc.drag * tau);
-  return arc.pull * longest * longest / 8;  // the arc's curvature over tau is at most pull / (1 - drag * tau)^2
-}
-
-HitscanMoments next_frame_lateness(const HitscanCell& c) {
-  const auto arc = arc_of<double>(c);
-  const auto there = at_distance(arc, c.range);
-  const double speed = std::hypot(there.vx, there.vs), outer = reach(c);
-  double ahead = 0, ahead_squared = 0, depth = 0;  // means over a disc, in rings of equal area
-  constexpr int rings = 2000;
-  for (int i = 0; i < rings; ++i) {
-    const double squared = c.target * c.target * (i + 0.5) / rings;
-    const double inner = std::sqrt(c.target * c.target - squared), lead = std::sqrt(outer * outer - squared) - inner;
-    ahead += lead / rings;
-    ahead_squared += lead * lead / rings;
-    depth += inner / rings;
-  }
-  const double arrival = flight_time(c) - depth / speed;
-  const HitscanMoments rest = over_phases(next_frame, c, [&](double phase) {
-    const FrameAt frame = first_frame(c, phase, arrival, [&](double begins, double since, double length) {
-      const auto start = after(arc, begins);
-      const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;
-      return tau + arc.pull * start.vs / square * pull_factor(arc.drag, tau) <= length;  // along the ray
-    });
-    return frame.ends - arrival;
-  });
-  const double variance = std::max(0.0, ahead_squared - ahead * ahead) / (speed * speed);
-  return {rest.mean + ahead / speed, std::hypot(rest.sigma, std::sqrt(variance))};
-}
-
 HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c) {
   const Areas areas = areas_of(rule, c);
   const double drawn = drawn_area(c);
@@ -340,14 +336,19 @@ std::vector<CellCount> counts_of(const std::vector<HitscanRow>& rows) {
 
 std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanRow>& rows) {
   std::vector<HitscanMomentTest> tests;
-  for (const HitscanRow& row : rows) {
-    const HitscanCell& c = row.cell;
-    const double rounding = 64 * std::numeric_limits<double>::epsilon() * (c.range + length_unit(c));
-    const double least = row.rule.path == FlightPath::line ? deflection(c) : 0;  // the ray's is the same in every shot
-    judge(test_of(tests, row.rule, "path error"), row.tally.path_error, length_unit(c), row.expected.path_error,
-          {least - rounding, row.expected.path_error_most + rounding});
-    judge(test_of(tests, row.rule, "lateness"), row.tally.lateness, time_unit(c), row.expected.lateness,
-          possible_lateness(row));
+  for (const Group<HitscanRow>& group : group_by(rows, rule_name)) {
+    const std::string rule(rule_name(*group[0]));
+    HitscanMomentTest path = {.rule = rule, .quantity = "path error"}, late = {.rule = rule, .quantity = "lateness"};
+    for (const HitscanRow* row : group) {
+      const HitscanCell& c = row->cell;
+      const double rounding = 64 * std::numeric_limits<double>::epsilon() * (c.range + length_unit(c));
+      const double least =
+          row->rule.path == FlightPath::line ? deflection(c) : 0;  // the ray's is the same in every shot
+      judge(path, row->tally.path_error, length_unit(c), row->expected.path_error,
+            {least - rounding, row->expected.path_error_most + rounding});
+      judge(late, row->tally.lateness, time_unit(c), row->expected.lateness, possible_lateness(*row));
+    }
+    tests.insert(tests.end(), {path, late});
   }
   return tests;
 }

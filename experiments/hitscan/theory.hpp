@@ -30,21 +30,10 @@ Places common(const Places& a, const Places& b);
 /// [m^2] What two discs, their centers `apart`, have in common.
 double lens_area(double radius_a, double radius_b, double apart);
 
-// How far off and how late the rules are: what needs no areas.
-
 /// Mean and spread of a quantity from shot to shot.
 struct HitscanMoments {
   double mean = 0, sigma = 0;
 };
-
-/// [m] From the rule's path to the arc at the range.
-HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c);
-/// [m] No path error is larger.
-double path_error_bound(const HitscanRule& rule, const HitscanCell& c);
-
-/// [s] Of next_frame: what is left of the step in which the center gets to the target, and how much earlier the ball
-/// touches.
-HitscanMoments next_frame_lateness(const HitscanCell& c);
 
 /// What a rule should count, as shares of the shots, and measure.
 struct HitscanExpected {
@@ -53,7 +42,7 @@ struct HitscanExpected {
   double missed;                           ///< the bullet hits, and the rule says no
   double false_hits;                       ///< it does not, and the rule says so
   HitscanMoments path_error;               ///< [m] from the rule's path to the arc at the range
-  double path_error_most;                  ///< [m]
+  double path_error_most;                  ///< [m] none is larger
   std::optional<HitscanMoments> lateness;  ///< [s], of next_frame
 };
 HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c);
@@ -75,6 +64,8 @@ struct HitscanRow {
   HitscanExpected expected;
   HitscanTally tally;
 };
+
+inline std::string_view rule_name(const HitscanRow& row) { return row.rule.name; }
 
 /// By cell, then rule. `tallies[i]` is of cell i, as long as `rules`.
 std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,
