@@ -245,8 +245,8 @@ std::set<double> radii_of(const Rows& rows) {
   return radii;
 }
 
-/// Of hitscan, all with some deflection.
-Figure missed_figure(const Rows& rays) {
+/// Of hitscan, all with some deflection and the same target.
+Figure missed_figure(const Rows& rays, double target) {
   const auto over_deflection = [&](const char* y, const char* label, double height) {
     return drawn(rays)
         .x("off", Axis::log, "deflection at the range / radius of the target [1]")
@@ -256,7 +256,6 @@ Figure missed_figure(const Rows& rays) {
   };
   Plot unseen = over_deflection("missed_share", "true hits missed [1]", 1.3);
   Plot wrong = over_deflection("false_share", "hits that are false [1]", 1.3);
-  const double target = rays.front().cell.target;
   for (const double radius : radii_of(rays)) {
     unseen.curve("theory, flat fire", [=](double off) { return flat_missed(target, radius, off * target); });
     wrong.curve("theory, flat fire", [=](double off) { return flat_false(target, radius, off * target); });
@@ -286,34 +285,26 @@ Figure path_error_figure(const Rows& rows) {
                          .through("path_error_theory", "theory")}};
 }
 
-/// Without panels if no rule has a time.
-Figure lateness_figure(const Rows& rows) {
-  Figure figure = {.name = "lateness",
-                   .title = "When a hit is reported",
-                   .caption =
-                       "Above, the mean time from first contact to the report of next_frame, with 95 % "
-                       "intervals, and the theory: half a step, and the time from where the ball touches to "
-                       "where its center does; flights of a step or more. Below, how much too early hitscan "
-                       "reports: the whole flight, until it hits nothing the bullet hits.",
-                   .panels = {}};
-  const Rows timed = rows_where(rows, is_timed), instant = of_rule(timed, hitscan_ray);
+Figure lateness_figure(const Rows& timed) {
   const Rows framed =
       rows_where(of_rule(timed, next_frame), [](const Row& r) { return flight_time(r.cell) >= r.cell.step; });
-  if (!framed.empty()) {
-    figure.panels.push_back(drawn(framed)
-                                .x("speed_there", Axis::log, "speed at the target [m/s]")
-                                .y("late", Axis::linear, "mean lateness of next_frame [steps]")
-                                .by("bullet")
-                                .through("lateness_theory", "theory"));
-  }
-  if (!instant.empty()) {
-    figure.panels.push_back(drawn(instant)
-                                .x("flight_time", Axis::log, "flight time [s]")
-                                .y("early", Axis::log, "hitscan is early by [steps]")
-                                .by("bullet")
-                                .through("flight", "theory"));
-  }
-  return figure;
+  return {.name = "lateness",
+          .title = "When a hit is reported",
+          .caption =
+              "Above, the mean time from first contact to the report of next_frame, with 95 % "
+              "intervals, and the theory: half a step, and the time from where the ball touches to "
+              "where its center does; flights of a step or more. Below, how much too early hitscan "
+              "reports: the whole flight, until it hits nothing the bullet hits.",
+          .panels = {drawn(framed)
+                         .x("speed_there", Axis::log, "speed at the target [m/s]")
+                         .y("late", Axis::linear, "mean lateness of next_frame [steps]")
+                         .by("bullet")
+                         .through("lateness_theory", "theory"),
+                     drawn(of_rule(timed, hitscan_ray))
+                         .x("flight_time", Axis::log, "flight time [s]")
+                         .y("early", Axis::log, "hitscan is early by [steps]")
+                         .by("bullet")
+                         .through("flight", "theory")}};
 }
 
 /// Those whose rule was asked. Of the known shots none, of several targets and steps the first.
@@ -328,11 +319,8 @@ std::vector<Figure> figures_of(const Rows& rows) {
   const Rows of_one_kind = rows_where(bent, [&](const Row& r) {
     return r.cell.drag == one.drag && r.cell.wind == one.wind && r.cell.radius == one.radius;
   });
-  std::vector<Figure> figures;
-  if (!rays.empty()) figures.push_back(missed_figure(rays));
-  if (!of_one_kind.empty()) figures.push_back(path_error_figure(of_one_kind));
-  if (Figure lateness = lateness_figure(alike); !lateness.panels.empty()) figures.push_back(std::move(lateness));
-  return figures;
+  return only_measured(
+      {missed_figure(rays, one.target), path_error_figure(of_one_kind), lateness_figure(rows_where(alike, is_timed))});
 }
 
 // What it says.

@@ -112,21 +112,12 @@ std::vector<FlightPiece> flight_pieces(FlightPath path, const HitscanCell& c, do
   return pieces;
 }
 
-struct PieceHit {
-  double part;  ///< [1] of the piece
-  Vec3<double> point;
-};
-
-std::optional<PieceHit> hit_on(const FlightPiece& piece, const HitscanRule& rule, const HitscanCell& c,
-                               const Sphere<double>& target) {
-  if (rule.has_radius) {
-    const auto toi = time_of_impact(Moving{Sphere{piece.start, c.radius}, piece.displacement}, at_rest(target));
-    if (toi.status != ToiStatus::hit && toi.status != ToiStatus::overlapping) return std::nullopt;
-    return PieceHit{toi.time, toi.point};
-  }
-  const auto hit = raycast(Ray<double>{piece.start, piece.displacement, 1}, target);
-  if (!hit) return std::nullopt;
-  return PieceHit{hit->t, hit->point};
+std::optional<RayHit<double>> hit_on(const FlightPiece& piece, const HitscanRule& rule, const HitscanCell& c,
+                                     const Sphere<double>& target) {
+  if (!rule.has_radius) return raycast(Ray<double>{piece.start, piece.displacement, 1}, target);
+  const auto toi = time_of_impact(Moving{Sphere{piece.start, c.radius}, piece.displacement}, at_rest(target));
+  if (toi.status != ToiStatus::hit && toi.status != ToiStatus::overlapping) return std::nullopt;
+  return RayHit<double>{toi.time, toi.point, toi.normal};
 }
 
 double report_time(ReportTime report, const FlightPiece& piece, double part) {
@@ -283,7 +274,7 @@ HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Pla
     const auto hit = hit_on(piece, rule, c, placement.target);
     if (!hit) continue;
     answer.hit = true;
-    answer.time = report_time(rule.report, piece, hit->part);
+    answer.time = report_time(rule.report, piece, hit->t);
     answer.point = hit->point;
   }
   return answer;

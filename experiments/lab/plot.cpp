@@ -148,6 +148,14 @@ Plot::operator Panel() const {
   return panel;
 }
 
+std::vector<Figure> only_measured(std::vector<Figure> figures) {
+  const auto is_measured = [](const Series& series) { return series.mark == Mark::points && !series.y.empty(); };
+  for (Figure& figure : figures)
+    std::erase_if(figure.panels, [&](const Panel& panel) { return std::ranges::none_of(panel.series, is_measured); });
+  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return figures;
+}
+
 Panel joined(Panel panel) {
   std::vector<Series> both;
   for (Series& points : panel.series) {

@@ -66,6 +66,9 @@ class Plot {
 
 inline Plot plot(const Table& table) { return Plot(table); }
 
+/// Without the panels in which nothing was measured, and without the figures that then have none.
+std::vector<Figure> only_measured(std::vector<Figure> figures);
+
 /// With a line through the points of each series, below them.
 Panel joined(Panel panel);
 

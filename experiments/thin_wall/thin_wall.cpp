@@ -2,7 +2,6 @@
 /// docs/thin_wall.md.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -341,17 +340,12 @@ Figure bounce_figure(const Rows& few) {
       .panels = {taking_turns(with_theory(share, few, unseen_curve, "theory, unseen alone", Mark::dashes))}};
 }
 
-/// Without the panels in which nothing was measured, and without the figures that then have none.
 std::vector<Figure> figures_of(const Rows& rows, bool bounces) {
   const Rows infinite = drawn(rows, step_ratios), few = thinned(infinite, step_ratios);
   std::vector<Figure> figures = {probability_figure(infinite, few), lateness_figure(few),
                                  finite_figure(thinned(drawn(rows, mean_chord_ratios), mean_chord_ratios))};
   if (bounces) figures.insert(figures.begin(), bounce_figure(few));
-  const auto is_measured = [](const Series& series) { return series.mark == Mark::points && !series.y.empty(); };
-  for (Figure& figure : figures)
-    std::erase_if(figure.panels, [&](const Panel& panel) { return std::ranges::none_of(panel.series, is_measured); });
-  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
-  return figures;
+  return only_measured(std::move(figures));
 }
 
 // What it says.
