@@ -103,12 +103,7 @@ TEST_P(EveryExperiment, refuses_by_name_what_a_key_may_not_be) {
          {"nan", "[nan]", "[]", "'no such thing'", "['no such thing']", "-1e99", "[-1e99]", "1979-05-27"}) {
       if (value.is_boolean() && std::string_view(wrong) == "nan") continue;
       const std::string text = std::string(key.str()) + " = " + wrong;
-      try {
-        configured(text);
-        ADD_FAILURE() << text << " is taken";
-      } catch (const UsageError& error) {
-        EXPECT_NE(std::string_view(error.what()).find(std::string(key.str())), std::string_view::npos) << error.what();
-      }
+      EXPECT_NE(refusal_of(experiment(), text).find(std::string(key.str())), std::string::npos) << text;
     }
   }
   EXPECT_THROW(configured("no_such_key = 1"), UsageError);

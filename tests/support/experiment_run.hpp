@@ -38,6 +38,16 @@ inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_vie
   return experiment.configure(settings, options);
 }
 
+/// What is said against such a text; empty if it is taken.
+inline std::string refusal_of(const Experiment& experiment, std::string_view text) {
+  try {
+    run_of(experiment, text);
+    return "";
+  } catch (const UsageError& refusal) {
+    return refusal.what();
+  }
+}
+
 inline std::vector<std::string> results_of(const std::vector<Unit>& units) {
   std::vector<std::string> results;
   for (const Unit& unit : units) results.push_back(unit.compute());
