@@ -12,16 +12,17 @@ namespace thinwall {
 
 namespace {
 
-std::optional<Interval> shadow_of(const PathPiece& piece, double range, double radius) {
+/// Empty if the piece does not get there.
+Places::interval_type shadow_of(const PathPiece& piece, double range, double radius) {
   const double from = std::max(piece.x0 - range, -radius), to = std::min(piece.x1 - range, radius);
-  if (from > to) return std::nullopt;
+  if (from > to) return {};
   const double slope = (piece.s1 - piece.s0) / (piece.x1 - piece.x0);
   const auto path = [&](double x) { return piece.s0 + slope * (x + range - piece.x0); };
   const auto rise = [&](double x) { return std::sqrt(std::max(0.0, radius * radius - x * x)); };
   // Where a line of this slope touches the ball, or at the end nearest to that: rise is concave.
   const double touch = slope * radius / std::hypot(1.0, slope);
   const double low = std::clamp(-touch, from, to), high = std::clamp(touch, from, to);
-  return Interval{path(low) - rise(low), path(high) + rise(high)};
+  return Places::interval_type::closed(path(low) - rise(low), path(high) + rise(high));
 }
 
 /// The i-th of evenly spaced phases, such that none of them is near where one step takes over from another at the
@@ -181,7 +182,7 @@ Areas areas_of(const HitscanRule& rule, const HitscanCell& c) {
       for (const std::vector<PathPiece>& path : paths) {
         const Places rule_places = shadow(path, c.range, at(rule_reach));
         sum.rule += length(rule_places) * width / phases;
-        sum.both += length(common(arc_places, rule_places)) * width / phases;
+        sum.both += length(arc_places & rule_places) * width / phases;
       }
     }
   };
@@ -225,36 +226,8 @@ Interval possible_lateness(const HitscanRow& row) {
 
 Places shadow(const std::vector<PathPiece>& pieces, double range, double radius) {
   Places all;
-  for (const PathPiece& piece : pieces) {
-    if (const auto one = shadow_of(piece, range, radius)) all.push_back(*one);
-  }
-  std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.lower < b.lower; });
-  Places merged;
-  for (const Interval& i : all) {
-    if (!merged.empty() && i.lower <= merged.back().upper) {
-      merged.back().upper = std::max(merged.back().upper, i.upper);
-    } else {
-      merged.push_back(i);
-    }
-  }
-  return merged;
-}
-
-double length(const Places& places) {
-  double sum = 0;
-  for (const Interval& i : places) sum += i.upper - i.lower;
-  return sum;
-}
-
-Places common(const Places& a, const Places& b) {
-  Places both;
-  for (const Interval& i : a) {
-    for (const Interval& j : b) {
-      const Interval k = {std::max(i.lower, j.lower), std::min(i.upper, j.upper)};
-      if (k.lower < k.upper) both.push_back(k);
-    }
-  }
-  return both;
+  for (const PathPiece& piece : pieces) all += shadow_of(piece, range, radius);
+  return all;
 }
 
 double lens_area(double radius_a, double radius_b, double apart) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/icl/interval_set.hpp>
+
 #include <thinwall/experiments/hitscan/model.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
@@ -18,14 +20,11 @@ struct PathPiece {
   double x0, s0, x1, s1;  ///< [m]
 };
 
-/// A set of places on a line: ascending, apart.
-using Places = std::vector<Interval>;
+/// A set of places on a line.
+using Places = boost::icl::interval_set<double>;
 
 /// The places `p` for which some point of the pieces has (x - range)^2 + (s - p)^2 <= radius^2.
 Places shadow(const std::vector<PathPiece>& pieces, double range, double radius);
-
-double length(const Places& places);
-Places common(const Places& a, const Places& b);
 
 /// [m^2] What two discs, their centers `apart`, have in common.
 double lens_area(double radius_a, double radius_b, double apart);
