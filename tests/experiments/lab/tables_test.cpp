@@ -170,6 +170,25 @@ TEST(Plot, draws_a_series_for_each_value_with_the_intervals_of_its_column) {
   EXPECT_DOUBLE_EQ(panel.series[2].x[200], 10);
 }
 
+TEST(Plot, leads_lines_through_another_column_and_leaves_out_panels_of_nothing) {
+  const std::vector<Row> out_of_order = {{"end_of_step", {20, 0.5, "infinite"}, {100, 25}, 0.5},
+                                         {"closed_form", {10, 0.5, "infinite"}, {100, 0}, 0.0},
+                                         {"end_of_step", {10, 0.5, "infinite"}, {100, 5}, 0.25}};
+  Plot all = plot(table("cells", "", columns(), out_of_order)).x("speed").y("probability").by("method");
+  Plot none = plot(table("cells", "", columns(), {})).x("speed").y("probability").by("method");
+  const auto figures = only_measured(
+      {{.name = "some", .title = "", .caption = "", .panels = {none, all.through("theory", "by theory")}},
+       {.name = "none", .title = "", .caption = "", .panels = {none.line("limit", {0, 1}, {0, 1}, Mark::dashes)}}});
+  ASSERT_EQ(figures.size(), 1U);
+  ASSERT_EQ(figures[0].panels.size(), 1U);
+  const std::vector<Series>& series = figures[0].panels[0].series;
+  ASSERT_EQ(series.size(), 4U);
+  EXPECT_EQ(series[3].label, "by theory");
+  EXPECT_EQ(series[3].mark, Mark::line);
+  EXPECT_EQ(series[3].x, (std::vector<double>{10, 20}));
+  EXPECT_EQ(series[3].y, (std::vector{0.25, 0.5}));
+}
+
 TEST(Tasks, hand_each_list_its_own_results) {
   std::vector<Task<Tally>> tallies = {{"a", 3, [] { return Tally{3, 1}; }}, {"b", 4, [] { return Tally{4, 2}; }}};
   std::vector<Task<std::string>> names = {{"c", 5, [] { return std::string("d e\t"); }}};
