@@ -308,30 +308,6 @@ TEST(HitscanPlacement, draws_every_target_that_is_hit) {
   }
 }
 
-TEST(HitscanPlacement, is_uniform_over_both_discs_together) {
-  const HitscanCell c = some_shot(10, 100, 0.02);  // two discs that overlap
-  const double disc = disc_radius(c), apart = deflection(c);
-  ASSERT_LT(apart, disc);
-  const Vec3<double> second = Vec3<double>(c.range, 0, 0) + pull_direction(c) * apart;
-  constexpr std::int64_t shots = 40000;
-  std::int64_t in_first = 0, in_second = 0, in_both = 0, late = 0;
-  for (std::int64_t i = 0; i < shots; ++i) {
-    const Placement p = random_placement(c, random_stream(c, 5), static_cast<std::uint64_t>(i));
-    const bool one = (p.target.center - Vec3<double>(c.range, 0, 0)).norm() <= disc;
-    const bool two = (p.target.center - second).norm() <= disc;
-    ASSERT_TRUE(one || two);
-    in_first += one ? 1 : 0;
-    in_second += two ? 1 : 0;
-    in_both += one && two ? 1 : 0;
-    late += p.phase >= 0.75 ? 1 : 0;
-  }
-  const double circle = std::numbers::pi * disc * disc, lens = lens_area(disc, disc, apart), all = 2 * circle - lens;
-  EXPECT_TRUE(wilson(in_first, shots, 0.9999).contains(circle / all));
-  EXPECT_TRUE(wilson(in_second, shots, 0.9999).contains(circle / all));
-  EXPECT_TRUE(wilson(in_both, shots, 0.9999).contains(lens / all));
-  EXPECT_TRUE(wilson(late, shots, 0.9999).contains(0.25));
-}
-
 void expect_shadow(const std::vector<PathPiece>& pieces, const std::vector<Interval>& places) {
   const Places found = shadow(pieces, 10, 2);
   ASSERT_EQ(found.iterative_size(), places.size());

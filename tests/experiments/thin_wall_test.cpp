@@ -77,19 +77,6 @@ TEST(ThinWallShots, start_before_contact_and_the_path_ends_there) {
   });
 }
 
-TEST(ThinWallShots, phase_is_uniform) {
-  const Target aimed = target(bullet);
-  std::vector<double> counts(50);
-  for (std::uint64_t trial = 0; trial < 50000; ++trial) {
-    const double phase =
-        path_to_contact(aimed, random_start(aimed, random_stream(bullet, 3), trial)) / aimed.step_length;
-    ++counts[std::min<std::size_t>(49, static_cast<std::size_t>(50 * phase))];
-  }
-  double sum = 0;
-  for (const double count : counts) sum += (count - 1000) * (count - 1000) / 1000;
-  EXPECT_TRUE(chi_square_range(49, 0.9999).contains(sum)) << sum;
-}
-
 /// Head-on, the share of lines that meet the wall itself is its face over its shadow; the others meet the rim only.
 TEST(ThinWallShots, aim_is_uniform_over_the_shadow) {
   const Cell cell = {10, 1.0 / 60, 0.2, 0.1, 0, Wall::finite, 1};
