@@ -44,8 +44,8 @@ template <Scalar S> Theory theory_of(const CentreRay<S>&, const Cell& cell) {
   return {.probability = center_ray_miss_probability(rounded_box(cell), step_length(cell))};
 }
 
-/// The track of a wall at rest is the wall: a ray from the center, and at its hit the ball is in contact. A point is there
-/// on the wall's face itself.
+/// The track of a wall at rest is the wall: a ray from the center, and at its hit the ball is in contact. A point is
+/// there on the wall's face itself.
 template <Scalar S> Theory theory_of(const SweepThenConfirm<S>&, const Cell& cell) {
   if (rounding_decides(cell, cell.radius)) return {};
   Theory theory = theory_of(CentreRay<S>{}, cell);

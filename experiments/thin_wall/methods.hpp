@@ -136,8 +136,8 @@ Tally fire(const Cell& cell, const ThinWallMethod& method, const Volley& volley,
 /// that the phases are as evenly spread over the gap between two poses as they are over the step.
 inline constexpr std::int64_t stratified_shots = 1009;
 
-/// The number that tunneled of phases spread evenly over the step, not drawn: within one of n p, almost without chance. For an infinite
-/// wall, where the phase is all there is to draw.
+/// The number that tunneled of phases spread evenly over the step, not drawn: within one of n p, almost without chance.
+/// For an infinite wall, where the phase is all there is to draw.
 std::int64_t tunneled_evenly(const Cell& cell, const ThinWallMethod& method, std::uint64_t seed);
 
 }  // namespace thinwall

@@ -68,8 +68,8 @@ struct ThinWallTotal {
   Foretold tunneled = {}, through = {};       ///< through: tunneled, or pushed out on the wrong side
   std::optional<double> worst_residual = {};  ///< [1] of the cells that can be judged alone, the one farthest from 0
 
-  // Lateness: means by their standard residuals, extremes by their bounds. A hit with a gap between ball and wall that the
-  // method does not own up to would be a false one: it is looked for in every cell, also where there is no theory.
+  // Lateness: means by their standard residuals, extremes by their bounds. A hit with a gap between ball and wall that
+  // the method does not own up to would be a false one: it is looked for in every cell, also without a theory.
   std::int64_t detected_cells = 0;  ///< in which anything was
   std::int64_t false_cells = 0;     ///< ... with a gap between ball and wall, by more than theory or rounding explains
   std::int64_t late_cells = 0;      ///< ... later than theory's largest lateness, by more than rounding explains

@@ -541,8 +541,8 @@ bool mean_is_normal(double detected, const Lateness& theory) {
   return theory.largest > 0 && detected * spread * spread >= 5;
 }
 
-/// [m] How well the scalar holds a pose of the cell. A time in [0, 1] is rounded once, and so are a few coordinates as large as a
-/// step, a chord or the wall; or the time backs off by as much, so as not to be late.
+/// [m] How well the scalar holds a pose of the cell. A time in [0, 1] is rounded once, and so are a few coordinates as
+/// large as a step, a chord or the wall; or the time backs off by as much, so as not to be late.
 double resolution(const Row& row) {
   const double size = target(row.cell).step_length + slab_chord(row.cell) + row.cell.wall_size;
   return 32 * row.method->round_off * size;

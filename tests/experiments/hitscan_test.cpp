@@ -207,8 +207,8 @@ TEST(HitscanConfig, refuses_what_does_not_go_together) {
   }
 }
 
-// ---- Without any rule's shots: the arc against 100 digits and its equation of motion, the oracle against the arc, and limits of the theory
-// that have a formula of their own.
+// ---- Without any rule's shots: the arc against 100 digits and its equation of motion, the oracle against the arc, and
+// limits of the theory that have a formula of their own.
 
 using Wide = boost::multiprecision::cpp_bin_float_100;
 
@@ -236,7 +236,8 @@ template <class Real> void expect_all_digits() {
 TEST(HitscanArc, keeps_its_digits_in_double) { expect_all_digits<double>(); }
 TEST(HitscanArc, keeps_its_digits_in_long_double) { expect_all_digits<long double>(); }
 
-/// dv/dt = -k (v - wind) + gravity, by the classical fourth-order Runge-Kutta method: no closed form. One of the shots is without drag.
+/// dv/dt = -k (v - wind) + gravity, by the classical fourth-order Runge-Kutta method: no closed form. One of the shots
+/// is without drag.
 TEST(HitscanArc, solves_the_equation_of_motion) {
   using Vector = Vec3<long double>;
   for (const HitscanCell& c : {some_shot(30, 30, 0), known_shots[1].cell, known_shots[2].cell, known_shots[3].cell}) {

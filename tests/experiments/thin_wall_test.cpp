@@ -1,4 +1,4 @@
-/// The shots of the thin wall and the response to them, without any method under test.
+/// The thin wall: its shots and the response to them without any method under test, its answers and verdicts.
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ template <class Check> void for_shots(std::uint64_t shots, const Check& check) {
   }
 }
 
-/// Of every pose, and of every step: so both scalars are asked the same question. And rounding only helps the wall: it cannot let through
+/// Of every pose, and of every step: so both scalars are asked the same question. And a rounded wall cannot let through
 /// what the one in the settings stops.
 TEST(ThinWallShots, float_holds_every_pose_and_rounding_only_helps_the_wall) {
   for_shots(200, [](const Cell& cell, const Target& aimed, const Vec3<double>& start) {
@@ -184,7 +184,7 @@ TEST(ThinWall, agrees_with_theory_and_nothing_passes_what_is_exact) {
   EXPECT_GT(count(table_of(outcome, "cells"), "centre_ray", "tunneled"), 100);  // that only the rim would hit
 }
 
-/// Does the self-test of end_of_step, over many shots at infinite walls, pass with the theory of another chord, or so much off?
+/// Does the self-test of end_of_step, over many shots at infinite walls, pass with another chord in its theory?
 bool passes(const Fate& fate, double (*chord)(const Cell&), double factor = 1) {
   static const ShotPlan plan = plan_of(
       "speed = [3, 10, 40]\nstep = [0.01, 0.05]\nradius = [0, 0.02]\nthickness = [0.01]\nangle_deg = [0, 60]\n"
@@ -244,8 +244,9 @@ TEST(ThinWall, draws_no_figure_and_no_panel_without_a_measured_point) {
             (Names{"probability 1", "lateness 1"}));
 }
 
-/// The bullet alone: of a step of 16.7 cm it is 5 cm in contact, of which the first 2.5 cm turn it back. Four poses are 4.2 cm apart:
-/// every ball is seen, and two in five go through all the same, so that the safe step halves. What is swept bounces.
+/// The bullet alone: of a step of 16.7 cm it is 5 cm in contact, of which the first 2.5 cm turn it back. Four poses are
+/// 4.2 cm apart: every ball is seen, and two in five go through all the same, so that the safe step halves. What is
+/// swept bounces.
 TEST(ThinWallBounce, goes_through_unseen_or_seen_too_late) {
   const Outcome outcome = outcome_of(
       *configured("speed = [10]\nstep = [0.016666666666666666]\nradius = [0.02]\nthickness = [0.01]\n"
