@@ -24,32 +24,23 @@ constexpr double most_drag_in_a_step = 0.5;  // [1] drag * step: a ray of a step
 bool arrives(const HitscanCell& c) { return c.drag * (c.range + reach(c)) <= (1 - least_speed_left) * c.speed; }
 
 void check(const Settings& settings, const HitscanCell& c) {
-  if (!(c.range > 2 * reach(c))) {
-    settings.complain("range", fmt::format("more than 2 * (target + radius); {} is not, at target {}, radius {}",
-                                           c.range, c.target, c.radius));
-  }
-  if (reach(c) < least_reach * c.range) {
-    settings.complain(
-        "target", fmt::format("such that target + radius is at least {} of the range; at range {}, radius {} {} is not",
-                              least_reach, c.range, c.radius, c.target));
-  }
-  if (c.drag * c.step > most_drag_in_a_step) {
-    settings.complain("step",
-                      fmt::format("drag * step at most {}; drag {}, step {}", most_drag_in_a_step, c.drag, c.step));
-  }
+  const auto refuse = [&](std::string_view key, const std::string& allowed) {
+    settings.complain(key, fmt::format("{}; not so at {}", allowed, hitscan_factors().key(c)));
+  };
+  if (!(c.range > 2 * reach(c))) refuse("range", "more than 2 * (target + radius)");
+  if (reach(c) < least_reach * c.range)
+    refuse("target", fmt::format("such that target + radius is at least {} of the range", least_reach));
+  if (c.drag * c.step > most_drag_in_a_step) refuse("step", fmt::format("drag * step at most {}", most_drag_in_a_step));
   const auto arc = arc_of<double>(c);
   const auto there = at_distance(arc, c.range + reach(c));
   if (reach(c) * arc.pull > most_bend * there.vx * there.vx) {
-    settings.complain("speed",
-                      fmt::format("fast enough to fly nearly straight past a target: (target + radius) * (gravity and "
-                                  "wind) at most {} of the squared speed there; not so at speed {}, range {}",
-                                  most_bend, c.speed, c.range));
+    refuse("speed",
+           fmt::format("fast enough to fly nearly straight past a target: (target + radius) * (gravity and wind) "
+                       "at most {} of the squared speed there",
+                       most_bend));
   }
-  if (there.vx * c.step < least_path * reach(c)) {
-    settings.complain(
-        "step", fmt::format("a path of at least {} of target + radius a step; not so at speed {}, step {}", least_path,
-                            c.speed, c.step));
-  }
+  if (there.vx * c.step < least_path * reach(c))
+    refuse("step", fmt::format("a path of at least {} of target + radius a step", least_path));
 }
 
 using Real = long double;
