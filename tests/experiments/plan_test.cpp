@@ -7,11 +7,11 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/plan/gate.hpp>
 #include <thinwall/experiments/plan/model.hpp>
-#include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/world.hpp>
 
 #include "experiments/world/random_world.hpp"
 #include "support/experiment_run.hpp"
+#include "support/reply.hpp"
 
 namespace thinwall {
 namespace {
@@ -190,24 +190,18 @@ TEST(Plan, says_the_same_of_outcomes_in_every_run) {
     EXPECT_FALSE(table_of(first, name).is_timing);
   }
   EXPECT_TRUE(table_of(first, "savings").is_timing);
-  EXPECT_NE(first.answer.find("No omission changes a bit"), std::string::npos);
+  EXPECT_TRUE(holds(first.answer, "No omission changes a bit"));
 }
 
 TEST(Plan, is_an_experiment_after_run_and_a_command_alone) {
-  const std::vector<Experiment> experiments = {plan_experiment()};
-  std::ostringstream out, err;
-  EXPECT_EQ(run_program({"thinwall", "run", "plan", "--trace"}, experiments, out, err), 2);  // the experiment was found
-  EXPECT_EQ(run_program({"thinwall", "plan", "no_such_file.toml"}, experiments, out, err), 2);
-  EXPECT_EQ(err.str(), "--trace: only a scene has a trace\nno_such_file.toml: there is no such file\n");
+  const auto call = [](const Words& words) { return call_program(words, {plan_experiment()}); };
+  EXPECT_EQ(refusal(call({"run", "plan", "--trace"})), "--trace: only a scene has a trace\n");  // it was found
+  EXPECT_EQ(refusal(call({"plan", "no_such_file.toml"})), "no_such_file.toml: there is no such file\n");
 }
 
 TEST(Plan, refuses_a_path_that_is_a_gate) {
-  try {
-    plan_run("shot_path = [2]\nshot_gate = [2]");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("any but 2, which is a gate"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(
+      holds(error_of<UsageError>([] { plan_run("shot_path = [2]\nshot_gate = [2]"); }), "any but 2, which is a gate"));
 }
 
 }  // namespace

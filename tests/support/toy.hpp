@@ -5,7 +5,6 @@
 #include <csignal>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,9 +14,9 @@
 
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/program/program.hpp>
 
 #include "support/program.hpp"
+#include "support/reply.hpp"
 
 namespace thinwall {
 
@@ -98,11 +97,6 @@ inline Experiment toy_experiment() {
 
 // ---- The program with the toy experiment alone, called as a user calls it, with a result folder of its own.
 
-struct Reply {
-  int status;
-  std::string out, err;
-};
-
 struct ToyProgram : ::testing::Test {
   TemporaryFolder folder;
   std::string out = folder / "out";
@@ -112,19 +106,8 @@ struct ToyProgram : ::testing::Test {
     ToyControl::pass = true;
   }
 
-  static Reply call(std::vector<std::string> words) {
-    const std::vector<Experiment> experiments = {toy_experiment()};
-    words.insert(words.begin(), "thinwall");
-    std::ostringstream reply, notes;
-    const int status = run_program(words, experiments, reply, notes);
-    return {status, reply.str(), notes.str()};
-  }
-
-  Reply run(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"run", "toy", "--out", out};
-    words.insert(words.end(), more.begin(), more.end());
-    return call(words);
-  }
+  static Reply call(const Words& words) { return call_program(words, {toy_experiment()}); }
+  Reply run(const Words& more = {}) const { return call(joined({"run", "toy", "--out", out}, more)); }
 
   nlohmann::json manifest() const { return nlohmann::json::parse(read_text(out + "/manifest.json")); }
 };

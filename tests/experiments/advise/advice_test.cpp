@@ -19,6 +19,7 @@
 #include <thinwall/swept/certified.hpp>
 
 #include "support/experiment_run.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -208,13 +209,6 @@ TEST(Advice, of_nothing_is_nothing) { EXPECT_EQ(advise(bullet_wish, {}, {}).advi
 
 // ---- What the advice reads like, and what a script gets of it.
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 std::vector<Wish> all_sorts() {
   std::vector<Wish> wishes(5, bullet_wish);
   wishes[1] = {.cell = {123456.789, 1.0 / 3, 0.0123456789, 1e-9, 89.87654321, Wall::infinite, 0}, .miss = 0.123456789};
@@ -229,7 +223,8 @@ TEST(AdviceText, fits_a_terminal) {
   for (const Wish& wish : all_sorts()) {
     const std::string text = advice_text(advice_on(wish));
     EXPECT_TRUE(text.ends_with(".\n"));
-    for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), 100U) << line;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   }
 }
 
@@ -249,9 +244,9 @@ TEST(AdviceText, says_what_to_use_and_what_it_costs) {
 
 TEST(AdviceText, a_point_against_a_sheet_is_explained) {
   const std::string text = advice_text(advice_on(all_sorts()[2]));
-  EXPECT_NE(text.find("A point and a wall of no thickness are in contact for an instant"), std::string::npos);
-  EXPECT_NE(text.find("end of each step would not do at any step"), std::string::npos);
-  EXPECT_NE(text.find("no formula"), std::string::npos);
+  EXPECT_TRUE(holds(text, "A point and a wall of no thickness are in contact for an instant"));
+  EXPECT_TRUE(holds(text, "end of each step would not do at any step"));
+  EXPECT_TRUE(holds(text, "no formula"));
 }
 
 TEST(AdviceText, a_bound_is_rounded_to_the_safe_side) {
@@ -301,12 +296,8 @@ TEST(AdviceText, json_is_null_where_theory_is_silent) {
 TEST(AdviceText, the_experiment_refuses_what_it_cannot_fire) {
   Wish wish = bullet_wish;
   wish.cell.radius = wish.cell.thickness = 0;
-  try {
-    check_config(wish, candidates(wish));
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("--toml: the experiment cannot fire this")) << error.what();
-  }
+  const std::string said = error_of<UsageError>([&] { check_config(wish, candidates(wish)); });
+  EXPECT_TRUE(said.starts_with("--toml: the experiment cannot fire this")) << said;
 }
 
 /// Costs are measured, so that only their form is tested: positive, and inside their interval.

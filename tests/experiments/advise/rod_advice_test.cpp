@@ -2,16 +2,15 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <tuple>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/advise/advice.hpp>
-#include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/spinning_rod/methods.hpp>
 #include <thinwall/swept/turning/turning_impact.hpp>
+
+#include "support/reply.hpp"
 
 namespace thinwall {
 namespace {
@@ -92,25 +91,16 @@ TEST(RodAdvice, the_longest_step_is_safe_at_any_spin) {
 }
 
 TEST(RodAdvice, is_asked_for_by_length_and_spin) {
-  const auto say = [](std::vector<std::string> more) {
-    std::vector<std::string> words = {"thinwall", "advise",      "--speed", "20",    "--radius",
-                                      "0.05",     "--thickness", "0.05",    "--fps", "10"};
-    words.insert(words.end(), more.begin(), more.end());
-    std::ostringstream out, err;
-    const int code = run_program(words, {}, out, err);
-    return std::tuple(code, out.str(), err.str());
-  };
-  const auto [code, out, err] = say({"--length", "0.6", "--spin", "900", "--json"});
-  EXPECT_EQ(code, 0) << err;
-  const auto json = nlohmann::json::parse(out);
+  const Words question = {"advise", "--speed", "20", "--radius", "0.05", "--thickness", "0.05", "--fps", "10"};
+  const Reply reply = call_program(joined(question, {"--length", "0.6", "--spin", "900", "--json"}));
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  const auto json = nlohmann::json::parse(reply.out);
   EXPECT_EQ(json["length_m"], 0.6);
   EXPECT_EQ(json["spin_deg_s"], 900);
   EXPECT_NEAR(json["contact_m"], 0.15 + 1 / std::numbers::pi, 1e-12);
   EXPECT_EQ(json["methods"].size(), 8U);
-  const auto refused = [&](std::vector<std::string> more, const std::string& why) {
-    const auto [status, text, said] = say(std::move(more));
-    EXPECT_EQ(status, 2);
-    EXPECT_EQ(said, why + "\n");
+  const auto refused = [&](const Words& more, const std::string& why) {
+    EXPECT_EQ(refusal(call_program(joined(question, more))), why + "\n");
   };
   refused({"--spin", "3"}, "--spin: a ball looks the same however it spins; of a rod, give --length [m] too");
   refused({"--length", "0.1"},

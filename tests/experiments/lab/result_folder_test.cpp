@@ -8,6 +8,7 @@
 #include <thinwall/experiments/lab/comparison.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 
+#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
@@ -25,12 +26,11 @@ TEST_F(ResultFolderTest, goes_on_after_an_interruption_and_ends_with_the_same_by
   const Reply reply = run({"--threads", "1"});
   EXPECT_EQ(reply.status, 130);
   EXPECT_EQ(reply.out, "");
-  EXPECT_NE(reply.err.find("to continue:\nthinwall run toy --out " + out + " --threads 1\n"), std::string::npos)
-      << reply.err;
+  EXPECT_TRUE(holds(reply.err, "to continue:\nthinwall run toy --out " + out + " --threads 1\n"));
   EXPECT_EQ(files_in(out).size(), 1u) << "the journal alone";
   const Reply again = run({"--threads", "1"});
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_NE(again.err.find("8 of 20 units were read from the journal\n"), std::string::npos) << again.err;
+  EXPECT_TRUE(holds(again.err, "8 of 20 units were read from the journal\n"));
   EXPECT_EQ(ToyControl::computed, 20);
   EXPECT_EQ(read_text(out + "/data/cells.csv"), whole.at("data/cells.csv"));
   EXPECT_EQ(read_text(out + "/datapackage.json"), whole.at("datapackage.json"));
@@ -41,7 +41,7 @@ TEST_F(ResultFolderTest, keeps_what_was_finished_when_a_unit_fails) {
   ToyControl::fail_at = 5;
   const Reply reply = run({"--threads", "1"});
   EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.err.find("failed: unit 'cell 4' failed: no luck\n"), std::string::npos) << reply.err;
+  EXPECT_TRUE(holds(reply.err, "failed: unit 'cell 4' failed: no luck\n"));
   ToyControl::fail_at = 0;
   ToyControl::computed = 0;
   EXPECT_EQ(run({"--threads", "1"}).status, 0);
@@ -56,8 +56,8 @@ TEST_F(ResultFolderTest, computes_a_damaged_row_again_and_says_so) {
   write_text(out + "/journal.tsv", journal);
   const Reply reply = run();
   EXPECT_EQ(reply.status, 0);
-  EXPECT_NE(reply.err.find("journal.tsv:5: the row of 'cell 3' is damaged"), std::string::npos) << reply.err;
-  EXPECT_NE(reply.err.find("7 of 20 units were read"), std::string::npos) << reply.err;
+  EXPECT_TRUE(holds(reply.err, "journal.tsv:5: the row of 'cell 3' is damaged"));
+  EXPECT_TRUE(holds(reply.err, "7 of 20 units were read"));
 }
 
 TEST_F(ResultFolderTest, answers_at_once_where_the_result_lies_already) {
@@ -79,10 +79,8 @@ TEST_F(ResultFolderTest, mends_a_result_that_lost_a_file_but_overwrites_no_chang
   EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
   write_text(out + "/plots/squares.gp", "# my own\n");
   std::filesystem::remove(out + "/data/cells.csv");
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 2);
   EXPECT_EQ(
-      reply.err,
+      refusal(run()),
       "--out " + out + ": plots/squares.gp was changed since the run wrote it; name another folder, or move it away\n");
   EXPECT_EQ(read_text(out + "/plots/squares.gp"), "# my own\n");
 }
@@ -90,9 +88,7 @@ TEST_F(ResultFolderTest, mends_a_result_that_lost_a_file_but_overwrites_no_chang
 TEST_F(ResultFolderTest, refuses_the_folder_of_another_run) {
   ASSERT_EQ(run({"--seed", "1"}).status, 0);
   const auto files = files_in(out);
-  const Reply reply = run({"--seed", "2"});
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(reply.err,
+  EXPECT_EQ(refusal(run({"--seed", "2"})),
             "--out " + out + ": holds another run (seed = 1, not 2); name another folder, or delete this one\n");
   EXPECT_EQ(files_in(out), files);
   out = folder / "unfinished";
@@ -103,9 +99,7 @@ TEST_F(ResultFolderTest, refuses_the_folder_of_another_run) {
 
 TEST_F(ResultFolderTest, refuses_a_folder_that_holds_things_of_others) {
   std::filesystem::create_directories(out + "/data");
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(reply.err, "--out " + out + ": holds 'data', which is not ours; name another folder\n");
+  EXPECT_EQ(refusal(run()), "--out " + out + ": holds 'data', which is not ours; name another folder\n");
   write_text(out + "/manifest.json", "{}");
   EXPECT_EQ(run().err,
             "--out " + out +
@@ -117,9 +111,7 @@ TEST_F(ResultFolderTest, refuses_a_folder_where_another_run_is_at_work) {
   FolderLock other;
   std::filesystem::create_directories(out);
   ASSERT_TRUE(other.take(out));
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(reply.err, "--out " + out + ": another run is at work here; wait for it or name another folder\n");
+  EXPECT_EQ(refusal(run()), "--out " + out + ": another run is at work here; wait for it or name another folder\n");
 }
 
 TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_work) {
@@ -129,8 +121,8 @@ TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_w
   Journal(out + "/journal.tsv", identity_text(theirs)).add("cell 1", {0.1, "777000"});
   const Reply reply = run();
   EXPECT_EQ(reply.status, 0);
-  EXPECT_NE(reply.err.find("begun by another build of the program; it is kept as journal.old.tsv"), std::string::npos);
-  EXPECT_EQ(read_text(out + "/data/cells.csv").find("777000"), std::string::npos);
+  EXPECT_TRUE(holds(reply.err, "begun by another build of the program; it is kept as journal.old.tsv"));
+  EXPECT_FALSE(holds(read_text(out + "/data/cells.csv"), "777000"));
   EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
 }
 
@@ -162,8 +154,7 @@ TEST_F(ResultFolderTest, takes_no_row_of_another_seed) {
              journals["0"].substr(0, first_row(journals["0"])) + journals["99"].substr(first_row(journals["99"])));
   const Reply reply = run();
   EXPECT_EQ(reply.status, 0) << reply.err;
-  EXPECT_NE(reply.err.find("journal.tsv:2: the row of 'cell 0' is damaged, or of another run"), std::string::npos)
-      << reply.err;
+  EXPECT_TRUE(holds(reply.err, "journal.tsv:2: the row of 'cell 0' is damaged, or of another run"));
   EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
 }
 
@@ -181,11 +172,8 @@ struct ManifestTest : ToyProgram {
   void expect_fault(const std::string& text, const std::string& fault) const {
     SCOPED_TRACE(fault);
     write_text(out + "/manifest.json", text);
-    for (const char* command : {"report", "cite", "reproduce"}) {
-      const Reply reply = call({command, out});
-      EXPECT_EQ(reply.status, 2) << command;
-      EXPECT_EQ(reply.err, out + "/manifest.json: " + fault + "\n") << command;
-    }
+    for (const char* command : {"report", "cite", "reproduce"})
+      EXPECT_EQ(refusal(call({command, out})), out + "/manifest.json: " + fault + "\n") << command;
     EXPECT_EQ(run().err, "--out " + out + ": holds a manifest.json that is not ours (manifest.json: " + fault +
                              "); name another folder\n");
     const Reply check = call({"report", out, "--check"});
@@ -239,7 +227,7 @@ TEST_F(ManifestTest, nested_deeper_than_anything_could_print_is_refused) {
   text = read_text(shard + "/shard.json");
   text.replace(text.find("\"cells\": 20"), 11, "\"cells\": " + deep);
   write_text(shard + "/shard.json", text);
-  EXPECT_NE(call({"merge", shard}).err.find("its shard.json is damaged, or not ours"), std::string::npos);
+  EXPECT_TRUE(holds(call({"merge", shard}).err, "its shard.json is damaged, or not ours"));
 }
 
 // ---- What is not ours, in a folder that a command is given, stays as it is.
@@ -247,11 +235,13 @@ TEST_F(ManifestTest, nested_deeper_than_anything_could_print_is_refused) {
 namespace fs = std::filesystem;
 
 struct ForeignFiles : ToyProgram {
-  void expect_refusal(const Reply& reply, const std::map<std::string, std::string>& before) const {
-    EXPECT_EQ(reply.status, 2) << reply.out << reply.err;
-    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+  /// And nothing below `folder` is changed.
+  void expect_refused(const Words& words) const {
+    const auto before = files_in(folder.path());
+    refusal(call(words));
     EXPECT_EQ(files_in(folder.path()), before);
   }
+  void expect_refused_run() const { expect_refused({"run", "toy", "--out", out}); }
 };
 
 TEST_F(ForeignFiles, under_our_names_are_refused_and_kept) {
@@ -260,10 +250,10 @@ TEST_F(ForeignFiles, under_our_names_are_refused_and_kept) {
     fs::create_directories(out + "/.staging");
     write_text(out + "/" + name, "mine\n");
     write_text(out + "/.staging/also", "mine\n");
-    expect_refusal(run(), files_in(folder.path()));
+    expect_refused_run();
     fs::remove_all(out);
     fs::create_directories(out + "/" + name + "/folder");
-    expect_refusal(run(), files_in(folder.path()));
+    expect_refused_run();
     fs::remove_all(out);
   }
 }
@@ -276,9 +266,9 @@ TEST_F(ForeignFiles, that_a_manifest_names_outside_its_folder_are_no_files_of_a_
     json["files"][outside] = "0";
     fs::remove(out + "/manifest.json");
     write_text(out + "/manifest.old.json", json.dump());
-    expect_refusal(run(), files_in(folder.path()));
+    expect_refused_run();
     fs::rename(out + "/manifest.old.json", out + "/manifest.json");
-    expect_refusal(call({"reproduce", out}), files_in(folder.path()));
+    expect_refused({"reproduce", out});
     json["files"].erase(outside);
     write_text(out + "/manifest.json", json.dump());
   }
@@ -288,9 +278,9 @@ TEST_F(ForeignFiles, in_the_way_of_a_rerun_are_not_removed_with_it) {
   ASSERT_EQ(run().status, 0);
   fs::create_directories(out + ".again");
   write_text(out + ".again/notes.txt", "mine\n");
-  expect_refusal(call({"reproduce", out}), files_in(folder.path()));
-  expect_refusal(call({"reproduce", out, "--out", out}), files_in(folder.path()));
-  expect_refusal(call({"reproduce", out, "--out", out + "/deeper"}), files_in(folder.path()));
+  expect_refused({"reproduce", out});
+  expect_refused({"reproduce", out, "--out", out});
+  expect_refused({"reproduce", out, "--out", out + "/deeper"});
 }
 
 struct MineBesideOurs : ForeignFiles {
@@ -313,13 +303,13 @@ struct MineBesideOurs : ForeignFiles {
 TEST_F(MineBesideOurs, stay_whatever_a_run_does) {
   ASSERT_EQ(run().status, 0);
   put();
-  EXPECT_NE(run().err.find("complete already"), std::string::npos);
+  EXPECT_TRUE(holds(run().err, "complete already"));
   expect_kept(out);
   fs::remove(out + "/data/cells.csv");
   EXPECT_EQ(run().status, 0) << "it is replaced";
   EXPECT_TRUE(fs::exists(out + "/data/cells.csv"));
   expect_kept(out);
-  EXPECT_EQ(call({"report", out, "--figures", "pdf"}).err.find("mine"), std::string::npos);
+  EXPECT_FALSE(holds(call({"report", out, "--figures", "pdf"}).err, "mine"));
   expect_kept(out);
 }
 
@@ -330,7 +320,7 @@ TEST_F(MineBesideOurs, stay_in_a_rerun_that_went_on) {
   write_text(out + ".again/notes.txt", "mine\n");
   const Reply reply = call({"reproduce", out});
   EXPECT_EQ(reply.status, 0) << reply.err;
-  EXPECT_NE(reply.err.find(out + ".again: stays, for it holds what the rerun did not write\n"), std::string::npos);
+  EXPECT_TRUE(holds(reply.err, out + ".again: stays, for it holds what the rerun did not write\n"));
   EXPECT_EQ(files_in(out + ".again"), (std::map<std::string, std::string>{{"notes.txt", "mine\n"}}));
 }
 
@@ -340,7 +330,7 @@ TEST_F(ForeignFiles, that_a_run_would_write_over_are_refused_while_it_is_unfinis
     ASSERT_EQ(run({"--threads", "1"}).status, 130);
     fs::create_directories(fs::path(out + "/" + name).parent_path());
     write_text(out + "/" + name, "mine\n");
-    expect_refusal(run(), files_in(folder.path()));
+    expect_refused_run();
     fs::remove_all(out);
   }
 }
@@ -356,11 +346,11 @@ TEST_F(ForeignFiles, are_not_followed_where_they_are_links) {
   ToyControl::interrupt_after = 3;
   ASSERT_EQ(run({"--threads", "1"}).status, 130);
   fs::create_symlink(folder / "none", out + "/report.html");
-  expect_refusal(run(), files_in(folder.path()));
+  expect_refused_run();
   fs::remove(out + "/report.html");
   fs::rename(out + "/journal.tsv", folder / "journal");
   fs::create_symlink(folder / "journal", out + "/journal.tsv");
-  expect_refusal(run(), files_in(folder.path()));
+  expect_refused_run();
   EXPECT_EQ(files_in(folder / "mine"), mine);
 }
 

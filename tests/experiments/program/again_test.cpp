@@ -11,6 +11,7 @@
 #include <thinwall/experiments/lab/sha256.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
+#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
@@ -22,11 +23,7 @@ namespace fs = std::filesystem;
 struct ReproduceTest : ToyProgram {
   std::string again = out + ".again";
 
-  Reply reproduce(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"reproduce", out};
-    words.insert(words.end(), more.begin(), more.end());
-    return call(words);
-  }
+  Reply reproduce(const Words& more = {}) const { return call(joined({"reproduce", out}, more)); }
 
   void change_manifest(const std::string& pointer, const nlohmann::json& value) const {
     nlohmann::json json = manifest();
@@ -34,11 +31,8 @@ struct ReproduceTest : ToyProgram {
     write_text(out + "/manifest.json", json.dump());
   }
 
-  void expect_refusal(const std::vector<std::string>& words, const std::string& said) const {
-    const Reply reply = call(words);
-    EXPECT_EQ(reply.status, 2) << reply.err;
-    EXPECT_NE(reply.err.find(said), std::string::npos) << reply.err;
-    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+  void expect_refused(const Words& words, const std::string& said) const {
+    expect_refusal(call(words), {said});
     EXPECT_FALSE(fs::exists(again));
   }
 };
@@ -69,9 +63,8 @@ TEST_F(ReproduceTest, keeps_the_rerun_where_it_is_told_to_and_takes_no_result_fo
   const std::string there = folder / "there";
   EXPECT_EQ(reproduce({"--out", there}).status, 0);
   EXPECT_TRUE(fs::exists(there + "/manifest.json"));
-  const Reply second = reproduce({"--out", there});
-  EXPECT_EQ(second.status, 2);
-  EXPECT_EQ(second.err, there + ": holds a result already; delete it, or name another folder with --out\n");
+  EXPECT_EQ(refusal(reproduce({"--out", there})),
+            there + ": holds a result already; delete it, or name another folder with --out\n");
   EXPECT_EQ(reproduce({"--out", out}).status, 2);
 }
 
@@ -85,13 +78,11 @@ TEST_F(ReproduceTest, names_what_differs_and_what_may_explain_it) {
   change_manifest("/machine/cpu", "Another CPU");
   const Reply reply = reproduce();
   EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.out.find("differs: 1 of "), std::string::npos) << reply.out;
-  EXPECT_NE(reply.out.find("  data/cells.csv: row 4, column 'square': recorded 8, rerun 9\n"), std::string::npos)
-      << reply.out;
-  EXPECT_NE(reply.out.find("What may explain it:\n  compiler: recorded Another 1.0, rerun "), std::string::npos)
-      << reply.out;
-  EXPECT_NE(reply.out.find("  CPU: recorded Another CPU, rerun "), std::string::npos) << reply.out;
-  EXPECT_NE(reply.out.find("The rerun is kept in " + again), std::string::npos) << reply.out;
+  EXPECT_TRUE(holds(reply.out, "differs: 1 of "));
+  EXPECT_TRUE(holds(reply.out, "  data/cells.csv: row 4, column 'square': recorded 8, rerun 9\n"));
+  EXPECT_TRUE(holds(reply.out, "What may explain it:\n  compiler: recorded Another 1.0, rerun "));
+  EXPECT_TRUE(holds(reply.out, "  CPU: recorded Another CPU, rerun "));
+  EXPECT_TRUE(holds(reply.out, "The rerun is kept in " + again));
   EXPECT_TRUE(fs::exists(again + "/manifest.json"));
   fs::remove_all(again);
   const auto json = nlohmann::json::parse(reproduce({"--json"}).out);
@@ -108,9 +99,8 @@ TEST_F(ReproduceTest, says_when_nothing_recorded_explains_a_difference) {
   change_manifest("/files/data~1cells.csv", sha256(cells));
   const Reply reply = reproduce();
   EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.out.find("data/cells.csv: row 21: recorded 20,400,,,true, rerun nothing\n"), std::string::npos)
-      << reply.out;
-  EXPECT_NE(reply.out.find("Nothing recorded explains it"), std::string::npos) << reply.out;
+  EXPECT_TRUE(holds(reply.out, "data/cells.csv: row 21: recorded 20,400,,,true, rerun nothing\n"));
+  EXPECT_TRUE(holds(reply.out, "Nothing recorded explains it"));
 }
 
 TEST_F(ReproduceTest, names_files_that_were_changed_or_lost_since) {
@@ -119,11 +109,10 @@ TEST_F(ReproduceTest, names_files_that_were_changed_or_lost_since) {
   fs::remove(out + "/tables/cells.md");
   const Reply reply = reproduce();
   EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.err.find(out + "/plots/squares.gp: was changed since it was written\n"), std::string::npos)
-      << reply.err;
-  EXPECT_NE(reply.err.find(out + "/tables/cells.md: was lost since it was written\n"), std::string::npos) << reply.err;
-  EXPECT_NE(reply.out.find("differs: 2 of "), std::string::npos) << reply.out;
-  EXPECT_NE(reply.out.find("as it was written, the result came out the same"), std::string::npos) << reply.out;
+  EXPECT_TRUE(holds(reply.err, out + "/plots/squares.gp: was changed since it was written\n"));
+  EXPECT_TRUE(holds(reply.err, out + "/tables/cells.md: was lost since it was written\n"));
+  EXPECT_TRUE(holds(reply.out, "differs: 2 of "));
+  EXPECT_TRUE(holds(reply.out, "as it was written, the result came out the same"));
 }
 
 TEST_F(ReproduceTest, goes_on_after_an_interruption) {
@@ -131,27 +120,27 @@ TEST_F(ReproduceTest, goes_on_after_an_interruption) {
   ToyControl::interrupt_after = 8;
   const Reply first = reproduce({"--threads", "1"});
   EXPECT_EQ(first.status, 130);
-  EXPECT_NE(first.err.find("to continue:\nthinwall reproduce " + out), std::string::npos) << first.err;
+  EXPECT_TRUE(holds(first.err, "to continue:\nthinwall reproduce " + out));
   ToyControl::computed = 0;
   EXPECT_EQ(reproduce({"--threads", "1"}).status, 0);
   EXPECT_EQ(ToyControl::computed, 12);
 }
 
 TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
-  expect_refusal({"reproduce"}, "reproduce: the folder of a result is missing");
-  expect_refusal({"reproduce", out}, out + ": there is no such folder");
+  expect_refused({"reproduce"}, "reproduce: the folder of a result is missing");
+  expect_refused({"reproduce", out}, out + ": there is no such folder");
   fs::create_directory(out);
-  expect_refusal({"reproduce", out}, out + ": holds no manifest.json");
+  expect_refused({"reproduce", out}, out + ": holds no manifest.json");
   write_text(out + "/manifest.json", "{}");
-  expect_refusal({"reproduce", out}, out + "/manifest.json: key 'thinwall_manifest': missing");
+  expect_refused({"reproduce", out}, out + "/manifest.json: key 'thinwall_manifest': missing");
   fs::remove_all(out);
   ASSERT_EQ(run().status, 0);
   const std::string good = read_text(out + "/manifest.json");
   change_manifest("/config/cels", 3);
-  expect_refusal({"reproduce", out}, "key 'cels': unknown key; did you mean 'cells'?");
+  expect_refused({"reproduce", out}, "key 'cels': unknown key; did you mean 'cells'?");
   write_text(out + "/manifest.json", good);
   change_manifest("/experiment", "tyo");
-  expect_refusal({"reproduce", out}, "'tyo' is not allowed; did you mean 'toy'?");
+  expect_refused({"reproduce", out}, "'tyo' is not allowed; did you mean 'toy'?");
 }
 
 // ---- Scenes from the command line: run, compare, plan; and what is said to what they cannot take.
@@ -160,11 +149,8 @@ struct SceneProgram : ToyProgram {
   std::string file = folder / "my.toml";
   SceneProgram() { write_text(file, bullet_text("policy = 'discrete'\n")); }
 
-  void expect_refusal(const std::vector<std::string>& words, const std::string& said) const {
-    const Reply reply = call(words);
-    EXPECT_EQ(reply.status, 2) << reply.err;
-    EXPECT_NE(reply.err.find(said), std::string::npos) << reply.err;
-    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
+  void expect_refused(const Words& words, const std::string& said) const {
+    expect_refusal(call(words), {said});
     EXPECT_FALSE(std::filesystem::exists(out));
   }
 };
@@ -172,7 +158,7 @@ struct SceneProgram : ToyProgram {
 TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
   const Reply reply = call({"run", file, "--out", out, "--trace", "--threads", "1"});
   ASSERT_EQ(reply.status, 0) << reply.err;
-  EXPECT_NE(reply.out.find("1 pair went through each other unseen"), std::string::npos) << reply.out;
+  EXPECT_TRUE(holds(reply.out, "1 pair went through each other unseen"));
   for (const char* name :
        {"manifest.json", "report.html", "resolved.toml", "trace.jsonl", "data/steps.csv", "data/plan.csv",
         "data/events.csv", "data/tunneled.csv", "data/timings.csv", "plots/tracks.gp"}) {
@@ -192,7 +178,7 @@ TEST_F(SceneProgram, draws_and_checks_bodies_of_any_name) {
   write_text(file, text);
   const Reply reply = call({"run", file, "--out", out});
   ASSERT_EQ(reply.status, 0) << reply.err;
-  EXPECT_EQ(reply.err.find("not drawn"), std::string::npos) << reply.err;
+  EXPECT_FALSE(holds(reply.err, "not drawn"));
   EXPECT_TRUE(std::filesystem::exists(out + "/plots/tracks.svg"));
   EXPECT_EQ(call({"report", out, "--check"}).status, 0);
 }
@@ -213,7 +199,7 @@ TEST_F(SceneProgram, compare_answers_and_can_be_resumed) {
   const Reply reply = call({"compare", file, "--out", out, "--json"});
   ASSERT_EQ(reply.status, 0) << reply.err;
   EXPECT_EQ(nlohmann::json::parse(reply.out)["experiment"], "compare");
-  EXPECT_NE(call({"compare", file, "--out", out}).err.find("complete already"), std::string::npos);
+  EXPECT_TRUE(holds(call({"compare", file, "--out", out}).err, "complete already"));
   EXPECT_EQ(call({"run", out + "/resolved.toml", "--out", folder / "again"}).status, 0);
 }
 
@@ -229,23 +215,23 @@ TEST_F(SceneProgram, plan_prints_what_is_left_out) {
 
 TEST_F(SceneProgram, refuses_what_is_no_scene) {
   write_text(file, "experiment = 'toy'\n");
-  expect_refusal({"compare", file, "--out", out}, "not a scene");
-  expect_refusal({"run", "toy", "--out", out, "--trace"}, "--trace: only a scene has a trace");
-  expect_refusal({"run", "toy", "--out", out, "--plan", "full"}, "--plan: only a scene has a plan");
-  expect_refusal({"plan", folder / "none.toml"}, "there is no such file");
-  expect_refusal({"compare"}, "compare: the TOML file of a scene is missing");
-  expect_refusal({"plan"}, "plan: the TOML file of a scene is missing");
+  expect_refused({"compare", file, "--out", out}, "not a scene");
+  expect_refused({"run", "toy", "--out", out, "--trace"}, "--trace: only a scene has a trace");
+  expect_refused({"run", "toy", "--out", out, "--plan", "full"}, "--plan: only a scene has a plan");
+  expect_refused({"plan", folder / "none.toml"}, "there is no such file");
+  expect_refused({"compare"}, "compare: the TOML file of a scene is missing");
+  expect_refused({"plan"}, "plan: the TOML file of a scene is missing");
   write_text(file, "radius = 1\n");
-  expect_refusal({"plan", file}, "key 'radius': unknown key");
-  expect_refusal({"run", file, "--out", out}, "key 'experiment': missing");
+  expect_refused({"plan", file}, "key 'radius': unknown key");
+  expect_refused({"run", file, "--out", out}, "key 'experiment': missing");
 }
 
 TEST_F(SceneProgram, names_what_is_wrong_in_a_scene) {
-  expect_refusal({"plan", file, "--plan", "fat"}, "--plan: 'fat' is not allowed");
+  expect_refused({"plan", file, "--plan", "fat"}, "--plan: 'fat' is not allowed");
   write_text(file, bullet_text("polcy = 'clamp'\n"));
-  expect_refusal({"run", file, "--out", out}, "my.toml:3: key 'polcy': unknown key; did you mean 'policy'?");
+  expect_refused({"run", file, "--out", out}, "my.toml:3: key 'polcy': unknown key; did you mean 'policy'?");
   write_text(file, bullet_text() + "mass = 0\n");
-  expect_refusal({"run", file, "--out", out}, "key 'body.mass'");
+  expect_refused({"run", file, "--out", out}, "key 'body.mass'");
 }
 
 }  // namespace

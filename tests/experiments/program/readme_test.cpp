@@ -20,7 +20,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string indented(const std::vector<std::string>& lines) {
   std::string out;
   for (const std::string& line : lines) out += "  | " + line + "\n";
   return out;
@@ -71,8 +71,8 @@ TEST(Readme, every_command_prints_what_is_shown) {
     if (output.empty()) continue;
     const std::vector<std::string> printed = lines_of(result.output);
     EXPECT_TRUE(lines_match(output, printed)) << "the README shows\n"
-                                              << joined(output) << "but it prints\n"
-                                              << joined(printed);
+                                              << indented(output) << "but it prints\n"
+                                              << indented(printed);
   }
 }
 

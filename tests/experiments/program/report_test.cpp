@@ -9,6 +9,7 @@
 #include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 
+#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
@@ -31,13 +32,22 @@ struct ReportTest : ToyProgram {
   }
 
   void expect_fault(const std::string& fault) const {
-    const auto faults = check_result(out);
-    const bool found = std::ranges::find_if(faults, [&](const std::string& line) {
-                         return line.find(fault) != line.npos;
-                       }) != faults.end();
     std::string all;
-    for (const std::string& line : faults) all += line + "\n";
-    EXPECT_TRUE(found) << "not said: " << fault << "\nsaid:\n" << all;
+    for (const std::string& line : check_result(out)) all += line + "\n";
+    EXPECT_TRUE(holds(all, fault));
+  }
+
+  struct Change {
+    std::string from, to, fault;
+  };
+  /// Each change to `file` has its fault; it is then taken back.
+  void expect_faults(const std::string& file, const std::vector<Change>& changes) const {
+    const std::string good = read_text(out + "/" + file);
+    for (const Change& c : changes) {
+      change(file, c.from, c.to);
+      expect_fault(c.fault);
+      write_text(out + "/" + file, good);
+    }
   }
 };
 
@@ -54,9 +64,9 @@ TEST_F(ReportTest, prints_question_answer_and_summary) {
 
 TEST_F(ReportTest, counts_a_single_thread_as_one) {
   ASSERT_EQ(call({"run", "toy", "--threads", "1", "--out", out + "1"}).status, 0);
-  EXPECT_NE(read_text(out + "1/report.html").find(", 1 thread</dd>"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(out + "1/report.html"), ", 1 thread</dd>"));
   ASSERT_EQ(call({"run", "toy", "--threads", "2", "--out", out + "2"}).status, 0);
-  EXPECT_NE(read_text(out + "2/report.html").find(", 2 threads</dd>"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(out + "2/report.html"), ", 2 threads</dd>"));
 }
 
 TEST_F(ReportTest, finds_a_fresh_folder_whole) {
@@ -71,10 +81,10 @@ TEST_F(ReportTest, names_every_fault_and_exits_with_1) {
   write_text(out + "/data/mine.csv", "a\n");
   const Reply reply = call({"report", out, "--check"});
   EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.out.find("data/cells.csv: missing; datapackage.json describes it\n"), std::string::npos) << reply.out;
-  EXPECT_NE(reply.out.find("data/cells.csv: missing; the manifest names it\n"), std::string::npos);
-  EXPECT_NE(reply.out.find("report.html: links to 'data/cells.csv', which is not there\n"), std::string::npos);
-  EXPECT_NE(reply.out.find("data/mine.csv: the manifest does not name it\n"), std::string::npos);
+  EXPECT_TRUE(holds(reply.out, "data/cells.csv: missing; datapackage.json describes it\n"));
+  EXPECT_TRUE(holds(reply.out, "data/cells.csv: missing; the manifest names it\n"));
+  EXPECT_TRUE(holds(reply.out, "report.html: links to 'data/cells.csv', which is not there\n"));
+  EXPECT_TRUE(holds(reply.out, "data/mine.csv: the manifest does not name it\n"));
   EXPECT_TRUE(reply.out.ends_with(out + ": 4 faults\n")) << reply.out;
   EXPECT_EQ(nlohmann::json::parse(call({"report", out, "--check", "--json"}).out).at("faults").size(), 4u);
 }
@@ -93,22 +103,17 @@ TEST_F(ReportTest, sees_what_became_of_the_manifest) {
 }
 
 TEST_F(ReportTest, sees_a_manifest_that_was_edited) {
-  const std::string good = read_text(out + "/manifest.json");
-  const auto expect_manifest_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
-    change("manifest.json", from, to);
-    expect_fault(fault);
-    write_text(out + "/manifest.json", good);
-  };
-  expect_manifest_fault("\"seed\": 3", "\"seed\": 4", "manifest.json: run_id is '");
-  expect_manifest_fault("\"trials\": null", "\"trials\": 7", "manifest.json: run_id is '");
-  expect_manifest_fault("\"cells\": 20", "\"cells\": 21", "manifest.json: run_id is '");
-  expect_manifest_fault("\"cells\": 20", "\"cells\": 21", "resolved.toml: is not the configuration");
-  expect_manifest_fault("run toy --seed", "run toy  --seed", "resolved.toml: does not give the manifest's line");
-  expect_manifest_fault("\"self_test_passed\": true", "\"self_test_passed\": false",
-                        "report.html: does not give the manifest's verdict");
-  expect_manifest_fault("\"seed\": 3", "\"seed\": 3.5", "manifest.json: key 'seed': 3.5 is not allowed; a whole");
-  expect_manifest_fault("\"seed\": 3", "\"seed\": -3", "manifest.json: key 'seed': -3 is not allowed; a whole");
-  expect_manifest_fault("\"trials\": null", "\"trials\": 1.5", "manifest.json: key 'trials': 1.5 is not");
+  expect_faults("manifest.json",
+                {{"\"seed\": 3", "\"seed\": 4", "manifest.json: run_id is '"},
+                 {"\"trials\": null", "\"trials\": 7", "manifest.json: run_id is '"},
+                 {"\"cells\": 20", "\"cells\": 21", "manifest.json: run_id is '"},
+                 {"\"cells\": 20", "\"cells\": 21", "resolved.toml: is not the configuration"},
+                 {"run toy --seed", "run toy  --seed", "resolved.toml: does not give the manifest's line"},
+                 {"\"self_test_passed\": true", "\"self_test_passed\": false",
+                  "report.html: does not give the manifest's verdict"},
+                 {"\"seed\": 3", "\"seed\": 3.5", "manifest.json: key 'seed': 3.5 is not allowed; a whole"},
+                 {"\"seed\": 3", "\"seed\": -3", "manifest.json: key 'seed': -3 is not allowed; a whole"},
+                 {"\"trials\": null", "\"trials\": 1.5", "manifest.json: key 'trials': 1.5 is not"}});
 }
 
 TEST_F(ReportTest, recomputes_a_run_id_however_json_spells_the_numbers) {
@@ -146,22 +151,15 @@ TEST_F(ReportTest, names_a_folder_that_stands_where_a_file_should) {
     std::filesystem::create_directory(out + "/" + file);
     expect_fault(file + std::string(": is not a file"));
   }
-  for (const char* command : {"report", "cite"}) {
-    const Reply reply = call({command, out});
-    EXPECT_EQ(reply.status, 2);
-    EXPECT_EQ(reply.err, out + ": its manifest.json is not a file\n");
-  }
+  for (const char* command : {"report", "cite"})
+    EXPECT_EQ(refusal(call({command, out})), out + ": its manifest.json is not a file\n");
 }
 
 TEST_F(ReportTest, says_of_a_shard_that_it_is_one) {
   const std::string shard = folder / "shard";
   ASSERT_EQ(call({"run", "toy", "--shard", "1/3", "--out", shard}).status, 0);
   const std::string said = "is shard 1/3 of a run; thinwall merge makes a result of all of them\n";
-  for (const char* command : {"report", "cite"}) {
-    const Reply reply = call({command, shard});
-    EXPECT_EQ(reply.status, 2);
-    EXPECT_EQ(reply.err, shard + ": " + said);
-  }
+  for (const char* command : {"report", "cite"}) EXPECT_EQ(refusal(call({command, shard})), shard + ": " + said);
   const Reply reply = call({"report", shard, "--check"});
   EXPECT_EQ(reply.status, 1);
   EXPECT_EQ(reply.out, "shard.json: " + said + shard + ": 1 fault\n");
@@ -173,73 +171,62 @@ TEST_F(ReportTest, prints_a_folders_name_on_one_line_that_drives_no_terminal) {
   EXPECT_TRUE(call({"report", awkward}).out.ends_with("report: " + shown + "/report.html\n"));
   EXPECT_EQ(call({"report", awkward, "--check"}).out, shown + ": whole: no fault was found\n");
   const Reply drawn = call({"report", awkward, "--figures", "pdf"});
-  EXPECT_NE(drawn.out.find("drawn: " + shown + "/plots/cost.pdf\n"), std::string::npos) << drawn.out << drawn.err;
+  EXPECT_TRUE(holds(drawn.out, "drawn: " + shown + "/plots/cost.pdf\n")) << drawn.out << drawn.err;
 }
 
 TEST_F(ReportTest, holds_each_table_against_its_description) {
-  const std::string good = read_text(out + "/data/cells.csv");
-  const auto expect_csv_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
-    change("data/cells.csv", from, to);
-    expect_fault(fault);
-    write_text(out + "/data/cells.csv", good);
-  };
-  expect_csv_fault("cell,square", "square,cell", "data/cells.csv:1: its columns are not those of datapackage.json");
-  expect_csv_fault("\n1,4,", "\n1.5,4,", "data/cells.csv:3: column 'cell': '1.5' is no integer");
-  expect_csv_fault("0.3333333333333333,false", "nan,false", "data/cells.csv:3: column 'root': 'nan' is no number");
-  expect_csv_fault("0.3333333333333333,false", "0.3,no", "data/cells.csv:3: column 'even': 'no' is no boolean");
-  expect_csv_fault("\n1,4,", "\n4,", "data/cells.csv:3: 4 fields, not 5");
-  expect_csv_fault("\n1,4,\"a", "\n1,4,\"a\"x\"", "data/cells.csv:3: text behind a closing quote");
-  expect_csv_fault("\n1,4,", "\n1,5,", "data/cells.csv: its SHA-256 is not that of datapackage.json");
-  expect_csv_fault("\n1,4,", "\n1,5,", "data/cells.csv: was changed since the run wrote it");
+  expect_faults("data/cells.csv",
+                {{"cell,square", "square,cell", "data/cells.csv:1: its columns are not those of datapackage.json"},
+                 {"\n1,4,", "\n1.5,4,", "data/cells.csv:3: column 'cell': '1.5' is no integer"},
+                 {"0.3333333333333333,false", "nan,false", "data/cells.csv:3: column 'root': 'nan' is no number"},
+                 {"0.3333333333333333,false", "0.3,no", "data/cells.csv:3: column 'even': 'no' is no boolean"},
+                 {"\n1,4,", "\n4,", "data/cells.csv:3: 4 fields, not 5"},
+                 {"\n1,4,\"a", "\n1,4,\"a\"x\"", "data/cells.csv:3: text behind a closing quote"},
+                 {"\n1,4,", "\n1,5,", "data/cells.csv: its SHA-256 is not that of datapackage.json"},
+                 {"\n1,4,", "\n1,5,", "data/cells.csv: was changed since the run wrote it"}});
 }
 
 TEST_F(ReportTest, holds_the_datapackage_against_its_rules) {
-  const std::string good = read_text(out + "/datapackage.json");
-  const auto expect_package_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
-    change("datapackage.json", from, to);
-    expect_fault("datapackage.json: " + fault);
-    write_text(out + "/datapackage.json", good);
-  };
-  expect_package_fault("tabular-data-package", "package", "the package: 'profile' is 'package'");
-  expect_package_fault("thinwall-toy", "Thinwall toy", "the package: the name 'Thinwall toy' has a letter beyond");
-  expect_package_fault("\"integer\"", "\"whole\"", "resource 'cells', field 'cell': the type 'whole' is unknown");
-  expect_package_fault("\"unit\": \"m^2\"", "\"unit\": \"\"", "resource 'cells', field 'square': 'unit' is missing");
-  expect_package_fault("\"name\": \"square\"", "\"name\": \"cell\"", "resource 'cells', field 'cell': a second one");
-  expect_package_fault("data/cells.csv", "../cells.csv", "resource 'cells': the path '../cells.csv' leaves the folder");
-  expect_package_fault("{", "", "not JSON, or no object");
+  expect_faults(
+      "datapackage.json",
+      {{"tabular-data-package", "package", "datapackage.json: the package: 'profile' is 'package'"},
+       {"thinwall-toy", "Thinwall toy", "datapackage.json: the package: the name 'Thinwall toy' has a letter beyond"},
+       {"\"integer\"", "\"whole\"", "datapackage.json: resource 'cells', field 'cell': the type 'whole' is unknown"},
+       {"\"unit\": \"m^2\"", "\"unit\": \"\"", "datapackage.json: resource 'cells', field 'square': 'unit' is missing"},
+       {"\"name\": \"square\"", "\"name\": \"cell\"", "datapackage.json: resource 'cells', field 'cell': a second one"},
+       {"data/cells.csv", "../cells.csv",
+        "datapackage.json: resource 'cells': the path '../cells.csv' leaves the folder"},
+       {"{", "", "datapackage.json: not JSON, or no object"}});
 }
 
 TEST_F(ReportTest, wants_a_page_that_stands_alone_and_is_complete) {
   const std::string good = read_text(out + "/report.html");
-  const auto expect_page_fault = [&](const std::string& from, const std::string& to, const std::string& fault) {
-    change("report.html", from, to);
-    expect_fault("report.html: " + fault);
-    write_text(out + "/report.html", good);
-  };
-  expect_page_fault("<main>", "<main><script>1</script>", "'<script' in a page that stands alone");
-  expect_page_fault("<main>", "<main><img src=\"https://a.org/x.png\">", "asks for 'https://a.org/x.png'");
-  expect_page_fault("<main>", "<main><a href='//a.org'>x</a>", "asks for '//a.org'");
-  expect_page_fault("</style>", "p { background: url(http://a.org) }</style>", "'url(http:/...'");
-  expect_page_fault("<h2>Limits</h2>", "<h2>No</h2>", "has no section 'Limits'");
-  expect_page_fault("The squares &amp; &lt;their", "The circles &amp; &lt;their",
-                    "does not give the manifest's answer");
-  expect_page_fault("</html>", "", "not a whole page");
-  expect_page_fault("<main>", "<main><a href=http://a.org>x</a>", "asks for 'http://a.org'");
-  expect_page_fault("<main>", "<main><a HREF = \"http://a.org\">x</a>", "asks for 'http://a.org'");
-  expect_page_fault("<main>", "<main><a href=\"/etc\">x</a>", "asks for '/etc'");
-  expect_page_fault("<main>", "<main><a href=\"data/none.csv\">x</a>", "links to 'data/none.csv', which is not there");
-  expect_page_fault("<main>", "<main><img src=//a.org/x>", "asks for '//a.org/x'");
-  expect_page_fault("<main>", "<main><Video poster='//a.org/x'>", "'<video' in a page");
-  expect_page_fault("<main>", "<main><Video poster='//a.org/x'>", "asks for '//a.org/x'");
-  expect_page_fault("<head>", "<head><meta http-equiv=refresh content=1>", "attribute 'http-equiv' in a page");
-  expect_page_fault("<body>", "<body OnLoad=a()>", "attribute 'onload' in a page");
-  expect_page_fault("<body>", "<body class=\"x\"onload = a()>", "attribute 'onload' in a page");
-  expect_page_fault("<main>", "<main><svg/onload=a()>", "attribute 'onload' in a page");
-  expect_page_fault("<main>", "<main><p title='>' onclick=a()>", "attribute 'onclick' in a page");
-  expect_page_fault("</style>", "@Import 'a.css';</style>", "'@import' in a page");
-  expect_page_fault("The self-test passed.", "", "does not give the manifest's verdict");
-  expect_page_fault("<td class=\"n\">6.333</td>", "<td class=\"n\">6.334</td>", "does not show the rows");
-  expect_page_fault("Squares, and the seed.", "Cubes.", "does not show the rows and the caption of tables/cells.md");
+  expect_faults(
+      "report.html",
+      {{"<main>", "<main><script>1</script>", "report.html: '<script' in a page that stands alone"},
+       {"<main>", "<main><img src=\"https://a.org/x.png\">", "report.html: asks for 'https://a.org/x.png'"},
+       {"<main>", "<main><a href='//a.org'>x</a>", "report.html: asks for '//a.org'"},
+       {"</style>", "p { background: url(http://a.org) }</style>", "report.html: 'url(http:/...'"},
+       {"<h2>Limits</h2>", "<h2>No</h2>", "report.html: has no section 'Limits'"},
+       {"The squares &amp; &lt;their", "The circles &amp; &lt;their",
+        "report.html: does not give the manifest's answer"},
+       {"</html>", "", "report.html: not a whole page"},
+       {"<main>", "<main><a href=http://a.org>x</a>", "report.html: asks for 'http://a.org'"},
+       {"<main>", "<main><a HREF = \"http://a.org\">x</a>", "report.html: asks for 'http://a.org'"},
+       {"<main>", "<main><a href=\"/etc\">x</a>", "report.html: asks for '/etc'"},
+       {"<main>", "<main><a href=\"data/none.csv\">x</a>", "report.html: links to 'data/none.csv', which is not there"},
+       {"<main>", "<main><img src=//a.org/x>", "report.html: asks for '//a.org/x'"},
+       {"<main>", "<main><Video poster='//a.org/x'>", "report.html: '<video' in a page"},
+       {"<main>", "<main><Video poster='//a.org/x'>", "report.html: asks for '//a.org/x'"},
+       {"<head>", "<head><meta http-equiv=refresh content=1>", "report.html: attribute 'http-equiv' in a page"},
+       {"<body>", "<body OnLoad=a()>", "report.html: attribute 'onload' in a page"},
+       {"<body>", "<body class=\"x\"onload = a()>", "report.html: attribute 'onload' in a page"},
+       {"<main>", "<main><svg/onload=a()>", "report.html: attribute 'onload' in a page"},
+       {"<main>", "<main><p title='>' onclick=a()>", "report.html: attribute 'onclick' in a page"},
+       {"</style>", "@Import 'a.css';</style>", "report.html: '@import' in a page"},
+       {"The self-test passed.", "", "report.html: does not give the manifest's verdict"},
+       {"<td class=\"n\">6.333</td>", "<td class=\"n\">6.334</td>", "report.html: does not show the rows"},
+       {"Squares, and the seed.", "Cubes.", "report.html: does not show the rows and the caption of tables/cells.md"}});
   for (const char* figure : {"squares", "cost"}) {
     const auto first = figure == std::string("squares") ? good.find("<svg") : good.rfind("<svg");
     std::string cut = good;
@@ -274,14 +261,14 @@ TEST_F(ReportTest, draws_figures_for_print_that_are_no_part_of_the_result) {
   EXPECT_EQ(reply.status, 0) << reply.err;
   for (const char* file :
        {"plots/squares.pdf", "plots/squares-latex.tex", "plots/squares-latex.pdf", "plots/cost.pdf"}) {
-    EXPECT_NE(reply.out.find("drawn: " + out + "/" + file + "\n"), std::string::npos) << reply.out;
+    EXPECT_TRUE(holds(reply.out, "drawn: " + out + "/" + file + "\n"));
     EXPECT_FALSE(read_text(out + "/" + file).empty()) << file;
   }
   EXPECT_TRUE(read_text(out + "/plots/squares.pdf").starts_with("%PDF-"));
-  EXPECT_NE(read_text(out + "/plots/squares-latex.tex").find("{squares-latex}"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(out + "/plots/squares-latex.tex"), "{squares-latex}"));
   EXPECT_EQ(call({"report", out, "--check"}).status, 0);
   ToyControl::computed = 0;
-  EXPECT_NE(run({"--seed", "3"}).err.find("complete already"), std::string::npos) << "the result is still complete";
+  EXPECT_TRUE(holds(run({"--seed", "3"}).err, "complete already")) << "the result is still complete";
   EXPECT_EQ(ToyControl::computed, 0);
 }
 
@@ -304,7 +291,7 @@ TEST_F(ReportTest, names_what_is_wrong_with_the_data_of_a_figure) {
     change("plots/squares.json", from, to);
     const Reply reply = call({"report", out, "--figures", "pdf"});
     EXPECT_EQ(reply.status, 1);
-    EXPECT_NE(reply.err.find("squares was not drawn as pdf: " + trouble), std::string::npos) << reply.err;
+    EXPECT_TRUE(holds(reply.err, "squares was not drawn as pdf: " + trouble));
     write_text(out + "/plots/squares.json", good);
   };
   expect_trouble("\"color\":\"\"", "\"color\":\"red'\"",
@@ -314,7 +301,7 @@ TEST_F(ReportTest, names_what_is_wrong_with_the_data_of_a_figure) {
   expect_trouble("\"name\":\"squares\"", "\"name\":\"cost\"", "plots/squares.json is of another figure");
   expect_trouble("\"y\":[", "\"y\":[0,", "figure 'squares', series 'squares': lists of different length");
   std::filesystem::remove(out + "/plots/squares.json");
-  EXPECT_NE(call({"report", out, "--figures", "pdf"}).err.find("plots/squares.json is missing"), std::string::npos);
+  EXPECT_TRUE(holds(call({"report", out, "--figures", "pdf"}).err, "plots/squares.json is missing"));
 }
 
 TEST_F(ReportTest, draws_beside_others_who_draw) {
@@ -339,7 +326,7 @@ TEST_F(ReportTest, prints_no_control_character_of_a_manifest) {
   write_text(out + "/manifest.json", json.dump());
   const std::string said = call({"report", out}).out;
   EXPECT_TRUE(said.starts_with("What\\x1b]0;is\\x07 a square\\u009b?\n")) << said;
-  EXPECT_NE(said.find("cells:\t20\\u007f\n"), std::string::npos) << said;
+  EXPECT_TRUE(holds(said, "cells:\t20\\u007f\n"));
   const std::string reply = call({"report", out, "--json"}).out;
   EXPECT_TRUE(std::ranges::none_of(reply, [](char letter) { return letter == 0x7f || letter == 0x1b; }));
   EXPECT_EQ(nlohmann::json::parse(reply).at("summary"), json["summary"]);
@@ -370,16 +357,10 @@ TEST_F(ReportTest, removes_them_when_the_result_is_computed_again) {
 }
 
 TEST_F(ReportTest, refuses_what_it_cannot_take) {
-  const auto expect_refusal = [](const std::vector<std::string>& words, const std::string& why) {
-    const Reply reply = call(words);
-    EXPECT_EQ(reply.status, 2);
-    EXPECT_NE(reply.err.find(why), std::string::npos) << reply.err;
-    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1);
-  };
-  expect_refusal({"report"}, "report: the folder of a result is missing");
-  expect_refusal({"report", out, "--figures", "png"}, "--figures: 'png' is not allowed; allowed: pdf, tex");
-  expect_refusal({"report", out, "--figures", "pdf,"}, "--figures: '' is not allowed");
-  expect_refusal({"report", out + "x", "--check"}, out + "x: there is no such folder");
+  expect_refusal(call({"report"}), {"report: the folder of a result is missing"});
+  expect_refusal(call({"report", out, "--figures", "png"}), {"--figures: 'png' is not allowed; allowed: pdf, tex"});
+  expect_refusal(call({"report", out, "--figures", "pdf,"}), {"--figures: '' is not allowed"});
+  expect_refusal(call({"report", out + "x", "--check"}), {out + "x: there is no such folder"});
 }
 
 TEST(CsvReader, reads_what_rfc_4180_allows_and_names_the_line_of_what_it_does_not) {

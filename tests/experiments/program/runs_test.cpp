@@ -8,10 +8,8 @@
 #include <sstream>
 #include <thread>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,112 +19,13 @@
 #include <thinwall/experiments/lab/sha256.hpp>
 
 #include "support/program.hpp"
+#include "support/said.hpp"
 #include "support/thorough.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
 
 namespace {
-
-constexpr const char* small_config = R"(experiment = "thin_wall"
-speed = [10, 200]
-step = [0.016666666666666666]
-radius = [0.001, 0.02]
-thickness = [0.01]
-angle_deg = [0, 60]
-)";
-
-struct RealRunTest : ::testing::Test {
-  TemporaryFolder folder;
-
-  RealRunTest() {
-    write_text(folder / "my.toml",
-               small_config + std::string(testing::slow_build ? "shots = 600\n" : "shots = 6000\n"));
-  }
-
-  std::vector<std::string> words(const std::string& out, const std::string& threads) const {
-    return {THINWALL_PROGRAM, "run", folder / "my.toml", "--out", folder / out, "--threads", threads, "--seed", "11"};
-  }
-
-  ProcessResult run(const std::string& out, const std::string& threads) const {
-    return run_process(words(out, threads), folder.path());
-  }
-
-  /// Starts a run and ends it with `signal` once its journal has `rows` rows. Returns how it ended, as waitpid says it.
-  int run_until(const std::string& out, std::size_t rows, int signal) const {
-    std::vector<std::string> copies = words(out, "2");
-    std::vector<char*> pointers;
-    for (std::string& word : copies) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 2, (folder / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0666);
-    pid_t child = 0;
-    EXPECT_EQ(::posix_spawn(&child, THINWALL_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    bool sent = false;
-    while (::waitpid(child, &status, WNOHANG) == 0) {
-      if (!sent && finished_rows(out) >= rows) sent = ::kill(child, signal) == 0;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return status;
-  }
-
-  std::size_t finished_rows(const std::string& out) const {
-    std::ifstream in(folder / out + "/journal.tsv");
-    std::size_t rows = 0;
-    for (std::string line; std::getline(in, line);) ++rows;
-    return rows;
-  }
-
-  /// Everything that must not differ from run to run.
-  std::map<std::string, std::string> lasting_files(const std::string& out) const {
-    auto files = files_in(folder / out);
-    for (const char* name : {"data/timings.csv", "report.html", "manifest.json"})
-      EXPECT_EQ(files.erase(name), 1u) << name;
-    return files;
-  }
-};
-
-TEST_F(RealRunTest, gives_the_same_bytes_for_1_2_and_3_threads) {
-  for (const char* threads : {"1", "2", "3"}) {
-    const ProcessResult result = run(threads, threads);
-    ASSERT_EQ(result.status, 0) << result.output;
-  }
-  EXPECT_EQ(lasting_files("1"), lasting_files("2"));
-  EXPECT_EQ(lasting_files("1"), lasting_files("3"));
-  EXPECT_TRUE(
-      read_text(folder / "1/data/cells.csv").starts_with("method,scalar,speed,step,radius,thickness,angle_deg,"));
-}
-
-TEST_F(RealRunTest, keeps_what_was_finished_when_it_is_interrupted) {
-  const int status = run_until("cut", 10, SIGINT);
-  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
-  const std::string notes = read_text(folder / "stderr");
-  EXPECT_NE(notes.find(std::string("to continue:\n") + THINWALL_PROGRAM + " run "), std::string::npos) << notes;
-  EXPECT_EQ(files_in(folder / "cut").size(), 1u) << "the journal alone";
-  const ProcessResult rest = run("cut", "1");
-  ASSERT_EQ(rest.status, 0) << rest.output;
-  EXPECT_NE(rest.output.find("units were read from the journal"), std::string::npos) << rest.output;
-  ASSERT_EQ(run("whole", "2").status, 0);
-  EXPECT_EQ(lasting_files("cut"), lasting_files("whole"));
-}
-
-TEST_F(RealRunTest, loses_nothing_it_counted_when_it_is_killed) {
-  std::size_t rows = 0;
-  for (const std::size_t more : {2u, 9u, 20u}) {
-    const int status = run_until("killed", rows + more, SIGKILL);
-    ASSERT_TRUE(WIFSIGNALED(status)) << status;
-    EXPECT_GE(finished_rows("killed"), rows + more);
-    rows = finished_rows("killed");
-  }
-  const ProcessResult rest = run("killed", "2");
-  ASSERT_EQ(rest.status, 0) << rest.output;
-  ASSERT_EQ(run("whole", "2").status, 0);
-  EXPECT_EQ(lasting_files("killed"), lasting_files("whole"));
-}
 
 // ---- The whole way of a run, from the command line to the files, with an experiment made for it.
 
@@ -181,10 +80,10 @@ TEST_F(ToyRunTest, says_in_its_manifest_where_it_came_from) {
 TEST_F(ToyRunTest, writes_a_report_that_stands_alone) {
   ASSERT_EQ(run().status, 0);
   const std::string page = read_text(out + "/report.html");
-  EXPECT_NE(page.find("The squares &amp; &lt;their&gt; sum."), std::string::npos);
-  EXPECT_NE(page.find("<p>First.</p>\n<p>Second.</p>"), std::string::npos);
+  EXPECT_TRUE(holds(page, "The squares &amp; &lt;their&gt; sum."));
+  EXPECT_TRUE(holds(page, "<p>First.</p>\n<p>Second.</p>"));
   for (const char* never : {"<script", "<img", "@import", "url(", "src="}) {
-    EXPECT_EQ(page.find(never), std::string::npos) << never;
+    EXPECT_FALSE(holds(page, never)) << never;
   }
   for (auto at = page.find("href=\""); at != std::string::npos; at = page.find("href=\"", at + 1)) {
     const std::string target = page.substr(at + 6, page.find('"', at + 6) - at - 6);
@@ -192,24 +91,12 @@ TEST_F(ToyRunTest, writes_a_report_that_stands_alone) {
   }
 }
 
-TEST_F(ToyRunTest, gives_the_same_bytes_for_any_thread_count) {
-  std::map<std::string, std::string> first;
-  for (const char* threads : {"1", "2", "3"}) {
-    out = folder / threads;
-    ASSERT_EQ(run({"--threads", threads}).status, 0);
-    auto files = files_in(out);
-    for (const char* name : {"data/timings.csv", "report.html", "manifest.json"}) files.erase(name);
-    if (first.empty()) first = files;
-    EXPECT_EQ(files, first);
-  }
-}
-
 TEST_F(ToyRunTest, reports_a_failed_self_test) {
   ToyControl::pass = false;
   const Reply reply = run();
   EXPECT_EQ(reply.status, 1);
-  EXPECT_NE(reply.err.find("the self-test failed"), std::string::npos);
-  EXPECT_NE(read_text(out + "/report.html").find("The self-test failed"), std::string::npos);
+  EXPECT_TRUE(holds(reply.err, "the self-test failed"));
+  EXPECT_TRUE(holds(read_text(out + "/report.html"), "The self-test failed"));
   EXPECT_EQ(run().status, 1) << "and still does when asked again";
   EXPECT_EQ(call({"report", out, "--check"}).out, out + ": whole, but its self-test failed: do not cite its numbers\n");
   EXPECT_EQ(nlohmann::json::parse(call({"report", out, "--check", "--json"}).out).at("self_test_passed"), false);
@@ -221,8 +108,8 @@ TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
   const Reply reply = run();
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(reply.status, 0);
-  EXPECT_NE(reply.err.find("figures were not drawn: gnuplot is not installed\n"), std::string::npos) << reply.err;
-  EXPECT_NE(read_text(out + "/report.html").find("gnuplot is not installed"), std::string::npos);
+  EXPECT_TRUE(holds(reply.err, "figures were not drawn: gnuplot is not installed\n"));
+  EXPECT_TRUE(holds(read_text(out + "/report.html"), "gnuplot is not installed"));
   EXPECT_TRUE(std::filesystem::exists(out + "/plots/squares.gp"));
 }
 
@@ -230,7 +117,7 @@ TEST_F(ToyRunTest, writes_nothing_on_a_dry_run) {
   const Reply reply = run({"--dry-run", "--threads", "1"});
   EXPECT_EQ(reply.status, 0);
   EXPECT_TRUE(reply.out.starts_with("toy: 20 units, 200 trials on 1 thread\nabout ")) << reply.out;
-  EXPECT_NE(reply.out.find(" s (16 units tried with "), std::string::npos) << reply.out;
+  EXPECT_TRUE(holds(reply.out, " s (16 units tried with "));
   EXPECT_EQ(ToyControl::computed, 0);
   EXPECT_FALSE(std::filesystem::exists(out));
   const auto json = nlohmann::json::parse(run({"--dry-run", "--json"}).out);
@@ -266,13 +153,13 @@ TEST_F(ToyRunTest, runs_its_own_resolved_configuration) {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-struct KilledRunTest : ::testing::Test {
+struct RealRunTest : ::testing::Test {
   TemporaryFolder folder;
 
-  KilledRunTest() { write_text(folder / "my.toml", small_wall); }
+  RealRunTest() { write_text(folder / "my.toml", small_wall); }
 
-  std::vector<std::string> words(const std::string& out) const {
-    return {THINWALL_PROGRAM, "run", folder / "my.toml", "--out", folder / out, "--threads", "2", "--seed", "11"};
+  Words words(const std::string& out, const std::string& threads = "2") const {
+    return {THINWALL_PROGRAM, "run", folder / "my.toml", "--out", folder / out, "--threads", threads, "--seed", "11"};
   }
 
   std::string notes() const { return read_text(folder / "notes"); }
@@ -297,6 +184,19 @@ struct KilledRunTest : ::testing::Test {
     ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << notes();
   }
 };
+using KilledRunTest = RealRunTest;
+
+TEST_F(RealRunTest, gives_the_same_bytes_for_1_2_and_3_threads) {
+  const std::string trials = testing::slow_build ? "600" : "6000";  // a cell is more than one unit
+  for (const char* threads : {"1", "2", "3"}) {
+    const ProcessResult result = run_process(joined(words(threads, threads), {"--trials", trials}), folder.path());
+    ASSERT_EQ(result.status, 0) << result.output;
+  }
+  EXPECT_EQ(lasting_files(folder / "1"), lasting_files(folder / "2"));
+  EXPECT_EQ(lasting_files(folder / "1"), lasting_files(folder / "3"));
+  EXPECT_TRUE(
+      read_text(folder / "1/data/cells.csv").starts_with("method,scalar,speed,step,radius,thickness,angle_deg,"));
+}
 
 TEST_F(KilledRunTest, ends_with_the_same_bytes_after_twenty_kills) {
   const int kills = static_cast<int>(testing::thorough(testing::slow_build ? 5 : 20));
@@ -373,7 +273,7 @@ TEST_F(KilledRunTest, clears_up_after_a_kill_between_the_manifest_and_the_end) {
   Journal(folder / "out/journal.tsv", "left");
   fs::create_directories(folder / "out/" + temporary_name() + "/data");
   run_to_the_end("out");
-  EXPECT_NE(notes().find("complete already"), std::string::npos) << notes();
+  EXPECT_TRUE(holds(notes(), "complete already"));
   EXPECT_EQ(lasting_files(folder / "out"), expected);
 }
 
@@ -386,7 +286,7 @@ TEST_F(KilledRunTest, forgets_no_file_of_a_result_that_it_was_replacing) {
   write_text(folder / "out/manifest.old.json", manifest);
   write_text(folder / "out/data/gone.csv", "old\n");
   run_to_the_end("out");
-  EXPECT_NE(notes().find("an earlier result was being replaced here"), std::string::npos) << notes();
+  EXPECT_TRUE(holds(notes(), "an earlier result was being replaced here"));
   EXPECT_EQ(lasting_files(folder / "out"), expected);
 }
 
@@ -404,21 +304,14 @@ TEST_F(KilledRunTest, heeds_an_interrupt_at_once_in_the_midst_of_a_long_unit) {
   const std::string journal = read_text(folder / "long/journal.tsv");
   EXPECT_LE(std::ranges::count(journal, '\n'), 2) << "the long unit was waited for";  // the other has 1009 shots
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
-  EXPECT_NE(notes().find("to continue:\n"), std::string::npos) << notes();
+  EXPECT_TRUE(holds(notes(), "to continue:\n"));
 }
 
 // ---- A disk that is full, and a folder that cannot be written: named, nothing lost, and the same command goes on.
 // The disk is a small tmpfs in a mount namespace of its own, which ends with the shell that made it.
 
-namespace fs = std::filesystem;
-
-struct FullDiskTest : ::testing::Test {
-  TemporaryFolder folder;
-
-  FullDiskTest() {
-    write_text(folder / "my.toml", small_wall);
-    fs::create_directory(folder / "disk");
-  }
+struct FullDiskTest : RealRunTest {
+  FullDiskTest() { fs::create_directory(folder / "disk"); }
 
   ProcessResult in_namespace(const std::string& script) const {
     const char* const how = ::geteuid() == 0 ? "-m" : "-rm";
@@ -460,8 +353,8 @@ struct FullDiskTest : ::testing::Test {
     SCOPED_TRACE(limits);
     EXPECT_EQ(fill(limits), "1\n1\n2\n0\n") << read_text(folder / "1") << read_text(folder / "2");
     EXPECT_TRUE(last_line("1").starts_with("failed: disk/out/" + where)) << last_line("1");
-    EXPECT_NE(last_line("1").find(": No space left on device; what was finished is kept"), std::string::npos);
-    EXPECT_NE(last_line("2").find(": No space left on device"), std::string::npos) << last_line("2");
+    EXPECT_TRUE(holds(last_line("1"), ": No space left on device; what was finished is kept"));
+    EXPECT_TRUE(holds(last_line("2"), ": No space left on device"));
     EXPECT_EQ(read_text(folder / "read_only"), "--out disk/out: cannot be written: Read-only file system\n");
     const std::string journal = read_text(folder / "kept");
     const bool publishing = journal.find("\n\t") != journal.npos;          // a row without a key
@@ -482,9 +375,7 @@ struct FullDiskTest : ::testing::Test {
 
 TEST_F(FullDiskTest, is_named_and_loses_nothing_wherever_it_fills) {
   if (const std::string why = trouble(); !why.empty()) GTEST_SKIP() << why;
-  const ProcessResult whole = run_process(
-      {THINWALL_PROGRAM, "run", "my.toml", "--out", "whole", "--threads", "2", "--seed", "11"}, folder.path());
-  ASSERT_EQ(whole.status, 0) << whole.output;
+  run_to_the_end("whole");
   expected_ = lasting_files(folder / "whole");
   expect_survival("size=16k", "journal.tsv");
   expect_survival("size=300k", ".thinwall-");

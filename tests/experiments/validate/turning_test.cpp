@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include <sys/stat.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/program/program.hpp>
-
 #include "support/program.hpp"
+#include "support/reply.hpp"
 #include "support/turning_rows.hpp"
 
 namespace thinwall {
@@ -20,17 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-struct TurningReply {
-  int exit_code = 0;
-  std::string out, err;
-};
-
-TurningReply validate_turning(const std::string& place, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words{"thinwall", "validate", "--turning", place};
-  words.insert(words.end(), more.begin(), more.end());
-  std::ostringstream out, err;
-  const int exit_code = run_program(words, {}, out, err);
-  return {exit_code, out.str(), err.str()};
+Reply validate_turning(const std::string& place, const Words& more = {}) {
+  return call_program(joined({"validate", "--turning", place}, more));
 }
 
 const json& of_method(const json& methods, const std::string& name) {
@@ -53,16 +42,13 @@ struct PublishedTurningFile : ::testing::Test {
   }
   void expect_refusal(const std::string& text, const std::string& said) const {
     const std::string file = write(text);
-    const TurningReply reply = validate_turning(file);
-    EXPECT_EQ(reply.exit_code, 2);
-    EXPECT_EQ(reply.out, "");
-    EXPECT_EQ(reply.err, file + said + "\n");
+    EXPECT_EQ(refusal(validate_turning(file)), file + said + "\n");
   }
 };
 
 TEST(PublishedTurningSet, every_method_keeps_what_it_claims) {
-  const TurningReply reply = validate_turning(THINWALL_TURNING_QUERIES, {"--json"});
-  EXPECT_EQ(reply.exit_code, 0) << reply.err;
+  const Reply reply = validate_turning(THINWALL_TURNING_QUERIES, {"--json"});
+  EXPECT_EQ(reply.status, 0) << reply.err;
   const json said = json::parse(reply.out);
   EXPECT_EQ(said["wrong"], 0);
   EXPECT_EQ(said["pairs"].size(), 8U);
@@ -86,14 +72,14 @@ TEST_F(PublishedTurningFile, the_right_time_passes_and_a_wrong_one_is_noticed) {
   const auto reply_to = [&](const testing::TurningAnswer& answer) {
     return validate_turning(write(header + "\n" + row(answer) + "\r\n"));
   };
-  const TurningReply right = reply_to({"hit", "0.625", ""});
-  EXPECT_EQ(right.exit_code, 0) << right.err;
+  const Reply right = reply_to({"hit", "0.625", ""});
+  EXPECT_EQ(right.status, 0) << right.err;
   EXPECT_EQ(right.err, "");
-  EXPECT_NE(right.out.find("Every method keeps what it claims."), std::string::npos) << right.out;
+  EXPECT_TRUE(holds(right.out, "Every method keeps what it claims."));
   const auto expect_wrong = [&](const testing::TurningAnswer& answer, const std::string& said) {
-    const TurningReply reply = reply_to(answer);
-    EXPECT_EQ(reply.exit_code, 1);
-    EXPECT_NE(reply.err.find((folder / "a.csv") + ":2: " + said + "\n"), std::string::npos) << reply.err;
+    const Reply reply = reply_to(answer);
+    EXPECT_EQ(reply.status, 1);
+    EXPECT_TRUE(holds(reply.err, (folder / "a.csv") + ":2: " + said + "\n"));
   };
   expect_wrong({"hit", "0.624", ""}, "conservative_advancement: late by 1.0e-03 of a step");
   expect_wrong({"hit", "0.624", ""}, "certified: late by 1.0e-03 of a step");
@@ -131,28 +117,22 @@ TEST_F(PublishedTurningFile, malformed_files_are_refused_by_line) {
 }
 
 TEST_F(PublishedTurningFile, what_is_no_file_is_refused) {
-  const auto refusal = [](const std::string& place) {
-    const TurningReply reply = validate_turning(place);
-    EXPECT_EQ(reply.exit_code, 2);
-    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
-    return reply.err;
-  };
-  EXPECT_EQ(refusal(folder / "none"), (folder / "none") + ": there is no such file or folder\n");
-  EXPECT_EQ(refusal(folder.path().string()), folder.path().string() + ": has no CSV files of queries\n");
-  EXPECT_EQ(refusal(""), "--turning: '' is not allowed; a CSV file, or a folder of them\n");
+  const std::string none = folder / "none", empty = folder.path().string();
+  EXPECT_EQ(refusal(validate_turning(none)), none + ": there is no such file or folder\n");
+  EXPECT_EQ(refusal(validate_turning(empty)), empty + ": has no CSV files of queries\n");
+  EXPECT_EQ(refusal(validate_turning("")), "--turning: '' is not allowed; a CSV file, or a folder of them\n");
   const std::string pipe = folder / "pipe.csv";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(pipe), pipe + ": is not a regular file; no other is read\n");
-  EXPECT_EQ(refusal(folder.path().string()), pipe + ": is not a regular file; no other is read\n");
-  const TurningReply both = validate_turning(pipe, {"folder"});
-  EXPECT_EQ(both.exit_code, 2);
-  EXPECT_EQ(both.err, "validate: --turning takes the place of the folder; give one of them\n");
+  for (const std::string& place : {pipe, empty})
+    EXPECT_EQ(refusal(validate_turning(place)), pipe + ": is not a regular file; no other is read\n");
+  EXPECT_EQ(refusal(validate_turning(pipe, {"folder"})),
+            "validate: --turning takes the place of the folder; give one of them\n");
 }
 
 TEST_F(PublishedTurningFile, numbers_are_written_and_read_to_the_bit) {
   rod.shape.radius = std::nextafter(0.5, 0);  // meets the ball 2^-56 later: the shortest text has it
-  const TurningReply reply = validate_turning(write(header + "\n" + row({"hit", "0.625", ""}) + "\n"), {"--json"});
-  EXPECT_EQ(reply.exit_code, 0) << reply.err;
+  const Reply reply = validate_turning(write(header + "\n" + row({"hit", "0.625", ""}) + "\n"), {"--json"});
+  EXPECT_EQ(reply.status, 0) << reply.err;
   const json said = json::parse(reply.out);
   EXPECT_EQ(of_method(said["methods"], "certified")["touching"], 1);
   EXPECT_EQ(testing::shortest_text(rod.shape.radius), "0.49999999999999994");

@@ -1,34 +1,22 @@
 /// `thinwall validate` as the user calls it: what it counts, what it refuses, and its exit codes.
 
-#include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 #include <sys/stat.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/program/program.hpp>
-
 #include "support/program.hpp"
+#include "support/reply.hpp"
 
 namespace thinwall {
 namespace {
 
 using std::filesystem::path;
 
-struct Reply {
-  int exit_code = 0;
-  std::string out, err;
-};
-
-Reply validate(const std::string& folder, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words{"thinwall", "validate", folder};
-  words.insert(words.end(), more.begin(), more.end());
-  std::ostringstream out, err;
-  const int exit_code = run_program(words, {}, out, err);
-  return {exit_code, out.str(), err.str()};
+Reply validate(const std::string& folder, const Words& more = {}) {
+  return call_program(joined({"validate", folder}, more));
 }
 
 /// Eight rows; `vertices` are triples of ratios, `answer` is put behind each.
@@ -55,10 +43,7 @@ struct ValidateTest : ::testing::Test {
   }
   void expect_refusal(const std::string& text, const std::string& said) const {
     const std::string file = write("bad/vertex-face/a.csv", text);
-    const Reply reply = validate(folder / "bad");
-    EXPECT_EQ(reply.exit_code, 2);
-    EXPECT_EQ(reply.out, "");
-    EXPECT_EQ(reply.err, file + said + "\n");
+    EXPECT_EQ(refusal(validate(folder / "bad")), file + said + "\n");
   }
 };
 
@@ -74,7 +59,7 @@ TEST_F(ValidateTest, counts_what_it_reads_checks_and_skips) {
                     end_below = "1,2,-1,1,0,1", end_above = "1,2,1,1,0,1";  // touch at the end of the step
   write("set/edges/edge-edge/a.csv", query({start, end, below, above, start, end, end_below, end_above}, 1));
   const Reply reply = validate(folder / "set", {"--json"});
-  EXPECT_EQ(reply.exit_code, 0) << reply.err;
+  EXPECT_EQ(reply.status, 0) << reply.err;
   const auto json = nlohmann::json::parse(reply.out);
   EXPECT_EQ(json["read"], 5);
   EXPECT_EQ(json["checked"], 3);
@@ -87,7 +72,7 @@ TEST_F(ValidateTest, counts_what_it_reads_checks_and_skips) {
   EXPECT_GT(json["median_ns"], 0);
   EXPECT_EQ(json["families"].size(), 2U);
   const std::string text = validate(folder / "set").out;
-  EXPECT_NE(text.find("0 false negatives, 0 false positives"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "0 false negatives, 0 false positives"));
 }
 
 TEST_F(ValidateTest, a_displacement_without_a_double_is_rounded_or_left) {
@@ -104,11 +89,11 @@ TEST_F(ValidateTest, a_displacement_without_a_double_is_rounded_or_left) {
   EXPECT_EQ(json["skipped_not_double"], 1);
 }
 
-TEST_F(ValidateTest, a_wrong_answer_is_exit_code_1_and_is_named) {
+TEST_F(ValidateTest, a_wrong_answer_is_status_1_and_is_named) {
   const std::string file = write("set/vertex-face/a.csv", falling("1,2", 1) + falling("1,2", 0));
   const Reply reply = validate(folder / "set");
-  EXPECT_EQ(reply.exit_code, 1);
-  EXPECT_NE(reply.out.find("0 false negatives, 1 false positives"), std::string::npos) << reply.out;
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_TRUE(holds(reply.out, "0 false negatives, 1 false positives"));
   EXPECT_EQ(reply.err, file + ":9: the file says miss, exact arithmetic hit; false positive\n");
 }
 
@@ -134,38 +119,25 @@ TEST_F(ValidateTest, line_ends_long_ratios_and_signs_are_read) {
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
   write("set/vertex-face/a.csv", text);
   const Reply reply = validate(folder / "set", {"--json"});
-  EXPECT_EQ(reply.exit_code, 0) << reply.err;
+  EXPECT_EQ(reply.status, 0) << reply.err;
   EXPECT_EQ(nlohmann::json::parse(reply.out)["checked"], 3);
 }
 
 TEST_F(ValidateTest, folders_without_queries_are_refused) {
-  const auto refusal = [](const std::string& place) {
-    const Reply reply = validate(place);
-    EXPECT_EQ(reply.exit_code, 2);
-    EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
-    return reply.err;
-  };
-  EXPECT_EQ(refusal(folder / "none"), (folder / "none") + ": there is no such folder\n");
-  EXPECT_EQ(refusal(folder.path().string()), folder.path().string() + ": has no CSV files of queries\n");
+  const std::string none = folder / "none", empty = folder.path().string();
+  EXPECT_EQ(refusal(validate(none)), none + ": there is no such folder\n");
+  EXPECT_EQ(refusal(validate(empty)), empty + ": has no CSV files of queries\n");
   const std::string stray = write("a.csv", falling("1,2", 1));
-  EXPECT_EQ(refusal(stray), stray + ": is not a folder\n");
-  EXPECT_NE(refusal(folder.path().string()).find(stray + ": is in no folder named"), std::string::npos);
-  EXPECT_NE(refusal("").find("a folder of published queries is missing"), std::string::npos);
+  EXPECT_EQ(refusal(validate(stray)), stray + ": is not a folder\n");
+  EXPECT_TRUE(holds(refusal(validate(empty)), stray + ": is in no folder named"));
+  EXPECT_TRUE(holds(refusal(validate("")), "a folder of published queries is missing"));
 }
 
 TEST_F(ValidateTest, what_is_no_regular_file_is_named_and_refused) {
   write("set/vertex-face/a.csv", falling("1,2", 1));
   const std::string pipe = folder / "set/vertex-face/b.csv";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  const Reply reply = validate(folder / "set");
-  EXPECT_EQ(reply.exit_code, 2);
-  EXPECT_EQ(reply.err, pipe + ": is not a regular file; no other is read\n");
-}
-
-TEST_F(ValidateTest, help_opens_with_examples) {
-  const Reply reply = validate("--help");
-  EXPECT_EQ(reply.exit_code, 0);
-  EXPECT_TRUE(reply.out.starts_with("Examples:\n  thinwall validate ")) << reply.out;
+  EXPECT_EQ(refusal(validate(folder / "set")), pipe + ": is not a regular file; no other is read\n");
 }
 
 }  // namespace
