@@ -75,11 +75,8 @@ TEST(SeenContacts, are_told_at_their_time_whatever_follows_from_them) {
     for (const Encounter& encounter : encounters()) {
       for (const bool response : {true, false}) {
         for (const bool full_plan : {true, false}) {
-          WorldOptions options;
-          options.policy = policy;
-          options.substeps = substeps;
-          options.response = response;
-          options.full_plan = full_plan;
+          const WorldOptions options = {
+              .policy = policy, .substeps = substeps, .response = response, .full_plan = full_plan};
           World world(encounter.bodies(), options);
           std::optional<double> seen;
           for (int step = 0; step < steps; ++step) {
@@ -116,10 +113,7 @@ TEST(SeenContacts, are_the_same_with_and_without_a_plan_and_an_answer) {
   for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
     for (const bool response : {true, false}) {
       for (const bool full_plan : {true, false}) {
-        WorldOptions options;
-        options.policy = policy;
-        options.response = response;
-        options.full_plan = full_plan;
+        const WorldOptions options = {.policy = policy, .response = response, .full_plan = full_plan};
         World world(bodies, options);
         world.step(steps * dt);
         std::map<std::uint32_t, double> seen;
@@ -138,9 +132,7 @@ TEST(SeenContacts, are_the_same_with_and_without_a_plan_and_an_answer) {
 TEST(SeenContacts, of_a_body_that_waits_are_told_too) {
   const Body post = ball(3, Motion::fixed, {1.125, 0, 0}, {0, 0, 0});
   for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
-    WorldOptions options;
-    options.policy = policy;
-    options.max_events = 1;
+    const WorldOptions options = {.policy = policy, .max_events = 1};
     World world(
         {ball(1, Motion::free, {0, 0, 0}, {10, 0, 0}), ball(2, Motion::driven, {0.725, -4, 0}, {0, 10, 0}), post},
         options);

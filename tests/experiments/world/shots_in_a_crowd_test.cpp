@@ -29,18 +29,12 @@ Lane drawn_lane(std::uint32_t k) {
   WorldDraw draw(1000 + k);
   const double speed = draw.in(5, 100), angle = draw.in(0, 1), phase = draw.in(0, 1), y = lane_width * k;
   const double across = speed * std::cos(angle) * dt;
-  Lane lane;
-  Body wall;
-  wall.id = 2 * k;
-  wall.shape = Aabb<double>{{0, y, 0}, {thickness / 2, lane_width / 2 - 1, 10}};
-  wall.is_static = true;
-  Body ball;
-  ball.id = 2 * k + 1;
-  ball.shape = Sphere<double>{{-(2 + phase) * across - radius - thickness / 2, y, 0}, radius};
-  ball.velocity = {speed * std::cos(angle), speed * std::sin(angle), 0};
-  lane.bodies = {wall, ball};
-  lane.chance = std::max(0.0, 1 - (thickness + 2 * radius) / across);
-  return lane;
+  const Aabb<double> wall{{0, y, 0}, {thickness / 2, lane_width / 2 - 1, 10}};
+  const Sphere<double> ball{{-(2 + phase) * across - radius - thickness / 2, y, 0}, radius};
+  const Vec3<double> velocity = {speed * std::cos(angle), speed * std::sin(angle), 0};
+  return {.bodies = {{.id = 2 * k, .name = {}, .shape = wall, .is_static = true},
+                     {.id = 2 * k + 1, .name = {}, .shape = ball, .velocity = velocity}},
+          .chance = std::max(0.0, 1 - (thickness + 2 * radius) / across)};
 }
 
 /// Bodies of every shape that meet each other, and no lane.
@@ -56,16 +50,8 @@ std::vector<Body> drawn_crowd() {
   return crowd;
 }
 
-WorldOptions stepped_by(TimePolicy policy) {
-  WorldOptions options;
-  options.policy = policy;
-  options.substeps = 3;
-  options.response = false;
-  return options;
-}
-
 World stepped(std::vector<Body> bodies, TimePolicy policy, std::vector<bool>& seen) {
-  World world(std::move(bodies), stepped_by(policy));
+  World world(std::move(bodies), {.policy = policy, .substeps = 3, .response = false});
   for (int step = 0; step < steps; ++step) {
     world.step(dt);
     for (const Hit& hit : world.hits()) {

@@ -14,26 +14,11 @@ constexpr TimePolicy policies[] = {TimePolicy::discrete, TimePolicy::substeps, T
                                    TimePolicy::event_driven};
 
 Body ball(std::uint32_t id, const Vec3<double>& place, const Vec3<double>& velocity, double radius = 0.5) {
-  Body body;
-  body.id = id;
-  body.shape = Sphere<double>{place, radius};
-  body.velocity = velocity;
-  body.restitution = 1;
-  return body;
+  return {.id = id, .name = {}, .shape = Sphere<double>{place, radius}, .velocity = velocity, .restitution = 1};
 }
 
 Body wall(std::uint32_t id, const Vec3<double>& place, const Vec3<double>& half) {
-  Body body;
-  body.id = id;
-  body.shape = Aabb<double>{place, half};
-  body.is_static = true;
-  return body;
-}
-
-WorldOptions by(TimePolicy policy) {
-  WorldOptions options;
-  options.policy = policy;
-  return options;
+  return {.id = id, .name = {}, .shape = Aabb<double>{place, half}, .is_static = true};
 }
 
 double x_of(const World& world, std::uint32_t id) { return position(*world.find(id)).x(); }
@@ -47,7 +32,7 @@ std::string kinds(const World& world) {
 
 TEST(World, looks_at_the_end_of_a_step_and_lets_a_bullet_through_or_sweeps_and_does_not) {
   for (const TimePolicy policy : policies) {
-    World world({ball(1, {0.25, 0, 0}, {100, 0, 0}, 0.01), wall(2, {5, 0, 0}, {0.001, 4, 4})}, by(policy));
+    World world({ball(1, {0.25, 0, 0}, {100, 0, 0}, 0.01), wall(2, {5, 0, 0}, {0.001, 4, 4})}, {.policy = policy});
     world.step(0.1);
     const bool sweeps = policy == TimePolicy::clamp || policy == TimePolicy::event_driven;
     EXPECT_EQ(x_of(world, 1) > 5, !sweeps) << name_of(policy);
@@ -63,8 +48,7 @@ TEST(World, looks_at_the_end_of_a_step_and_lets_a_bullet_through_or_sweeps_and_d
 }
 
 TEST(World, substeps_catch_what_their_poses_catch) {
-  WorldOptions options = by(TimePolicy::substeps);
-  options.substeps = 4;  // poses at x = 2.5, 5, ...
+  const WorldOptions options = {.policy = TimePolicy::substeps, .substeps = 4};  // poses at x = 2.5, 5, ...
   World world({ball(1, {0, 0, 0}, {100, 0, 0}, 0.01), wall(2, {5.005, 0, 0}, {0.001, 4, 4})}, options);
   world.step(0.1);
   EXPECT_LT(vx_of(world, 1), 0);
@@ -74,14 +58,15 @@ TEST(World, substeps_catch_what_their_poses_catch) {
 
 TEST(World, two_fast_bodies_meet_like_any_other_pair) {
   for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
-    World world({ball(1, {-100, 0, 0}, {1000, 0, 0}), ball(2, {60, 0, 0}, {-600, 0, 0})}, by(policy));
+    World world({ball(1, {-100, 0, 0}, {1000, 0, 0}), ball(2, {60, 0, 0}, {-600, 0, 0})}, {.policy = policy});
     world.step(1);
     EXPECT_EQ(vx_of(world, 1), -600);
     EXPECT_EQ(vx_of(world, 2), 1000);
     EXPECT_NEAR(world.hits().at(0).time, 159.0 / 1600, 1e-15);
     EXPECT_LT(x_of(world, 1), x_of(world, 2));
   }
-  World discrete({ball(1, {-100, 0, 0}, {1000, 0, 0}), ball(2, {60, 0, 0}, {-600, 0, 0})}, by(TimePolicy::discrete));
+  World discrete({ball(1, {-100, 0, 0}, {1000, 0, 0}), ball(2, {60, 0, 0}, {-600, 0, 0})},
+                 {.policy = TimePolicy::discrete});
   discrete.step(1);
   EXPECT_EQ(vx_of(discrete, 1), 1000);  // they passed through each other
 }
@@ -89,7 +74,7 @@ TEST(World, two_fast_bodies_meet_like_any_other_pair) {
 TEST(World, masses_of_one_to_ten_to_the_sixteen_bounce_without_loss) {
   Body heavy = ball(2, {4, 0, 0}, {0, 0, 0});
   heavy.mass = 1e16;
-  World world({ball(1, {0, 0, 0}, {1, 0, 0}), heavy}, by(TimePolicy::event_driven));
+  World world({ball(1, {0, 0, 0}, {1, 0, 0}), heavy}, {.policy = TimePolicy::event_driven});
   world.step(4);
   EXPECT_EQ(vx_of(world, 1), -1);
   EXPECT_EQ(vx_of(world, 2), 2e-16);
@@ -99,15 +84,14 @@ TEST(World, only_the_last_ball_of_a_cradle_leaves) {
   std::vector<Body> bodies;
   for (std::uint32_t id = 1; id <= 5; ++id) bodies.push_back(ball(id, {id * 1.0, 0, 0}, {0, 0, 0}));
   bodies.push_back(ball(0, {-3, 0, 0}, {8, 0, 0}));
-  World world(bodies, by(TimePolicy::event_driven));
+  World world(bodies, {.policy = TimePolicy::event_driven});
   world.step(1);
   for (std::uint32_t id = 0; id < 5; ++id) EXPECT_EQ(vx_of(world, id), 0) << id;
   EXPECT_EQ(vx_of(world, 5), 8);
 }
 
 TEST(World, a_ball_between_two_walls_bounces_within_one_step_and_never_leaves) {
-  WorldOptions options = by(TimePolicy::event_driven);
-  options.max_events = 1000;
+  WorldOptions options = {.policy = TimePolicy::event_driven, .max_events = 1000};
   World world({wall(1, {-2, 0, 0}, {1, 1, 1}), wall(2, {2, 0, 0}, {1, 1, 1}), ball(3, {0.25, 0, 0}, {64, 0, 0}, 0.5)},
               options);
   world.step(1);  // 64 m in a gap of 1 m
@@ -127,15 +111,14 @@ TEST(World, a_ball_between_two_walls_bounces_within_one_step_and_never_leaves) {
 
 TEST(World, two_walls_hit_at_once_turn_both_components) {
   World world({wall(1, {3, 0, 0}, {1, 9, 9}), wall(2, {0, 3, 0}, {9, 1, 9}), ball(3, {0, 0, 0}, {6, 6, 0}, 0.5)},
-              by(TimePolicy::event_driven));
+              {.policy = TimePolicy::event_driven});
   world.step(0.5);
   EXPECT_EQ(world.find(3)->velocity, Vec3<double>(-6, -6, 0));
 }
 
 TEST(World, a_body_at_rest_stays_where_it_is) {
   for (const TimePolicy policy : policies) {
-    WorldOptions options = by(policy);
-    options.gravity = {0, -9.81, 0};
+    const WorldOptions options = {.gravity = {0, -9.81, 0}, .policy = policy};
     Body rests = ball(1, {0, 0.5, 0}, {0, 0, 0});
     rests.restitution = 0;
     World world({rests, wall(2, {0, -1, 0}, {5, 1, 5})}, options);
@@ -151,16 +134,14 @@ TEST(World, a_body_at_rest_stays_where_it_is) {
 TEST(World, a_clamped_body_slides_on_what_it_rests_on) {
   Body slides = ball(1, {0, 0.5, 0}, {3, 0, 0});
   slides.restitution = 0;
-  WorldOptions options = by(TimePolicy::clamp);
-  options.gravity = {0, -8, 0};
+  const WorldOptions options = {.gravity = {0, -8, 0}, .policy = TimePolicy::clamp};
   World world({slides, wall(2, {0, -1, 0}, {50, 1, 5})}, options);
   for (int k = 0; k < 8; ++k) world.step(0.125);
   EXPECT_EQ(x_of(world, 1), 3);
 }
 
 TEST(World, the_larger_restitution_counts_and_a_fall_bounces_to_its_square) {
-  WorldOptions options = by(TimePolicy::event_driven);
-  options.gravity = {0, -10, 0};
+  const WorldOptions options = {.gravity = {0, -10, 0}, .policy = TimePolicy::event_driven};
   Body drops = ball(1, {0, 1.5, 0}, {0, 0, 0});
   drops.restitution = 0.25;
   Body floor = wall(2, {0, -1, 0}, {5, 1, 5});
@@ -183,8 +164,7 @@ TEST(World, energy_and_momentum_stay_where_nothing_is_lost) {
     bodies.push_back(ball(id, {2 * x, 2 * y, 2 * z}, {7 - 5 * y, 3 * z - 2 * x, 4 * x - 3}, 0.4));
     bodies.back().mass = 1 + id % 4;
   }
-  WorldOptions options = by(TimePolicy::event_driven);
-  options.max_events = 100;
+  const WorldOptions options = {.policy = TimePolicy::event_driven, .max_events = 100};
   World world(bodies, options);
   const double before = world.energy();
   const auto momentum = [&] {
@@ -203,7 +183,7 @@ TEST(World, energy_and_momentum_stay_where_nothing_is_lost) {
 TEST(World, overlapping_and_nested_bodies_are_in_contact_at_once_and_are_parted) {
   for (const TimePolicy policy : policies) {
     World world({ball(1, {0, 0, 0}, {0, 0, 0}), ball(2, {0, 0, 0}, {0, 0, 0}, 0.1), ball(3, {0.9, 0, 0}, {0, 0, 0})},
-                by(policy));
+                {.policy = policy});
     world.step(0.01);
     EXPECT_EQ(kinds(world).substr(0, 2), "bb") << name_of(policy);
     for (int k = 0; k < 40; ++k) world.step(0.01);
@@ -214,8 +194,7 @@ TEST(World, overlapping_and_nested_bodies_are_in_contact_at_once_and_are_parted)
 TEST(World, what_has_no_finite_mass_moves_on_whatever_it_meets) {
   Body piston = ball(1, {0, 0, 0}, {10, 0, 0});
   piston.mass = immovable;
-  WorldOptions options = by(TimePolicy::event_driven);
-  options.gravity = {0, -9.81, 0};
+  const WorldOptions options = {.gravity = {0, -9.81, 0}, .policy = TimePolicy::event_driven};
   Body pushed = ball(2, {5, 0, 0}, {0, 0, 0});
   pushed.gravity_scale = 0;
   World world({piston, pushed}, options);
@@ -226,8 +205,7 @@ TEST(World, what_has_no_finite_mass_moves_on_whatever_it_meets) {
 }
 
 TEST(World, without_response_bodies_pass_and_every_meeting_is_told) {
-  WorldOptions options = by(TimePolicy::event_driven);
-  options.response = false;
+  const WorldOptions options = {.policy = TimePolicy::event_driven, .response = false};
   World world(
       {ball(1, {0, 0, 0}, {100, 0, 0}, 0.01), wall(2, {5, 0, 0}, {0.001, 4, 4}), wall(3, {7, 0, 0}, {0.5, 4, 4})},
       options);
@@ -240,8 +218,7 @@ TEST(World, without_response_bodies_pass_and_every_meeting_is_told) {
 }
 
 TEST(World, a_gate_misses_what_moves_less_than_its_part_of_the_size) {
-  WorldOptions options = by(TimePolicy::event_driven);
-  options.gate = 0.5;
+  const WorldOptions options = {.policy = TimePolicy::event_driven, .gate = 0.5};
   World world({ball(1, {0, 0, 0}, {1, 0, 0}), wall(2, {1, 0, 0}, {0.3, 4, 4})}, options);
   world.step(0.24);  // 0.24 m of 0.5 m: not swept, though they meet after 0.2 m
   EXPECT_EQ(kinds(world), "");
@@ -258,7 +235,7 @@ TEST(World, masks_and_missing_shapes_meet_nobody) {
   other.group = 4;
   Body blind = ball(1, {0, 0, 0}, {0, 0, 0});
   blind.mask = 3;
-  World world({blind, other, ghost}, by(TimePolicy::event_driven));
+  World world({blind, other, ghost}, {.policy = TimePolicy::event_driven});
   world.step(1);
   EXPECT_EQ(world.report().pairs, 0U);
   EXPECT_EQ(kinds(world), "");
@@ -269,7 +246,7 @@ TEST(World, a_listener_may_remove_what_it_hears_of_and_must_not_step) {
   bullet.name = "bullet";
   Body target = wall(2, {5, 0, 0}, {0.001, 4, 4});
   target.name = "wall";
-  World world({bullet, target}, by(TimePolicy::event_driven));
+  World world({bullet, target}, {.policy = TimePolicy::event_driven});
   std::string log;
   world.events().listen([&](const CollisionEvent& event) {
     log += world.events().to_text(event) + "; ";
@@ -284,7 +261,7 @@ TEST(World, a_listener_may_remove_what_it_hears_of_and_must_not_step) {
 }
 
 TEST(World, hands_move_bodies_between_steps) {
-  World world({ball(1, {0, 0, 0}, {0, 0, 0}), wall(2, {9, 0, 0}, {1, 1, 1})}, by(TimePolicy::event_driven));
+  World world({ball(1, {0, 0, 0}, {0, 0, 0}), wall(2, {9, 0, 0}, {1, 1, 1})}, {.policy = TimePolicy::event_driven});
   world.step(1);
   world.move(2, {-8.25, 0, 0});  // onto the ball: what is kept of bodies at rest is renewed
   world.step(1);
@@ -298,7 +275,7 @@ TEST(World, hands_move_bodies_between_steps) {
 }
 
 TEST(World, time_does_not_drift) {
-  World world({}, by(TimePolicy::event_driven));
+  World world({}, {.policy = TimePolicy::event_driven});
   for (int k = 0; k < 1000000; ++k) world.step(0.1);
   EXPECT_EQ(world.time(), 1000000 * 0.1);
   EXPECT_EQ(world.report().step, 1000000U);
