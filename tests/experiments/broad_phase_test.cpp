@@ -10,6 +10,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 namespace {
@@ -145,7 +146,7 @@ TEST(BroadPhase, tells_of_the_largest_worlds_within_the_terminal) {
         made_up_row(count, {made_up_finding("all_ordered_pairs", 1.23456e-9 * std::sqrt(double(count + 20000))),
                             made_up_finding("uniform_grid", 1.5e-4 * double(count + 20000))}));
   const Outcome outcome = outcome_of_rows(rows);  // a table that is too wide throws
-  EXPECT_NE(outcome.summary.find("10,000,000"), std::string::npos) << outcome.summary;
+  EXPECT_TRUE(holds(outcome.summary, "10,000,000"));
   EXPECT_EQ(outcome.answer.find("Of 10,000,000 uniform balls"), 0U) << outcome.answer;
   EXPECT_EQ(value_of(table_of(outcome, "growth"), 0, "counts"), Value(std::int64_t{6}));
 }
@@ -162,7 +163,7 @@ TEST(BroadPhase, self_test_fails_who_misses_a_pair_or_invents_one) {
   EXPECT_FALSE(all_right(rows));
   f.is_exact = true;
   EXPECT_FALSE(outcome_of_rows(rows).self_test_passed);
-  EXPECT_NE(outcome_of_rows(rows).sections[0].text.find("r_tree misses 1 and adds 1 of 3 pairs"), std::string::npos);
+  EXPECT_TRUE(holds(outcome_of_rows(rows).sections[0].text, "r_tree misses 1 and adds 1 of 3 pairs"));
 }
 
 TEST(BroadPhase, finds_the_exponent_of_a_power_and_no_interval_where_it_is_exact) {
@@ -191,15 +192,9 @@ TEST(BroadPhase, fits_only_counts_beyond_the_fixed_costs_and_sees_where_the_loop
 }
 
 TEST(BroadPhase, refuses_a_world_that_nobody_would_look_at) {
-  try {
-    broad_phase_run("broad_phase = [\"all_pairs\"]\nloops_up_to = 5\ncount = [6]");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("'broad_phase': [\"all_pairs\"] is not allowed; at least one that is not left out of 6 balls"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(holds(
+      error_of<UsageError>([] { broad_phase_run("broad_phase = [\"all_pairs\"]\nloops_up_to = 5\ncount = [6]"); }),
+      "'broad_phase': [\"all_pairs\"] is not allowed; at least one that is not left out of 6 balls"));
 }
 
 }  // namespace

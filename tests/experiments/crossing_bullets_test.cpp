@@ -17,6 +17,7 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "support/experiment_run.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -177,25 +178,18 @@ TEST(CrossingBulletsConfig, asks_every_method_of_the_list_that_serves_two_sphere
 TEST(CrossingBulletsConfig, answers_for_any_choice_of_rules) {
   const Outcome outcome =
       crossing_outcome("rule = ['bisection']\nspeed = [10]\nratio = [1]\nangle_deg = [90]\nshots = 20");
-  EXPECT_NE(outcome.answer.find("bisection misses 0 of"), std::string::npos) << outcome.answer;
+  EXPECT_TRUE(holds(outcome.answer, "bisection misses 0 of"));
   EXPECT_TRUE(outcome.figures.empty());
 }
 
 TEST(CrossingBulletsConfig, refuses_what_cannot_be_asked) {
-  const auto refusal = [](const char* text) -> std::string {
-    try {
-      crossing_run(text);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto refusal = [](const char* text) { return error_of<UsageError>([&] { crossing_run(text); }); };
   for (const char* text :
        {"speed = [1e-6]", "speed = [1e8]", "ratio = [1]\nangle_deg = [1e-9]", "ratio = [1]\nangle_deg = [0]"}) {
     EXPECT_NE(refusal(text), "") << text;
   }
-  EXPECT_NE(refusal("speed = [1e8]").find("a path of 0.01 to 10000 contact distances a step"), std::string::npos);
-  EXPECT_NE(refusal("ratio = [1]\nangle_deg = [1e-9]").find("not so at ratio 1"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("speed = [1e8]"), "a path of 0.01 to 10000 contact distances a step"));
+  EXPECT_TRUE(holds(refusal("ratio = [1]\nangle_deg = [1e-9]"), "not so at ratio 1"));
 }
 
 // ---- The crossing bullets' encounters, oracle and theory, without any rule: limits that have a formula of their own.

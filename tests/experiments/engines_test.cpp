@@ -20,11 +20,11 @@
 #include <thinwall/experiments/engines/speaker.hpp>
 #include <thinwall/experiments/engines/stages.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 
 #include "support/experiment_run.hpp"
 #include "support/program.hpp"
+#include "support/reply.hpp"
 
 namespace thinwall {
 
@@ -368,14 +368,8 @@ TEST(Speakers, that_die_hang_or_talk_nonsense_are_named_errors) {
   EXPECT_EQ(said("exit 3"), "It has died");
   EXPECT_EQ(said("read line; kill -9 $$"), "It has died");
   EXPECT_EQ(said("exec sleep 100", 1, 0.5), "It has said nothing for 0.5 s");
-  EXPECT_EQ(said("echo garbage"), "It says what is not JSON: \"garbage\"");
-  try {
-    Speaker nobody("It", {"/no/such/program"}, "/");
-    nobody.hear(5);
-    ADD_FAILURE() << "heard nobody";
-  } catch (const SpeakerError& error) {
-    EXPECT_STREQ(error.what(), "It has died");
-  }
+  EXPECT_EQ(said("read line; echo garbage"), "It says what is not JSON: \"garbage\"");
+  EXPECT_EQ(error_of<SpeakerError>([] { Speaker("It", {"/no/such/program"}, "/").hear(5); }), "It has died");
 }
 
 /// A ball and boxes that meet after 1.7, 1.4 and 1.4 of 4 m, and a ball that stays in front.
@@ -463,14 +457,13 @@ TEST(Engines, bear_worlds_of_their_own_kind_on_other_threads) {
 }
 
 TEST(Engines, says_what_is_missing_and_does_the_rest) {
-  std::size_t missing = 0;
-  for (const Engine& engine : engine_list()) missing += engine.is_there() ? 0U : 1U;
+  const auto missing = std::ranges::count_if(engine_list(), [](const Engine& engine) { return !engine.is_there(); });
   const auto run = run_of(engines_experiment(), few_engine_shots, {.seed = 1, .trials = 5});
-  EXPECT_EQ(run->notes().size(), missing);
+  EXPECT_EQ(std::ssize(run->notes()), missing);
   const Outcome outcome = outcome_of(*run);
   for (const std::string& note : run->notes()) {
-    EXPECT_NE(outcome.summary.find(note), std::string::npos);
-    EXPECT_NE(outcome.sections[0].text.find(note), std::string::npos);
+    EXPECT_TRUE(holds(outcome.summary, note));
+    EXPECT_TRUE(holds(outcome.sections[0].text, note));
   }
   EnginePlan plan = engine_plan(few_engine_shots);
   plan.missing = {engine_called(engine_list(), "bullet")};
@@ -482,13 +475,12 @@ TEST(Engines, says_what_is_missing_and_does_the_rest) {
 TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {
   const TemporaryFolder folder;
   write_text(folder / "few.toml", "experiment = 'engines'" + std::string(few_engine_shots));
-  std::ostringstream reply, notes;
-  const int status = run_program({"thinwall", "run", folder / "few.toml", "--trials", "2", "--out", folder / "out"},
-                                 std::vector{engines_experiment()}, reply, notes);
-  EXPECT_NE(status, 2) << notes.str();
+  const Reply reply =
+      call_program({"run", folder / "few.toml", "--trials", "2", "--out", folder / "out"}, {engines_experiment()});
+  EXPECT_NE(reply.status, 2) << reply.err;
   std::string expected;
   for (const std::string& note : run_of(engines_experiment(), few_engine_shots)->notes()) expected += note + "\n";
-  EXPECT_TRUE(notes.str().starts_with(expected + "engines: ")) << notes.str();
+  EXPECT_TRUE(reply.err.starts_with(expected + "engines: ")) << reply.err;
 }
 
 TEST(Engines, hold_every_shot_once_in_volleys) {
@@ -507,16 +499,11 @@ TEST(Engines, answer_with_theory_and_hand_over_pictures_of_which_one_is_of_times
   const Outcome outcome = outcome_of(*run_of(engines_experiment(), "shots = 3\nstage_shots = 3"));
   EXPECT_TRUE(table_of(outcome, "timings").is_timing);
   for (const Figure& figure : outcome.figures) EXPECT_EQ(figure.is_timing, figure.name == "times");
-  EXPECT_NE(outcome.answer.find("theory says 93.1 %"), std::string::npos) << outcome.answer;
+  EXPECT_TRUE(holds(outcome.answer, "theory says 93.1 %"));
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    run_of(engines_experiment(), text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of<UsageError>([&] { run_of(engines_experiment(), text); });
 }
 
 TEST(EnginesConfig, paths_are_sorted_and_engines_keep_their_order) {
@@ -546,11 +533,11 @@ TEST(EnginesConfig, names_the_setting_that_is_out_of_range) {
                                   {"substeps", "substeps = [1]"},
                                   {"engine", "engine = ['unity']"}}) {
     const std::string said = refusal(text);
-    EXPECT_NE(said.find("key '" + std::string(key) + "'"), std::string::npos) << text << ": " << said;
+    EXPECT_TRUE(holds(said, "key '" + std::string(key) + "'")) << text << ": " << said;
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
   }
-  EXPECT_NE(refusal("wall_size = [100]").find("at least 201 m"), std::string::npos) << refusal("wall_size = [100]");
-  EXPECT_NE(refusal("path = [0.01]").find("at least 0.0275 m"), std::string::npos) << refusal("path = [0.01]");
+  EXPECT_TRUE(holds(refusal("wall_size = [100]"), "at least 201 m"));
+  EXPECT_TRUE(holds(refusal("path = [0.01]"), "at least 0.0275 m"));
 }
 
 TEST(EnginesConfig, an_engine_asked_for_by_name_is_there_or_refused_with_what_brings_it) {
@@ -559,7 +546,7 @@ TEST(EnginesConfig, an_engine_asked_for_by_name_is_there_or_refused_with_what_br
     if (engine.is_there()) {
       EXPECT_EQ(said, "");
     } else {
-      EXPECT_NE(said.find(engine.remedy), std::string::npos) << said;
+      EXPECT_TRUE(holds(said, engine.remedy));
     }
   }
 }
@@ -569,7 +556,7 @@ TEST(EnginesConfig, an_engine_with_no_path_that_it_can_do_is_refused) {
   for (const Engine& engine : engines) {
     if (engine.name != "box2d" || !engine.is_there()) continue;
     const std::string said = refusal("engine = ['box2d']\npath = [3, 5]");
-    EXPECT_NE(said.find("one of at most 2 m"), std::string::npos) << said;
+    EXPECT_TRUE(holds(said, "one of at most 2 m"));
     return;
   }
   GTEST_SKIP() << "box2d is not in this build: libbox2d-dev and -DTHINWALL_PEERS=ON bring it";

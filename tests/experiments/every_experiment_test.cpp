@@ -15,6 +15,7 @@
 #include <thinwall_embedded.hpp>
 
 #include "support/experiment_run.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 namespace {
@@ -41,8 +42,7 @@ TEST_P(EveryExperiment, asks_a_question_and_has_defaults_and_a_page) {
   EXPECT_TRUE(experiment().question.ends_with('?'));
   EXPECT_FALSE(experiment().default_toml.empty());
   const std::string_view page = embedded_page(GetParam());
-  for (const char* heading : {"\n## What is asked\n", "\n## Limits\n"})
-    EXPECT_NE(page.find(heading), std::string_view::npos) << heading;
+  for (const char* heading : {"\n## What is asked\n", "\n## Limits\n"}) EXPECT_TRUE(holds(page, heading)) << heading;
 }
 
 TEST_P(EveryExperiment, names_every_unit_apart) {
@@ -103,7 +103,7 @@ TEST_P(EveryExperiment, refuses_by_name_what_a_key_may_not_be) {
          {"nan", "[nan]", "[]", "'no such thing'", "['no such thing']", "-1e99", "[-1e99]", "1979-05-27"}) {
       if (value.is_boolean() && std::string_view(wrong) == "nan") continue;
       const std::string text = std::string(key.str()) + " = " + wrong;
-      EXPECT_NE(refusal_of(experiment(), text).find(std::string(key.str())), std::string::npos) << text;
+      EXPECT_TRUE(holds(refusal_of(experiment(), text), std::string(key.str()))) << text;
     }
   }
   EXPECT_THROW(configured("no_such_key = 1"), UsageError);

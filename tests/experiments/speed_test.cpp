@@ -7,6 +7,7 @@
 #include <thinwall/experiments/speed/model.hpp>
 
 #include "experiments/speed_run.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 namespace {
@@ -77,10 +78,10 @@ TEST(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
   EXPECT_EQ(race.series[0].y, std::vector<double>{40});
   EXPECT_EQ(race.series[2].label, "Bullet, GJK cast");
   EXPECT_EQ(race.series[2].x, std::vector<double>{3e-2});
-  EXPECT_NE(outcome.figures[0].caption.find("Bullet, GJK cast misses 376 and invents 4"), std::string::npos);
+  EXPECT_TRUE(holds(outcome.figures[0].caption, "Bullet, GJK cast misses 376 and invents 4"));
   const std::string text = whole_text(outcome);
-  EXPECT_NE(text.find("380 wrong verdicts"), std::string::npos);
-  EXPECT_NE(text.find("take 20.0 to 20 times as long"), std::string::npos) << text;  // 880 ns to the 44 of the same run
+  EXPECT_TRUE(holds(text, "380 wrong verdicts"));
+  EXPECT_TRUE(holds(text, "take 20.0 to 20 times as long"));  // 880 ns to the 44 of the same run
 }
 
 TEST(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
@@ -101,12 +102,12 @@ TEST(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_rest)
   const TemporaryFolder folder;
   write_both(folder.path());
   const std::string text = whole_text(outcome_of(*speed_run(folder.path())));
-  EXPECT_NE(text.find("Left out: batch: it is not in the folder of the benchmarks"), std::string::npos);
-  EXPECT_NE(text.find("Left out: peers: built without ODE: install"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "Left out: batch: it is not in the folder of the benchmarks"));
+  EXPECT_TRUE(holds(text, "Left out: peers: built without ODE: install"));
   std::filesystem::remove(folder.path() / "peers");
   const std::string without = whole_text(outcome_of(*speed_run(folder.path())));
-  EXPECT_NE(without.find("No other library took part."), std::string::npos);
-  EXPECT_NE(without.find("configure with -DTHINWALL_PEERS=ON and build again"), std::string::npos);
+  EXPECT_TRUE(holds(without, "No other library took part."));
+  EXPECT_TRUE(holds(without, "configure with -DTHINWALL_PEERS=ON and build again"));
 }
 
 TEST(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
@@ -119,7 +120,7 @@ TEST(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
                    "\nEND");
   const Outcome outcome = outcome_of(*speed_run(folder.path()));  // the number of the process, in every round another
   EXPECT_FALSE(outcome.self_test_passed);
-  EXPECT_NE(outcome.summary.find("FAILED"), std::string::npos);
+  EXPECT_TRUE(holds(outcome.summary, "FAILED"));
 }
 
 TEST(Speed, reads_units_items_and_options) {
@@ -156,17 +157,7 @@ TEST(Speed, draws_batches_by_where_they_lie_with_their_floor) {
   EXPECT_EQ(panels[0].series[2].label, "floor");
   EXPECT_EQ(panels[0].series[2].x, std::vector<double>{2});
   EXPECT_EQ(panels[1].series.size(), 2U);
-  EXPECT_NE(outcome.answer.find("takes 4 to 4 ns a row at its quickest, 3 to 3 times"), std::string::npos)
-      << outcome.answer;
-}
-
-std::string failure_of(const std::filesystem::path& folder) {
-  try {
-    run_bench_program(folder, "pairs", {});
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "none";
+  EXPECT_TRUE(holds(outcome.answer, "takes 4 to 4 ns a row at its quickest, 3 to 3 times"));
 }
 
 TEST(Speed, says_which_program_failed_and_how_in_one_line) {
@@ -183,9 +174,9 @@ TEST(Speed, says_which_program_failed_and_how_in_one_line) {
         "\"no core\"}]}' >\"$out\"",
         "a/b/c: no core"}}) {
     write_script(folder.path(), "pairs", body);
-    const std::string failure = failure_of(folder.path());
-    EXPECT_NE(failure.find(said), std::string::npos) << body << ": " << failure;
-    EXPECT_NE(failure.find((folder.path() / "pairs").string()), std::string::npos) << failure;
+    const std::string failure = error_of<std::runtime_error>([&] { run_bench_program(folder.path(), "pairs", {}); });
+    EXPECT_TRUE(holds(failure, said)) << body << ": " << failure;
+    EXPECT_TRUE(holds(failure, (folder.path() / "pairs").string()));
     EXPECT_EQ(failure.find('\n'), std::string::npos) << failure;
   }
 }
@@ -194,30 +185,23 @@ TEST(Speed, a_filter_may_leave_a_program_without_a_row) {
   const TemporaryFolder folder;
   write_script(folder.path(), "pairs", "true");
   EXPECT_TRUE(run_bench_program(folder.path(), "pairs", {.filter = "nothing"}).rows.empty());
-  EXPECT_NE(outcome_of(*speed_run(folder.path(), "filter = \"nothing\"")).answer.find("no race"), std::string::npos);
+  EXPECT_TRUE(holds(outcome_of(*speed_run(folder.path(), "filter = \"nothing\"")).answer, "no race"));
 }
 
 std::string complaint_of(const std::filesystem::path& folder, const std::string& more) {
-  try {
-    speed_run(folder, more);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "none";
+  return error_of<UsageError>([&] { speed_run(folder, more); });
 }
 
 TEST(Speed, refuses_a_filter_that_is_none_and_a_folder_without_a_program) {
   const TemporaryFolder folder, empty;
   write_both(folder.path());
-  EXPECT_EQ(complaint_of(folder.path(), ""), "none");
-  EXPECT_NE(complaint_of(folder.path(), "filter = \"(\"").find("is not allowed; a regular expression, or"),
-            std::string::npos);
-  EXPECT_NE(complaint_of(folder.path(), "programs = [\"world\"]").find("is not allowed; a folder that holds"),
-            std::string::npos);
+  EXPECT_EQ(complaint_of(folder.path(), ""), "");
+  EXPECT_TRUE(holds(complaint_of(folder.path(), "filter = \"(\""), "is not allowed; a regular expression, or"));
+  EXPECT_TRUE(holds(complaint_of(folder.path(), "programs = [\"world\"]"), "is not allowed; a folder that holds"));
   for (const std::filesystem::path& nowhere : {empty.path(), empty.path() / "missing"}) {
     const std::string said = complaint_of(nowhere, "");
-    EXPECT_NE(said.find(nowhere.string()), std::string::npos) << said;
-    EXPECT_NE(said.find("cmake --build"), std::string::npos) << said;
+    EXPECT_TRUE(holds(said, nowhere.string()));
+    EXPECT_TRUE(holds(said, "cmake --build"));
   }
 }
 

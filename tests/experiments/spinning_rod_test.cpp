@@ -15,6 +15,7 @@
 #include <thinwall/experiments/spinning_rod/methods.hpp>
 
 #include "support/experiment_run.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -208,7 +209,7 @@ TEST(SpinningRodConfig, answers_for_any_choice_of_methods) {
                                                "spin_deg = [90]\ntilt_deg = [0, 90]\nstep_ratio = [2]\nflights = 20\n"
                                                "post_spin_deg = [60]\nmethod = ['" +
                                                    std::string(name) + "']"));
-    EXPECT_NE(outcome.answer.find(name), std::string::npos) << outcome.answer;
+    EXPECT_TRUE(holds(outcome.answer, name));
     EXPECT_FALSE(outcome.figures.empty());
   }
 }

@@ -13,6 +13,8 @@
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
+#include "support/said.hpp"
+
 namespace thinwall {
 
 /// Every row of a table is as long as its columns are many, and every column has a description and,
@@ -40,12 +42,7 @@ inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_vie
 
 /// What is said against such a text; empty if it is taken.
 inline std::string refusal_of(const Experiment& experiment, std::string_view text) {
-  try {
-    run_of(experiment, text);
-    return "";
-  } catch (const UsageError& refusal) {
-    return refusal.what();
-  }
+  return error_of<UsageError>([&] { run_of(experiment, text); });
 }
 
 inline std::vector<std::string> results_of(const std::vector<Unit>& units) {

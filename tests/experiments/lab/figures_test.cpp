@@ -11,6 +11,7 @@
 #include <thinwall/experiments/lab/svg.hpp>
 
 #include "support/program.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -67,7 +68,7 @@ TEST(Plot, no_name_breaks_a_figure) {
     EXPECT_EQ(xml_fault(svg), "") << name;
     std::string shown = one_line(name);
     for (auto at = shown.find("]]>"); at != std::string::npos; at = shown.find("]]>")) shown.insert(at + 2, " ");
-    EXPECT_NE(html_unescaped(svg).find(">" + shown + "<"), std::string::npos) << name;
+    EXPECT_TRUE(holds(html_unescaped(svg), ">" + shown + "<")) << name;
     EXPECT_EQ(title_of_script(plot_script(figure)), shown) << "what a check looks for";
   }
 }
@@ -93,9 +94,8 @@ TEST(Plot, bars_may_lie_along_both_axes) {
   Series& points = figure.panels[0].series[1];
   points.x_lower = {0.5, 9};
   points.x_upper = {1, 200};
-  EXPECT_NE(plot_data(figure).find("x y lower upper x_lower x_upper\n1 0 0 0.1 0.5 1\n10 0.5 0.4 0.6 9 200\n"),
-            std::string::npos);
-  EXPECT_NE(plot_script(figure).find("using 5:2:($6-$5):(0) with vectors"), std::string::npos);
+  EXPECT_TRUE(holds(plot_data(figure), "x y lower upper x_lower x_upper\n1 0 0 0.1 0.5 1\n10 0.5 0.4 0.6 9 200\n"));
+  EXPECT_TRUE(holds(plot_script(figure), "using 5:2:($6-$5):(0) with vectors"));
   points.x_upper.pop_back();
   EXPECT_THROW(plot_script(figure), std::logic_error);
 }
@@ -111,9 +111,9 @@ TEST(Plot, cells_stand_between_names) {
   panel.x_groups = {{1.5, "group"}};
   figure.panels = {panel};
   const std::string script = plot_script(figure);
-  EXPECT_NE(script.find("linecolor rgb '#123456'"), std::string::npos);
-  EXPECT_NE(script.find("with boxxyerror"), std::string::npos);
-  EXPECT_NE(script.find("set xrange [0.4:2.6]"), std::string::npos) << script;
+  EXPECT_TRUE(holds(script, "linecolor rgb '#123456'"));
+  EXPECT_TRUE(holds(script, "with boxxyerror"));
+  EXPECT_TRUE(holds(script, "set xrange [0.4:2.6]"));
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const TemporaryFolder folder;
   write_text(folder / "heat.gp", script);
@@ -121,7 +121,7 @@ TEST(Plot, cells_stand_between_names) {
   ASSERT_EQ(draw(folder.path(), "heat"), "");
   const std::string svg = read_text(folder / "heat.svg");
   for (const char* text : {"ten_thousand", "a rather long name of a row", "group", "much"}) {
-    EXPECT_NE(svg.find(text), std::string::npos) << text;
+    EXPECT_TRUE(holds(svg, text));
   }
 }
 
@@ -135,9 +135,8 @@ TEST(Plot, is_drawn_in_every_format_from_one_script) {
     for (const std::string& file : drawn_files("probability", format))
       EXPECT_FALSE(read_text(folder / file).empty()) << file;
   }
-  EXPECT_NE(read_text(folder / "probability-latex.tex").find("it's\\_@\\{a\\}"), std::string::npos)
-      << "as LaTeX wants it";
-  EXPECT_NE(read_text(folder / "probability.svg").find("_@{a}"), std::string::npos) << "as it is";
+  EXPECT_TRUE(holds(read_text(folder / "probability-latex.tex"), "it's\\_@\\{a\\}")) << "as LaTeX wants it";
+  EXPECT_TRUE(holds(read_text(folder / "probability.svg"), "_@{a}")) << "as it is";
 }
 
 TEST(Plot, refuses_what_cannot_be_drawn) {
@@ -238,7 +237,7 @@ TEST(Xml, names_the_line_and_what_is_wrong) {
       {"<a>\xff</a>", "no letter: \\xff"},
   };
   for (const auto& [text, fault] : cases) {
-    EXPECT_NE(xml_fault(text).find(fault), std::string::npos) << text << "\n" << xml_fault(text);
+    EXPECT_TRUE(holds(xml_fault(text), fault)) << text << "\n" << xml_fault(text);
   }
 }
 

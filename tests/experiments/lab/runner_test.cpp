@@ -14,6 +14,7 @@
 #include <thinwall/experiments/lab/settings.hpp>
 
 #include "support/program.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -79,12 +80,9 @@ TEST_F(RunnerTest, names_a_unit_that_fails_and_keeps_the_others) {
   units[4].compute = []() -> std::string { throw std::runtime_error("no luck"); };
   {
     Journal journal(file, "the run");
-    try {
-      compute_units(units, journal, {.threads = 1, .stop = {}, .on_progress = {}});
-      FAIL();
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "unit 'unit 4' failed: no luck");
-    }
+    EXPECT_EQ(error_of<std::runtime_error>(
+                  [&] { compute_units(units, journal, {.threads = 1, .stop = {}, .on_progress = {}}); }),
+              "unit 'unit 4' failed: no luck");
   }
   EXPECT_EQ(Journal(file, "the run").finished().size(), 4u);
 }

@@ -20,6 +20,7 @@
 #include <thinwall/experiments/lab/terminal.hpp>
 
 #include "support/program.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -120,17 +121,10 @@ TEST(Factors, draw_from_their_numbers_alone) {
 }
 
 TEST(Factors, refuse_by_name_what_is_not_allowed) {
-  const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      cells(text);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(refusal("speed = [0]").find("key 'speed': 0"), std::string::npos) << refusal("speed = [0]");
-  EXPECT_NE(refusal("step = 2").find("key 'step': 2"), std::string::npos);
-  EXPECT_NE(refusal("wall = ['finit']").find("did you mean 'finite'?"), std::string::npos);
+  const auto refusal = [](const std::string& text) { return error_of<UsageError>([&] { cells(text); }); };
+  EXPECT_TRUE(holds(refusal("speed = [0]"), "key 'speed': 0"));
+  EXPECT_TRUE(holds(refusal("step = 2"), "key 'step': 2"));
+  EXPECT_TRUE(holds(refusal("wall = ['finit']"), "did you mean 'finite'?"));
 }
 
 TEST(Terminal, is_as_wide_as_its_columns_need_and_says_once_what_is_always_so) {
@@ -148,7 +142,7 @@ TEST(Terminal, breaks_lines_and_leaves_what_is_too_wide_to_the_file) {
   Row wide = rows[0];
   wide.method = std::string(120, 'x');
   const std::string cut = terminal(table("cells", "All.", columns(), {wide, rows[1]}), {"method", "tunneled"});
-  EXPECT_NE(cut.find("And 1 columns that data/cells.csv has."), std::string::npos) << cut;
+  EXPECT_TRUE(holds(cut, "And 1 columns that data/cells.csv has."));
   EXPECT_THROW(terminal(table("cells", "All.", columns(), rows), {"nothing"}), std::logic_error);
 }
 
@@ -312,14 +306,13 @@ TEST(ShownTable, has_no_markup_of_its_words_in_markdown) {
 
 TEST(ShownTable, is_what_latex_and_html_expect) {
   const std::string latex = latex_table(small_table());
-  EXPECT_NE(latex.find("\\begin{tabular}{lrl}\n  \\toprule\n  method & angle [deg] & passed \\\\\n  \\midrule\n"
-                       "  end\\_of\\_step & $0.1$ & yes \\\\\n"),
-            std::string::npos)
-      << latex;
-  EXPECT_NE(latex.find("$-1.5\\times 10^{-7}$ & --"), std::string::npos) << latex;
+  EXPECT_TRUE(holds(latex,
+                    "\\begin{tabular}{lrl}\n  \\toprule\n  method & angle [deg] & passed \\\\\n  \\midrule\n"
+                    "  end\\_of\\_step & $0.1$ & yes \\\\\n"));
+  EXPECT_TRUE(holds(latex, "$-1.5\\times 10^{-7}$ & --"));
   const std::string html = html_table(small_table());
-  EXPECT_NE(html.find("A &amp; B."), std::string::npos);
-  EXPECT_NE(html.find("<td class=\"n\">&minus;1.5&times;10<sup>&minus;7</sup></td>"), std::string::npos) << html;
+  EXPECT_TRUE(holds(html, "A &amp; B."));
+  EXPECT_TRUE(holds(html, "<td class=\"n\">&minus;1.5&times;10<sup>&minus;7</sup></td>"));
 }
 
 Table table_with_intervals() {
@@ -338,9 +331,8 @@ TEST(ShownTable, shows_a_value_and_its_interval_in_one_cell) {
   EXPECT_EQ(markdown_table(table_with_intervals()),
             "Shares. Brackets hold its 95 % Wilson interval.\n\n| method | share [percent] |\n| :--- | ---: |\n"
             "| a | 28.72 [28.59, 28.85] |\n| b | \u2013 |\n| c | 1.5 |\n");
-  EXPECT_NE(latex_table(table_with_intervals()).find("  a & $28.72$ $[28.59, 28.85]$ \\\\\n"), std::string::npos);
-  EXPECT_NE(html_table(table_with_intervals()).find("28.72 <span class=\"i\">[28.59, 28.85]</span></td>"),
-            std::string::npos);
+  EXPECT_TRUE(holds(latex_table(table_with_intervals()), "  a & $28.72$ $[28.59, 28.85]$ \\\\\n"));
+  EXPECT_TRUE(holds(html_table(table_with_intervals()), "28.72 <span class=\"i\">[28.59, 28.85]</span></td>"));
   EXPECT_TRUE(
       csv_text(table_with_intervals()).starts_with("method,share_percent,lower,upper\na,28.723,28.591,28.851\n"));
 }

@@ -18,23 +18,28 @@
 #include "experiments/scenes/scene_text.hpp"
 #include "support/experiment_run.hpp"
 #include "support/program.hpp"
+#include "support/said.hpp"
 
 namespace thinwall {
 
 namespace {
 
-std::string complaint(const std::string& text) {
-  try {
-    scene_from(text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no complaint";
+void expect_complaint(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string said = error_of<UsageError>([&] { scene_from(text); });
+  for (const std::string& part : parts) EXPECT_TRUE(holds(said, part));
 }
 
-void expect_complaint(const std::string& text, const std::vector<std::string>& parts) {
-  const std::string said = complaint(text);
-  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said << "\nwants: " << part;
+/// Every line of a text that a terminal shows.
+void expect_narrow(const std::string& summary) {
+  std::istringstream lines(summary);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+std::vector<nlohmann::json> json_lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<nlohmann::json> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
 }
 
 const std::string ball = "scene = 'a'\n[[body]]\nshape = 'sphere'\nradius = 1\n";
@@ -242,7 +247,7 @@ TEST(SceneFile, ids_are_free_and_end_somewhere) {
   expect_complaint(ball + "id = 4\nname = 'one'\n" + none + "id = 4\n",
                    {"my.toml:9: key 'body.id': 4 is not allowed; a body before it has id 4"});
   expect_complaint(ball + "id = 4\n" + none + "id = 2\ncopies = [5, 1, 1]\n", {"a body before it has id 4"});
-  expect_complaint(ball + "id = 4294967295\n", {"no complaint"});
+  EXPECT_NO_THROW(scene_from(ball + "id = 4294967295\n"));
   expect_complaint(ball + "id = 4294967295\n" + none,
                    {"my.toml:6: key 'body.id', left at its default: 0 is not allowed"});
   expect_complaint(ball + "id = 4294967295\ncopies = [2, 1, 1]\n", {"my.toml:5: key 'body.id': 4294967295", "takes 2"});
@@ -255,7 +260,7 @@ TEST(SceneFile, ids_are_free_and_end_somewhere) {
 /// Two keys that do not go together: the one to blame may be the one that was not written.
 TEST(SceneFile, names_the_users_file_where_a_default_does_not_fit) {
   expect_complaint("trace = true\nsteps = 100000\n" + ball + "copies = [100, 1, 1]\n",
-                   {"my.toml:1: key 'trace_every', left at its default: 1 is not allowed"});
+                   {"my.toml:1: key 'trace_every', left at its default: 1 is not allowed", "positions"});
   expect_complaint(ball + "mask = -1\n", {"my.toml:5: key 'body.mask': -1 is not allowed"});
 }
 
@@ -264,12 +269,12 @@ TEST(SceneFile, refuses_a_name_that_cannot_be_shown) {
     expect_complaint(ball + "name = \"" + bad + "\"\n", {"my.toml:5: key 'body.name'", "a text of one line"});
   }
   for (const char* good : {"'", "\\\"", "]]>", "`", "\u00b5", "\U0001f3b1"}) {
-    expect_complaint(ball + "name = \"" + good + "\"\n", {"no complaint"});
+    EXPECT_NO_THROW(scene_from(ball + "name = \"" + good + "\"\n"));
   }
 }
 
 TEST(SceneFile, names_what_is_not_there) {
-  expect_complaint(ball + "[[body]]\nshape = 'none'\n\n", {"no complaint"});
+  EXPECT_NO_THROW(scene_from(ball + "[[body]]\nshape = 'none'\n\n"));
   expect_complaint("broad_phase = 'octree'\n" + ball,
                    {"my.toml:1: key 'broad_phase': 'octree' is not allowed", "r_tree"});
 }
@@ -284,12 +289,7 @@ TEST(SceneFile, pushes_name_a_body_that_moves) {
   expect_complaint(named + "[[push]]\nbody = 'left'\ntime = -1\n", {"key 'push.time'"});
   const std::string twin = "[[body]]\nshape = 'none'\nname = 'left'\n", left = "[[push]]\nbody = 'left'\n";
   expect_complaint(named + twin + left, {"key 'push.body': 'left' is not allowed", "one moving body alone"});
-  expect_complaint(named + twin + "motion = 'static'\n" + left, {"no complaint"});  // what is static is never pushed
-}
-
-TEST(SceneFile, bounds_a_trace) {
-  expect_complaint("trace = true\nsteps = 100000\n" + ball + "copies = [100, 1, 1]\n",
-                   {"key 'trace_every'", "positions"});
+  EXPECT_NO_THROW(scene_from(named + twin + "motion = 'static'\n" + left));  // what is static is never pushed
 }
 
 TEST(SceneFile, steps_are_the_trials_of_the_command_line) {
@@ -361,11 +361,8 @@ TEST(SceneRun, hands_over_described_tables_and_a_verdict) {
   EXPECT_EQ(value_of(table_of(outcome, "events"), 0, "first"), Value(std::string("bullet")));
   EXPECT_FALSE(table_of(outcome, "plan").rows.empty());
   EXPECT_TRUE(table_of(outcome, "timings").is_timing);
-  for (const Table& table : outcome.tables) {
-    for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.columns.size()) << table.name;
-  }
-  std::istringstream summary(outcome.summary);
-  for (std::string line; std::getline(summary, line);) EXPECT_LE(line.size(), 100U) << line;
+  expect_described_tables(outcome);
+  expect_narrow(outcome.summary);
 }
 
 /// A policy that claims to miss nothing, and did.
@@ -383,10 +380,8 @@ TEST(SceneRun, a_broken_claim_fails_the_self_test) {
 }
 
 TEST(SceneRun, traces_what_a_viewer_needs) {
-  Scene scene = scene_from(bullet_text("trace_every = 4\n"));
-  std::istringstream trace(trace_of(scene));
-  std::vector<nlohmann::json> lines;
-  for (std::string line; std::getline(trace, line);) lines.push_back(nlohmann::json::parse(line));
+  const Scene scene = scene_from(bullet_text("trace_every = 4\n"));
+  const std::vector<nlohmann::json> lines = json_lines(trace_of(scene));
   ASSERT_EQ(lines.size(), 4U);  // the bodies; steps 0, 4 and 6
   EXPECT_EQ(lines[0]["bodies"][0]["name"], "bullet");
   EXPECT_EQ(lines[0]["bodies"][0]["shape"]["type"], "sphere");
@@ -404,9 +399,7 @@ TEST(SceneRun, traces_how_bodies_turn) {
       "scene = 'turns'\ndt = 0.5\nsteps = 2\n[[body]]\nshape = 'capsule'\nradius = 1\nheight = 6\naxis = [1, 0, 0]\n"
       "angular_velocity = [0, 0, 1.5707963267948966]\n[[body]]\nshape = 'turned_box'\nsize = [1, 1, 1]\nat = [9, 0, 0]\nturns = true\n"
       "[[body]]\nshape = 'sphere'\nradius = 1\nat = [0, 0, 9]\nangular_velocity = [0, 5, 0]\n";
-  std::istringstream trace(trace_of(scene_from(text)));
-  std::vector<nlohmann::json> lines;
-  for (std::string line; std::getline(trace, line);) lines.push_back(nlohmann::json::parse(line));
+  const std::vector<nlohmann::json> lines = json_lines(trace_of(scene_from(text)));
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[1]["turning"][0]["half_core"], nlohmann::json({2.0, 0.0, 0.0}));
   const nlohmann::json& rod = lines[3]["turning"][0];
@@ -415,7 +408,7 @@ TEST(SceneRun, traces_how_bodies_turn) {
   EXPECT_EQ(rod["angular_velocity"][2], 1.5707963267948966);
   EXPECT_EQ(lines[3]["turning"][1]["axes"].size(), 3U);
   EXPECT_EQ(lines[3]["turning"][2]["angular_velocity"][1], 5);
-  EXPECT_EQ(trace_of(scene_from(bullet_text())).find("turning"), std::string::npos);
+  EXPECT_FALSE(holds(trace_of(scene_from(bullet_text())), "turning"));
 }
 
 /// Bits do not depend on threads, nor on what the plan leaves out.
@@ -453,20 +446,12 @@ TEST(Comparison, names_every_policy_and_step_and_an_exact_run_finer_than_any) {
 }
 
 TEST(Comparison, refuses_steps_that_do_not_fit) {
-  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [1]\n"), UsageError);
-  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [0]\n"), UsageError);
-  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\ndt = [1e-9]\n"), UsageError);
-  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\npolicy = ['sweep']\n"), UsageError);
-  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeats = 0\n"), UsageError);
-  EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\nrepeat = 1\n"), UsageError);
-  try {
-    comparison_from("scene = 'short'\nsteps = 1\n");
-    ADD_FAILURE() << "the default steps are longer than the scene";
-  } catch (const UsageError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("my.toml:1: key 'compare.dt', left at its default: [0.0041"))
-        << error.what();
-    EXPECT_NE(std::string(error.what()).find("is not allowed; at most the scene's"), std::string::npos);
-  }
+  for (const std::string bad :
+       {"dt = [1]", "dt = [0]", "dt = [1e-9]", "policy = ['sweep']", "repeats = 0", "repeat = 1"})
+    EXPECT_THROW(comparison_from(bullet_text() + "\n[compare]\n" + bad + "\n"), UsageError) << bad;
+  const std::string said = error_of<UsageError>([] { comparison_from("scene = 'short'\nsteps = 1\n"); });
+  EXPECT_TRUE(said.starts_with("my.toml:1: key 'compare.dt', left at its default: [0.0041")) << said;
+  EXPECT_TRUE(holds(said, "is not allowed; at most the scene's"));
 }
 
 /// Made-up meetings: one in both, one missed, one missed in the last step, one here alone.
@@ -515,8 +500,7 @@ TEST(Comparison, tells_discrete_from_swept) {
     EXPECT_EQ(value_of(table, row, "tunneled"), Value(std::int64_t(0))) << row;
     EXPECT_LT(std::get<double>(value_of(table, row, "error_largest")), 1e-12) << row;
   }
-  std::istringstream summary(outcome.summary);
-  for (std::string line; std::getline(summary, line);) EXPECT_LE(line.size(), 100U) << line;
+  expect_narrow(outcome.summary);
 }
 
 /// Balls of 0.125 m in pairs, each on a line of its own: the exact run is held against a sheet of paper, not against a run.
