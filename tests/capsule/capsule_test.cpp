@@ -5,6 +5,7 @@
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/capsule/capsule_from.hpp>
 
+#include "support/contacts.hpp"
 #include "support/real.hpp"
 
 namespace thinwall::testing {
@@ -55,11 +56,8 @@ TYPED_TEST(CapsuleQueries, without_length_it_is_a_ball) {
 TYPED_TEST(CapsuleQueries, a_center_on_the_core_parts_sideways) {
   using S = TypeParam;
   const Sphere<S> ball{{1, 0, 0}, 0.25};
-  for (const auto& found : {contact(this->rod, ball), contact(ball, this->rod)}) {
-    ASSERT_TRUE(found.has_value());
-    EXPECT_EQ(found->normal, Vec3<S>(0, 1, 0));  // the core runs along x, so +x will not do
-    EXPECT_EQ(found->penetration, S(0.75));
-  }
+  for (const auto& found : {contact(this->rod, ball), contact(ball, this->rod)})
+    expect_contact(found, Vec3<S>(0, 1, 0), S(0.75));  // the core runs along x, so +x will not do
   const Capsule<S> upright{{0, -2, 0}, {0, 2, 0}, 0.5};
   EXPECT_EQ(contact(upright, Sphere<S>{{0, 1, 0}, 0.25})->normal, Vec3<S>(1, 0, 0));
 }
@@ -77,10 +75,7 @@ TYPED_TEST(CapsuleQueries, crossed_apart_and_touching) {
 
 TYPED_TEST(CapsuleQueries, crossing_cores_part_across_both) {
   using S = TypeParam;
-  const auto found = contact(this->rod, Capsule<S>{{0, -2, 0}, {0, 2, 0}, 0.25});
-  ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->penetration, S(0.75));
-  EXPECT_EQ(found->normal, Vec3<S>(0, 0, 1));
+  expect_contact(contact(this->rod, Capsule<S>{{0, -2, 0}, {0, 2, 0}, 0.25}), Vec3<S>(0, 0, 1), S(0.75));
 }
 
 TYPED_TEST(CapsuleQueries, parallel_and_collinear) {
@@ -114,10 +109,7 @@ TYPED_TEST(CapsuleQueries, core_through_a_box) {
 
 TYPED_TEST(CapsuleQueries, core_within_a_box) {
   using S = TypeParam;
-  const auto found = contact(Aabb<S>{{0, 0, 0}, {8, 8, 4}}, this->rod);
-  ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->normal, Vec3<S>(0, 0, 1));
-  EXPECT_EQ(found->penetration, S(4.5));
+  expect_contact(contact(Aabb<S>{{0, 0, 0}, {8, 8, 4}}, this->rod), Vec3<S>(0, 0, 1), S(4.5));
 }
 
 TYPED_TEST(CapsuleQueries, a_core_without_radius_pierces_a_plate_without_thickness) {
@@ -157,13 +149,7 @@ TYPED_TEST(CapsuleQueries, validity_and_nan) {
   }
 }
 
-}  // namespace
-}  // namespace thinwall::testing
-
 // ---- A capsule by center, axis, height and radius.
-
-namespace thinwall::testing {
-namespace {
 
 template <class S> class CapsuleFrom : public ::testing::Test {};
 TYPED_TEST_SUITE(CapsuleFrom, Scalars, ScalarNames);
@@ -207,13 +193,7 @@ TYPED_TEST(CapsuleFrom, impossible_sizes_make_no_valid_capsule) {
   EXPECT_FALSE(overlaps(capsule_from<S>({0, 0, 0}, {0, 0, 1}, 1, 1), ball));
 }
 
-}  // namespace
-}  // namespace thinwall::testing
-
 // ---- Which way a capsule leaves a triangle that its core only touches.
-
-namespace thinwall::testing {
-namespace {
 
 template <class S> class CapsuleOnTriangle : public ::testing::Test {
  protected:

@@ -98,16 +98,12 @@ TYPED_TEST(CapsuleManifolds, cores_on_one_line_share_a_stretch) {
 }
 
 template <class P> class CapsuleManifoldsOf : public ::testing::Test {};
-template <class First, class Second> struct Both {
-  using A = First;
-  using B = Second;
-};
 using ManifoldPairs =
-    ::testing::Types<Both<Capsule<double>, Sphere<double>>, Both<Capsule<float>, Aabb<float>>,
-                     Both<Capsule<double>, Aabb<double>>, Both<Capsule<double>, Obb<double>>,
-                     Both<Capsule<Wide>, Obb<Wide>>, Both<Capsule<float>, Triangle<float>>,
-                     Both<Capsule<double>, Triangle<double>>, Both<Capsule<float>, Capsule<float>>,
-                     Both<Capsule<double>, Capsule<double>>, Both<Capsule<long double>, Capsule<long double>>>;
+    ::testing::Types<PairOf<Capsule<double>, Sphere<double>>, PairOf<Capsule<float>, Aabb<float>>,
+                     PairOf<Capsule<double>, Aabb<double>>, PairOf<Capsule<double>, Obb<double>>,
+                     PairOf<Capsule<Wide>, Obb<Wide>>, PairOf<Capsule<float>, Triangle<float>>,
+                     PairOf<Capsule<double>, Triangle<double>>, PairOf<Capsule<float>, Capsule<float>>,
+                     PairOf<Capsule<double>, Capsule<double>>, PairOf<Capsule<long double>, Capsule<long double>>>;
 TYPED_TEST_SUITE(CapsuleManifoldsOf, ManifoldPairs);
 
 TYPED_TEST(CapsuleManifoldsOf, are_real_points_as_deep_as_the_contact) {

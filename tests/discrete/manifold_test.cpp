@@ -173,16 +173,12 @@ TYPED_TEST(Manifolds, same_bits_at_every_size) {
 }
 
 template <class P> class ManifoldsOf : public ::testing::Test {};
-template <class First, class Second> struct Both {
-  using A = First;
-  using B = Second;
-};
-template <class S> using F = Both<Obb<S>, Obb<S>>;
+template <class S> using F = PairOf<Obb<S>, Obb<S>>;
 using ManifoldPairs =
-    ::testing::Types<Both<Sphere<double>, Sphere<double>>, Both<Aabb<double>, Sphere<double>>,
-                     Both<Obb<double>, Sphere<double>>, Both<Triangle<double>, Sphere<double>>,
-                     Both<Aabb<double>, Aabb<double>>, Both<Obb<double>, Aabb<double>>, F<float>, F<double>,
-                     F<long double>, F<Wide>, Both<Obb<float>, Aabb<float>>, Both<Aabb<Wide>, Aabb<Wide>>>;
+    ::testing::Types<PairOf<Sphere<double>, Sphere<double>>, PairOf<Aabb<double>, Sphere<double>>,
+                     PairOf<Obb<double>, Sphere<double>>, PairOf<Triangle<double>, Sphere<double>>,
+                     PairOf<Aabb<double>, Aabb<double>>, PairOf<Obb<double>, Aabb<double>>, F<float>, F<double>,
+                     F<long double>, F<Wide>, PairOf<Obb<float>, Aabb<float>>, PairOf<Aabb<Wide>, Aabb<Wide>>>;
 TYPED_TEST_SUITE(ManifoldsOf, ManifoldPairs);
 
 TYPED_TEST(ManifoldsOf, are_real_points_as_deep_as_the_contact) {

@@ -6,6 +6,7 @@
 #include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/sphere.hpp>
 
+#include "support/contacts.hpp"
 #include "support/real.hpp"
 
 namespace thinwall::testing {
@@ -28,10 +29,7 @@ TYPED_TEST(SphereSphere, touching_counts_and_one_ulp_decides) {
 
 TYPED_TEST(SphereSphere, contact_of_a_touch_has_no_depth) {
   using S = TypeParam;
-  const auto touch = contact(this->ball, Sphere<S>{{2, 0, 0}, 1});
-  ASSERT_TRUE(touch.has_value());
-  EXPECT_EQ(touch->penetration, S(0));
-  EXPECT_EQ(touch->normal, Vec3<S>(1, 0, 0));
+  expect_contact(contact(this->ball, Sphere<S>{{2, 0, 0}, 1}), Vec3<S>(1, 0, 0), S(0));
 }
 
 TYPED_TEST(SphereSphere, contact_points_are_relative_to_the_centers) {
@@ -57,11 +55,8 @@ TYPED_TEST(SphereSphere, apart_has_a_distance_and_no_contact) {
 TYPED_TEST(SphereSphere, coincident_centers_part_along_x_whichever_way_round) {
   using S = TypeParam;
   const Sphere<S> small{{0, 0, 0}, 0.25};
-  for (const auto& found : {contact(this->ball, small), contact(small, this->ball)}) {
-    ASSERT_TRUE(found.has_value());
-    EXPECT_EQ(found->normal, Vec3<S>(1, 0, 0));
-    EXPECT_EQ(found->penetration, S(1.25));
-  }
+  for (const auto& found : {contact(this->ball, small), contact(small, this->ball)})
+    expect_contact(found, Vec3<S>(1, 0, 0), S(1.25));
   EXPECT_EQ(separation(this->ball, small).distance, S(-1.25));
   EXPECT_EQ(separation(this->ball, small).normal, Vec3<S>(1, 0, 0));
 }
@@ -81,10 +76,7 @@ TYPED_TEST(SphereSphere, points) {
 
 TYPED_TEST(SphereSphere, one_within_the_other) {
   using S = TypeParam;
-  const auto found = contact(Sphere<S>{{0, 0, 0}, 8}, Sphere<S>{{0, 0, 1}, 1});
-  ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->penetration, S(8));
-  EXPECT_EQ(found->normal, Vec3<S>(0, 0, 1));
+  expect_contact(contact(Sphere<S>{{0, 0, 0}, 8}, Sphere<S>{{0, 0, 1}, 1}), Vec3<S>(0, 0, 1), S(8));
 }
 
 TYPED_TEST(SphereSphere, validity) {
@@ -109,13 +101,7 @@ TYPED_TEST(SphereSphere, nan_is_no_contact) {
   }
 }
 
-}  // namespace
-}  // namespace thinwall::testing
-
 // ---- Two axis-aligned boxes at one instant, by hand.
-
-namespace thinwall::testing {
-namespace {
 
 template <class S> class AabbAabb : public ::testing::Test {
  protected:
@@ -136,10 +122,7 @@ TYPED_TEST(AabbAabb, faces_edges_and_corners_touch) {
 
 TYPED_TEST(AabbAabb, parts_along_the_axis_of_least_penetration) {
   using S = TypeParam;
-  const auto found = contact(this->box, Aabb<S>{{0.5, -2.75, 1}, {1, 1, 1}});
-  ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->normal, Vec3<S>(0, -1, 0));
-  EXPECT_EQ(found->penetration, S(0.25));
+  expect_contact(contact(this->box, Aabb<S>{{0.5, -2.75, 1}, {1, 1, 1}}), Vec3<S>(0, -1, 0), S(0.25));
 }
 
 TYPED_TEST(AabbAabb, contact_acts_at_the_centers) {  // no torque: an axis-aligned box must not turn
@@ -153,15 +136,9 @@ TYPED_TEST(AabbAabb, contact_acts_at_the_centers) {  // no torque: an axis-align
 TYPED_TEST(AabbAabb, ties_take_the_lowest_axis_and_its_positive_side) {
   using S = TypeParam;
   const Aabb<S> cube{{4, 4, 4}, {1, 1, 1}};
-  for (const auto& found : {contact(cube, cube), contact(cube, Aabb<S>{{4, 4, 4}, {1, 1, 1}})}) {
-    ASSERT_TRUE(found.has_value());
-    EXPECT_EQ(found->normal, Vec3<S>(1, 0, 0));
-    EXPECT_EQ(found->penetration, S(2));
-  }
-  const auto corner = contact(cube, Aabb<S>{{2.5, 2.5, 2.5}, {1, 1, 1}});
-  ASSERT_TRUE(corner.has_value());
-  EXPECT_EQ(corner->normal, Vec3<S>(-1, 0, 0));
-  EXPECT_EQ(corner->penetration, S(0.5));
+  for (const auto& found : {contact(cube, cube), contact(cube, Aabb<S>{{4, 4, 4}, {1, 1, 1}})})
+    expect_contact(found, Vec3<S>(1, 0, 0), S(2));
+  expect_contact(contact(cube, Aabb<S>{{2.5, 2.5, 2.5}, {1, 1, 1}}), Vec3<S>(-1, 0, 0), S(0.5));
 }
 
 TYPED_TEST(AabbAabb, distance_between_corners_is_euclidean) {
@@ -218,13 +195,7 @@ TYPED_TEST(AabbAabb, nan_is_no_contact) {
   }
 }
 
-}  // namespace
-}  // namespace thinwall::testing
-
 // ---- A box and a ball at one instant, by hand.
-
-namespace thinwall::testing {
-namespace {
 
 template <class S> class AabbSphere : public ::testing::Test {
  protected:
@@ -302,10 +273,7 @@ TYPED_TEST(AabbSphere, plates_and_points) {
   const Aabb<S> plate{{0, 0, 0}, {0, 8, 8}}, point{{0, 0, 0}, {0, 0, 0}};
   EXPECT_TRUE(overlaps(plate, Sphere<S>{{0.25, 0, 0}, 0.25}));
   EXPECT_FALSE(overlaps(plate, Sphere<S>{{0.25, 0, 0}, next_down(S(0.25))}));
-  const auto on_plate = contact(plate, Sphere<S>{{0, 1, 1}, 0.25});
-  ASSERT_TRUE(on_plate.has_value());
-  EXPECT_EQ(on_plate->normal, Vec3<S>(1, 0, 0));
-  EXPECT_EQ(on_plate->penetration, S(0.25));
+  expect_contact(contact(plate, Sphere<S>{{0, 1, 1}, 0.25}), Vec3<S>(1, 0, 0), S(0.25));
   EXPECT_TRUE(overlaps(point, Sphere<S>{{0, 0, 0}, 0}));
   EXPECT_FALSE(overlaps(point, Sphere<S>{{0, std::numeric_limits<S>::min(), 0}, 0}));
   EXPECT_EQ(contact(point, Sphere<S>{{0, 0, 0}, 2})->penetration, S(2));
@@ -319,13 +287,7 @@ TYPED_TEST(AabbSphere, separation_gives_a_point_on_each) {
   EXPECT_EQ(gap.point_b, Vec3<S>(0.5, 6, 0));
 }
 
-}  // namespace
-}  // namespace thinwall::testing
-
 // ---- Which axes an oriented box may have.
-
-namespace thinwall::testing {
-namespace {
 
 template <class S> class ObbAxes : public ::testing::Test {
  protected:

@@ -32,11 +32,9 @@ const char* what_is_torn(const CertifiedToi& toi, bool is_question) {
 template <class A, class B>
 Judgment judge_pair(const Exhibit& exhibit, const A& a, const B& b, ToiStatus plain, double time, bool judged) {
   constexpr int quick = 200;  // of exponents: beyond, the bracket of a hit takes seconds of integers of 10^5 bits
-  const bool is_quick = is_moderate(a, quick) && is_moderate(b, quick) &&
-                        is_within_decades(exhibit.displacement_a, quick) &&
-                        is_within_decades(exhibit.displacement_b, quick);
   const Moving first{a, exhibit.displacement_a};
   const Moving second{b, exhibit.displacement_b};
+  const bool is_quick = is_moderate(first, quick) && is_moderate(second, quick);
   if (valid(first) && valid(second) && !is_quick) return {};
   const CertifiedToi toi = certified_time_of_impact(first, second), back = certified_time_of_impact(second, first);
   const auto fault = [&](const std::string& property, const std::string& details) {

@@ -97,9 +97,10 @@ Judgment judge_separation_in(const Exhibit& exhibit, double distance, const Vec3
 /// The oracle's search for the nearest point loses its digits where numbers are more than about 2^56 apart.
 bool is_clear(const Exhibit& exhibit) {
   constexpr int most = 28;
-  const auto moderate = [](const auto& shape) { return is_moderate(shape, most); };
-  return std::visit(moderate, exhibit.a) && std::visit(moderate, exhibit.b) &&
-         is_within_decades(exhibit.displacement_a, most) && is_within_decades(exhibit.displacement_b, most);
+  const auto moderate = [](const AnyShape& any, const Vec3<double>& displacement) {
+    return std::visit([&](const auto& shape) { return is_moderate(Moving{shape, displacement}, most); }, any);
+  };
+  return moderate(exhibit.a, exhibit.displacement_a) && moderate(exhibit.b, exhibit.displacement_b);
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/shapes.hpp>
+
+#include "support/numbers_of.hpp"
 
 namespace thinwall::testing {
 
@@ -39,54 +40,17 @@ template <class S> Obb<S> usual(TypeTag<Obb<S>>) {
 template <class S> Triangle<S> usual(TypeTag<Triangle<S>>) { return {{-1, 0, 0}, {1, 0, 0.5}, {0, 1, -0.5}}; }
 template <class S> Capsule<S> usual(TypeTag<Capsule<S>>) { return {{-1, 0, 0}, {1, 0.25, 0}, 0.5}; }
 
-/// Where the numbers of a shape stand.
-template <class Matrix> void add_numbers(std::vector<typename Matrix::Scalar*>& to, Matrix& m) {
-  for (int i = 0; i < m.size(); ++i) to.push_back(m.data() + i);
-}
-template <class S> void add_numbers(std::vector<S*>& to, Sphere<S>& s) {
-  add_numbers(to, s.center);
-  to.push_back(&s.radius);
-}
-template <class S> void add_numbers(std::vector<S*>& to, Aabb<S>& box) {
-  add_numbers(to, box.center);
-  add_numbers(to, box.half_extents);
-}
-template <class S> void add_numbers(std::vector<S*>& to, Obb<S>& box) {
-  add_numbers(to, box.center);
-  add_numbers(to, box.half_extents);
-  add_numbers(to, box.axes);
-}
-template <class S> void add_numbers(std::vector<S*>& to, Triangle<S>& t) {
-  for (Vec3<S>* corner : {&t.a, &t.b, &t.c}) add_numbers(to, *corner);
-}
-template <class S> void add_numbers(std::vector<S*>& to, Capsule<S>& c) {
-  add_numbers(to, c.a);
-  add_numbers(to, c.b);
-  to.push_back(&c.radius);
-}
-template <class S> void add_numbers(std::vector<S*>& to, Ray<S>& ray) {
-  add_numbers(to, ray.origin);
-  add_numbers(to, ray.direction);
-  to.push_back(&ray.max_t);
-}
-template <class A> void add_numbers(std::vector<typename A::Scalar*>& to, Moving<A>& moving) {
-  add_numbers(to, moving.shape);
-  add_numbers(to, moving.displacement);
-}
-
 /// visit() with each special number in turn in each field of `thing`, which is then put back.
 template <class S, class Thing, class Visit> void with_every_number(Thing& thing, const Visit& visit) {
-  std::vector<S*> numbers;
-  add_numbers(numbers, thing);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const S usual_number = *numbers[i];
+  each_number(thing, [&](const std::string& name, S& number) {
+    const S usual_number = number;
     for (const S& special : special_numbers<S>()) {
-      SCOPED_TRACE("number " + std::to_string(i) + " is " + std::to_string(static_cast<double>(special)));
-      *numbers[i] = special;
+      SCOPED_TRACE(name + " is " + std::to_string(static_cast<double>(special)));
+      number = special;
       visit();
     }
-    *numbers[i] = usual_number;
-  }
+    number = usual_number;
+  });
 }
 
 /// visit(TypeTag<A>, TypeTag<B>) for every pair that is served, in the order of its overload.

@@ -14,11 +14,6 @@
 
 namespace thinwall::testing {
 
-template <class A, class B> struct PairOf {
-  using First = A;
-  using Second = B;
-};
-
 /// Every pair that can be certified, in one order.
 template <class Visit> void for_each_certified_pair(const Visit& visit) {
   using Ball = Sphere<double>;
@@ -116,11 +111,7 @@ template <class A, class B> Motion<A, B> worst_motion(Shaker<double>& draw) {
   return motion;
 }
 
-}  // namespace thinwall::testing
-
 // ---- Judges a certified answer by the exact integers of the last stage, themselves judged in certified_oracle.hpp.
-
-namespace thinwall::testing {
 
 /// How often each stage decided.
 struct Tally {

@@ -11,13 +11,6 @@
 
 namespace thinwall::testing {
 
-/// Two types of shape under one name, for typed tests.
-template <class First, class Second> struct PairOf {
-  using A = First;
-  using B = Second;
-  using S = typename First::Scalar;
-};
-
 /// The rounding of a gap: of all coordinates, for every one of them may decide where the shapes are nearest.
 template <class S> oracle::Real rounding_of(const oracle::Pair& pair) {
   return oracle::unit_roundoff<S>() * size_at(pair, 0);
@@ -138,8 +131,8 @@ template <class A, class B> void same_bits_at_every_size() {
   using S = typename A::Scalar;
   const auto [a, b] = draw_pair<A, B>(*rc::gen::element(Style::lattice, Style::plain));
   const int k = *rc::gen::element(-600, -90, -60, -1, 1, 60, 90, 600);
-  const A large_a = resized(a, k);
-  const B large_b = resized(b, k);
+  const A large_a = scaled(a, k);
+  const B large_b = scaled(b, k);
   if (!same_body(oracle::body(large_a), oracle::body(a), k) || !same_body(oracle::body(large_b), oracle::body(b), k))
     return;
   RC_ASSERT(overlaps(large_a, large_b) == overlaps(a, b));

@@ -14,10 +14,12 @@
 #include <thinwall/swept/moving.hpp>
 
 #include "support/bodies.hpp"
+#include "support/numbers_of.hpp"
 #include "support/oracle.hpp"
 #include "support/property.hpp"
 #include "support/real.hpp"
 #include "support/shaker.hpp"
+#include "support/transforms.hpp"
 
 namespace thinwall::testing {
 
@@ -73,46 +75,22 @@ template <class S> struct Draw<Capsule<S>> {
   }
 };
 
-// What a failing case prints.
-template <class S> std::string describe(const Sphere<S>& s) {
+/// What a failing case prints.
+template <class Thing> std::string describe(const Thing& thing) {
   std::ostringstream out;
-  out.precision(std::numeric_limits<S>::max_digits10);
-  out << "sphere " << s.center.transpose() << " r " << s.radius;
+  each_number(thing, [&]<class S>(const std::string& name, const S& number) {
+    out.precision(std::numeric_limits<S>::max_digits10);
+    out << name << " " << number << " ";
+  });
   return out.str();
 }
-template <class S> std::string describe(const Aabb<S>& b) {
-  std::ostringstream out;
-  out.precision(std::numeric_limits<S>::max_digits10);
-  out << "box " << b.center.transpose() << " half " << b.half_extents.transpose();
-  return out.str();
-}
-template <class S> std::string describe(const Capsule<S>& c) {
-  std::ostringstream out;
-  out.precision(std::numeric_limits<S>::max_digits10);
-  out << "capsule " << c.a.transpose() << " to " << c.b.transpose() << " r " << c.radius;
-  return out.str();
-}
-template <class Shape> std::string describe(const Moving<Shape>& m) {
-  std::ostringstream out;
-  out.precision(std::numeric_limits<typename Shape::Scalar>::max_digits10);
-  out << describe(m.shape) << " moves " << m.displacement.transpose();
-  return out.str();
-}
-
-template <class S> void shift(Sphere<S>& s, const Vec3<S>& by) { s.center += by; }
-template <class S> void shift(Aabb<S>& b, const Vec3<S>& by) { b.center += by; }
-template <class S> void shift(Capsule<S>& c, const Vec3<S>& by) {
-  c.a += by;
-  c.b += by;
-}
-template <class Shape> void shift(Moving<Shape>& m, const Vec3<typename Shape::Scalar>& by) { shift(m.shape, by); }
 
 template <class S> Vec3<S> lower(const oracle::Vector& v) { return {S(v[0]), S(v[1]), S(v[2])}; }
 
 /// Moves B until the two all but touch at `time`: by the separation, rounded to the scalar.
 template <class S, class A, class B> void bring_together(const A& a, B& b, const oracle::Real& time) {
   const oracle::Gap there = oracle::gap(oracle::pair(a, b), time);
-  shift(b, lower<S>(-there.separation * there.normal));
+  b = translated(b, lower<S>(-there.separation * there.normal));
 }
 
 /// Two shapes at rest, a third of them all but touching.
@@ -125,11 +103,7 @@ template <class A, class B> std::pair<A, B> draw_pair(Style style) {
 }
 template <class A, class B> std::pair<A, B> draw_pair() { return draw_pair<A, B>(draw_style()); }
 
-}  // namespace thinwall::testing
-
 // ---- Random motions: plain ones, and ones that all but graze, all but touch at the start or all but touch at the end.
-
-namespace thinwall::testing {
 
 template <class A, class B> struct MovingPair {
   Moving<A> a;
@@ -153,8 +127,8 @@ template <class A, class B> MovingPair<A, B> draw_moving_pair(Style style) {
   if (speed == 1) pair.a.displacement[draw_integer(0, 2)] = S(0);
   if (draw_integer(0, 3) == 0) {  // far from the origin
     const Vec3<S> offset = draw_vector<S>(style) * S(256);
-    shift(pair.a, offset);
-    shift(pair.b, offset);
+    pair.a = translated(pair.a, offset);
+    pair.b = translated(pair.b, offset);
   }
   switch (draw_integer(0, 8)) {
     case 0: bring_together<S>(pair.a, pair.b, 0); break;
@@ -168,11 +142,7 @@ template <class A, class B> MovingPair<A, B> draw_moving_pair(Style style) {
 }
 template <class A, class B> MovingPair<A, B> draw_moving_pair() { return draw_moving_pair<A, B>(draw_style()); }
 
-}  // namespace thinwall::testing
-
 // ---- Random worlds of boxes, drawn to hit what goes wrong in a broad phase.
-
-namespace thinwall::testing {
 
 /// Lattice coordinates (ties and touching boxes), points, plates, sizes decades apart, one place for all, far outliers,
 /// infinite boxes, worlds far from the origin; now and then static, masked and skipped bodies.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <thinwall/capsule/capsule.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 #include "support/real.hpp"
@@ -48,22 +49,14 @@ template <class S, class B> class CaseTable {
   const std::vector<Case>& cases() const { return cases_; }
 
  private:
-  static bool oracle_differs(const S& value, double x) {
-    using Both =
-        boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
-    return Both(value) != Both(x);
-  }
+  static bool oracle_differs(const S& value, double x) { return oracle::Real(value) != oracle::Real(x); }
 
   bool out_of_range_ = false;
   bool as_written_ = true;
   std::vector<Case> cases_{};
 };
 
-}  // namespace thinwall::testing
-
 // ---- Two balls: the exact cases 1 to 27 and 41.
-
-namespace thinwall::testing {
 
 template <class S> std::vector<ExactCase<Sphere<S>, Sphere<S>>> sphere_cases() {
   using enum ToiStatus;
@@ -134,11 +127,7 @@ template <class S> std::vector<ExactCase<Sphere<S>, Sphere<S>>> sphere_cases() {
   return in.cases();
 }
 
-}  // namespace thinwall::testing
-
 // ---- A ball and a box: the exact cases 29 to 43.
-
-namespace thinwall::testing {
 
 template <class S> std::vector<ExactCase<Sphere<S>, Aabb<S>>> box_cases() {
   using enum ToiStatus;
@@ -172,6 +161,60 @@ template <class S> std::vector<ExactCase<Sphere<S>, Aabb<S>>> box_cases() {
         .16182502523937555);
   shoot("43 grazes a corner", 1, in(1, 1, .25), in(1, -1, -1.5), in(8, 1, 6), hit, .075);
   return in.cases();
+}
+
+// ---- Boxes and capsules: the exact cases 44, 45 and 47 to 50.
+
+template <class S> std::vector<ExactCase<Aabb<S>, Aabb<S>>> box_pair_cases() {
+  using enum ToiStatus;
+  const Vec3<S> half(1, 1, 1);
+  const Moving<Aabb<S>> target = at_rest(Aabb<S>{{0, 0, 0}, half});
+  const auto box = [&](const Vec3<S>& from, const Vec3<S>& move) { return Moving<Aabb<S>>{{from, half}, move}; };
+  return {
+      {"44 corner on", box({-4, -4, -4}, {4, 4, 4}), target, hit, .5, true},
+      {"45 slides along a face", box({-4, 2, 0}, {8, 0, 0}), target, hit, .25, true},
+      {"45 face missed by one ulp", box({-4, next_up(S(2)), 0}, {8, 0, 0}), target, apart, {}, true},
+  };
+}
+
+template <class S> std::vector<ExactCase<Capsule<S>, Capsule<S>>> capsule_pair_cases() {
+  using enum ToiStatus;
+  const auto rod = [](const Vec3<S>& middle, const Vec3<S>& half) {
+    return Capsule<S>{middle - half, middle + half, S(0.5)};
+  };
+  const Vec3<S> zero(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const S three_down = next_down(S(3));
+  return {
+      {"47 parallel", {rod({-4, 0, 0}, y), {4, 0, 0}}, at_rest(rod(zero, y)), hit, .75, true},
+      {"48 crossed", {rod({-4, 0, 0}, z), {4, 0, 0}}, at_rest(rod(zero, y)), hit, .75, true},
+      {"49 collinear", {rod({-6, 0, 0}, x), {6, 0, 0}}, at_rest(rod(zero, x)), hit, .5, true},
+      {"49 one ulp short", {rod({-6, 0, 0}, x), {three_down, 0, 0}}, at_rest(rod(zero, x)), apart, {}, true},
+  };
+}
+
+template <class S> std::vector<ExactCase<Capsule<S>, Aabb<S>>> capsule_box_cases() {
+  using enum ToiStatus;
+  const S r(0.5);
+  const auto cube = at_rest(Aabb<S>{{0, 0, 0}, {1, 1, 1}});
+  return {
+      {"50 slanted beside a face", {{{-4, -1, -1}, {-4, 1, 1}, r}, {4, 0, 0}}, cube, hit, .625, true},
+      {"50a end on", {{{-6, 0, 0}, {-4, 0, 0}, r}, {4, 0, 0}}, cube, hit, .625, true},
+  };
+}
+
+/// Calls check(case) on every case of every table.
+template <class S, class Check> void for_each_exact_case(const Check& check) {
+  const auto run = [&](const auto& cases) {
+    for (const auto& c : cases) {
+      SCOPED_TRACE(c.name);
+      check(c);
+    }
+  };
+  run(sphere_cases<S>());
+  run(box_cases<S>());
+  run(box_pair_cases<S>());
+  run(capsule_pair_cases<S>());
+  run(capsule_box_cases<S>());
 }
 
 }  // namespace thinwall::testing

@@ -27,12 +27,8 @@ inline oracle::Real off_surface(const oracle::Vector& point, const oracle::Body&
   return abs(oracle::gap({body, dot, 0}, 0).separation);
 }
 
-}  // namespace thinwall::testing
-
 // ---- Judges a computed time of impact against the oracle, to the accuracy contract: forward error at most 4 u kappa t,
 // backward error at most 4 u, and no wrong verdict where the inputs decide.
-
-namespace thinwall::testing {
 
 using ::testing::AssertionFailure;
 using ::testing::AssertionResult;

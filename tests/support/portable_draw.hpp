@@ -1,8 +1,11 @@
 #pragma once
 /// The same random numbers by every compiler, which the distributions of the standard library do not promise.
 
+#include <cmath>
 #include <cstdint>
 #include <random>
+
+#include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall::testing {
 
@@ -15,6 +18,17 @@ class PortableDraw {
   }
   int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
   bool one_in(int n) { return below(n) == 0; }
+  Vec3<double> direction() {
+    Vec3<double> v;
+    do {
+      v = {between(-1, 1), between(-1, 1), between(-1, 1)};
+    } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
+    return v / std::sqrt(v.squaredNorm());
+  }
+  Vec3<double> point(double size) {
+    const Vec3<double> way = direction();
+    return way * between(0, size);
+  }
 
  private:
   std::mt19937_64 engine_;

@@ -90,6 +90,13 @@ struct ScalarNames {
   }
 };
 
+/// Two types of shape under one name.
+template <class First, class Second> struct PairOf {
+  using A = First;
+  using B = Second;
+  using S = typename First::Scalar;
+};
+
 /// 2^exponent.
 template <class S> S power(int exponent) {
   using std::ldexp;

@@ -68,12 +68,8 @@ template <class S> Capsule<S> drawn(Shaker<S>& draw, TypeTag<Capsule<S>>) {
   return {start, start + along, draw.sizes()[0]};
 }
 
-}  // namespace thinwall::testing
-
 // ---- Any two shapes in motion, drawn to go wrong: on a lattice or decades apart in size, aimed at each other, fast, far from
 // the origin, moved until they all but touch at the start or the end, and turned until they all but graze.
-
-namespace thinwall::testing {
 
 template <class A, class B> struct Motion {
   Moving<A> a;

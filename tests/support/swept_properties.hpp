@@ -81,8 +81,8 @@ template <class A, class B> void powers_of_two_change_no_bits() {
   using S = typename A::Scalar;
   const auto [a, b] = draw_moving_pair<A, B>(*rc::gen::element(Style::lattice, Style::plain));
   const int k = *rc::gen::element(-700, -80, -60, -1, 1, 60, 80, 700);
-  const auto large_a = resized(a, k);
-  const auto large_b = resized(b, k);
+  const auto large_a = scaled(a, k);
+  const auto large_b = scaled(b, k);
   const Toi<S> here = time_of_impact(a, b);
   if (same_body(oracle::body(large_a), oracle::body(a), k) && same_body(oracle::body(large_b), oracle::body(b), k)) {
     const Toi<S> there = time_of_impact(large_a, large_b);
@@ -110,21 +110,6 @@ template <class A, class B> void powers_of_two_change_no_bits() {
       here.time == S(1) && faster.time > expected && faster.time < later;  // else a rounding behind it
   RC_ASSERT(faster.time == expected || put_at_end);
   RC_ASSERT(faster.normal == here.normal);
-}
-
-/// swept_bounds() contains the shape at every time, exactly: it is rounded outward.
-template <class A> void bounds_contain_the_shape() {
-  using S = typename A::Scalar;
-  const Style style = draw_style();
-  const Moving<A> moving{Draw<A>::shape(style), draw_vector<S>(style)};
-  RC_LOG() << describe(moving) << "\n";
-  const oracle::Body bounds = oracle::body(swept_bounds(moving)), body = oracle::body(moving);
-  const oracle::Vector half = oracle::half_size(body.core);
-  for (int step = 0; step <= 8; ++step) {
-    const oracle::Vector at = at_time(body, oracle::Real(step) / 8).center;
-    for (std::size_t i = 0; i < 3; ++i)
-      RC_ASSERT(abs(oracle::Real(at[i] - bounds.center[i])) + half[i] + body.radius <= bounds.core.box[i]);
-  }
 }
 
 }  // namespace thinwall::testing

@@ -1,5 +1,5 @@
 #pragma once
-/// The same scene elsewhere: translated, resized, mirrored; and whether the scalar held the result exactly.
+/// The same scene elsewhere: translated, mirrored; and whether the scalar held the result exactly.
 
 #include <cmath>
 
@@ -16,26 +16,9 @@ template <class S> Vec3<S> times_power(const Vec3<S>& v, int exponent) {
   return {times_power(v[0], exponent), times_power(v[1], exponent), times_power(v[2], exponent)};
 }
 
-// Lengths times 2^exponent.
-template <class S> Sphere<S> resized(const Sphere<S>& s, int k) {
-  return {times_power(s.center, k), times_power(s.radius, k)};
-}
-template <class S> Aabb<S> resized(const Aabb<S>& b, int k) {
-  return {times_power(b.center, k), times_power(b.half_extents, k)};
-}
-template <class S> Capsule<S> resized(const Capsule<S>& c, int k) {
-  return {times_power(c.a, k), times_power(c.b, k), times_power(c.radius, k)};
-}
-
-// Moved by an offset.
-template <class S> Sphere<S> translated(const Sphere<S>& s, const Vec3<S>& by) {
-  return {Vec3<S>(s.center + by), s.radius};
-}
-template <class S> Aabb<S> translated(const Aabb<S>& b, const Vec3<S>& by) {
-  return {Vec3<S>(b.center + by), b.half_extents};
-}
-template <class S> Capsule<S> translated(const Capsule<S>& c, const Vec3<S>& by) {
-  return {Vec3<S>(c.a + by), Vec3<S>(c.b + by), c.radius};
+template <Shape A> A translated(const A& shape, const Vec3<typename A::Scalar>& by) { return moved(shape, by); }
+template <Shape A> Moving<A> translated(const Moving<A>& m, const Vec3<typename A::Scalar>& by) {
+  return {moved(m.shape, by), m.displacement};
 }
 
 /// x, y, z become -y, z, -x: a mirror and a change of axes at once.
@@ -46,12 +29,6 @@ template <class S> Aabb<S> mirrored(const Aabb<S>& b) {
 }
 template <class S> Capsule<S> mirrored(const Capsule<S>& c) { return {mirrored(c.a), mirrored(c.b), c.radius}; }
 
-template <class Shape> Moving<Shape> resized(const Moving<Shape>& m, int k) {
-  return {resized(m.shape, k), times_power(m.displacement, k)};
-}
-template <class Shape, class S> Moving<Shape> translated(const Moving<Shape>& m, const Vec3<S>& by) {
-  return {translated(m.shape, by), m.displacement};
-}
 template <class Shape> Moving<Shape> mirrored(const Moving<Shape>& m) {
   return {mirrored(m.shape), mirrored(m.displacement)};
 }

@@ -51,18 +51,6 @@ class MotionDraw : public PortableDraw {
  public:
   using PortableDraw::PortableDraw;
 
-  Vec3<double> direction() {
-    Vec3<double> v;
-    do {
-      v = {between(-1, 1), between(-1, 1), between(-1, 1)};
-    } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
-    return v / std::sqrt(v.squaredNorm());
-  }
-  Vec3<double> point(double size) {
-    const Vec3<double> way = direction();
-    return way * between(0, size);
-  }
-
   template <class A, class B> std::pair<Turning<A>, Turning<B>> motion(MotionStyle style, Aim aim) {
     const Mat3<double> axes = turn();
     Turning<A> a = one<A>(style, axes);

@@ -6,10 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <thinwall/capsule/capsule.hpp>
-#include <thinwall/discrete/obb.hpp>
-#include <thinwall/discrete/triangle.hpp>
-#include <thinwall/swept/turning.hpp>
+#include "support/numbers_of.hpp"
 
 namespace thinwall::testing {
 
@@ -17,36 +14,6 @@ namespace thinwall::testing {
 inline std::string shortest_text(double value) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
-// Calls f(name, number) for each number of a shape, in the order of the columns.
-
-template <class F> void each_number(std::string_view name, const Vec3<double>& v, const F& f) {
-  for (int k = 0; k < 3; ++k) f(std::string(name) + "_" + "xyz"[k], v[k]);
-}
-template <class F> void each_number(const Sphere<double>& s, const F& f) {
-  each_number("center", s.center, f);
-  f("radius", s.radius);
-}
-template <class F> void each_number(const Capsule<double>& c, const F& f) {
-  each_number("p", c.a, f);
-  each_number("q", c.b, f);
-  f("radius", c.radius);
-}
-template <class F> void each_number(const Obb<double>& box, const F& f) {
-  each_number("center", box.center, f);
-  each_number("half", box.half_extents, f);
-  for (int k = 0; k < 3; ++k) each_number("axis" + std::to_string(k + 1), box.axes.col(k), f);
-}
-template <class F> void each_number(const Triangle<double>& t, const F& f) {
-  each_number("p", t.a, f);
-  each_number("q", t.b, f);
-  each_number("r", t.c, f);
-}
-template <class A, class F> void each_number(const Turning<A>& m, const F& f) {
-  each_number(m.shape, f);
-  each_number("displacement", m.displacement, f);
-  each_number("rotation", m.rotation, f);
 }
 
 /// What is asked and what is proven of it.

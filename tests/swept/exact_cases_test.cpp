@@ -10,22 +10,8 @@
 namespace thinwall::testing {
 namespace {
 
-template <class S> class ExactCases : public ::testing::Test {
- protected:
-  /// Runs `check` on every case of every table.
-  template <class Check> static void each(const Check& check) {
-    for (const auto& c : sphere_cases<S>()) run(c, check);
-    for (const auto& c : box_cases<S>()) run(c, check);
-    for (const auto& c : box_pair_cases<S>()) run(c, check);
-    for (const auto& c : capsule_pair_cases<S>()) run(c, check);
-    for (const auto& c : capsule_box_cases<S>()) run(c, check);
-  }
-
- private:
-  template <class Case, class Check> static void run(const Case& c, const Check& check) {
-    SCOPED_TRACE(c.name);
-    check(c);
-  }
+template <class S> struct ExactCases : ::testing::Test {
+  template <class Check> static void each(const Check& check) { for_each_exact_case<S>(check); }
 };
 TYPED_TEST_SUITE(ExactCases, Scalars, ScalarNames);
 
@@ -126,8 +112,8 @@ TYPED_TEST(ExactCases, same_bits_at_every_size) {  // lengths times 2^k: nothing
   this->each([&](const auto& c) {
     const auto toi = time_of_impact(c.a, c.b);
     for (const int k : {-900, -400, -130, -70, -20, -1, 1, 20, 60, 100, 400, 900}) {
-      const auto a = resized(c.a, k);
-      const auto b = resized(c.b, k);
+      const auto a = scaled(c.a, k);
+      const auto b = scaled(c.b, k);
       const auto exact = [&](const auto& to, const auto& from) {
         return same_body(oracle::body(to), oracle::body(from), k);
       };

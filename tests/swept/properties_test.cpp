@@ -9,38 +9,39 @@ namespace {
 
 constexpr int runs = 2000;
 
-template <class P> class SweptPair : public ::testing::Test {};
+template <class P> class SweptPair : public ::testing::Test {
+ protected:
+  /// The oracle takes milliseconds where a core lies oblique.
+  static constexpr int runs = std::is_same_v<typename P::A, Capsule<typename P::S>> ? 80 : 2000;
+};
 using Pairs = ::testing::Types<PairOf<Sphere<float>, Sphere<float>>, PairOf<Sphere<double>, Sphere<double>>,
                                PairOf<Sphere<long double>, Sphere<long double>>, PairOf<Sphere<Wide>, Sphere<Wide>>,
                                PairOf<Aabb<float>, Sphere<float>>, PairOf<Aabb<double>, Sphere<double>>,
-                               PairOf<Aabb<long double>, Sphere<long double>>, PairOf<Aabb<Wide>, Sphere<Wide>>>;
+                               PairOf<Aabb<long double>, Sphere<long double>>, PairOf<Aabb<Wide>, Sphere<Wide>>,
+                               PairOf<Aabb<float>, Aabb<float>>, PairOf<Aabb<double>, Aabb<double>>,
+                               PairOf<Capsule<float>, Sphere<float>>, PairOf<Capsule<double>, Sphere<double>>,
+                               PairOf<Capsule<float>, Aabb<float>>, PairOf<Capsule<double>, Aabb<double>>,
+                               PairOf<Capsule<float>, Capsule<float>>, PairOf<Capsule<double>, Capsule<double>>>;
 TYPED_TEST_SUITE(SweptPair, Pairs);
 
 TYPED_TEST(SweptPair, time_of_impact_meets_the_contract) {
-  check_property(runs, time_of_impact_meets_the_contract<typename TypeParam::A, typename TypeParam::B>);
+  check_property(this->runs, time_of_impact_meets_the_contract<typename TypeParam::A, typename TypeParam::B>);
 }
 TYPED_TEST(SweptPair, kernel_meets_the_contract) {
-  check_property(runs, kernel_meets_the_contract<typename TypeParam::A, typename TypeParam::B>);
+  check_property(this->runs, kernel_meets_the_contract<typename TypeParam::A, typename TypeParam::B>);
 }
 TYPED_TEST(SweptPair, min_separation_meets_the_contract) {
-  check_property(runs / 2, min_separation_meets_the_contract<typename TypeParam::A, typename TypeParam::B>);
+  check_property(this->runs / 2, min_separation_meets_the_contract<typename TypeParam::A, typename TypeParam::B>);
 }
 TYPED_TEST(SweptPair, shapes_touch_at_the_hit) {
-  check_property(runs, shapes_touch_at_the_hit<typename TypeParam::A, typename TypeParam::B>);
+  check_property(this->runs, shapes_touch_at_the_hit<typename TypeParam::A, typename TypeParam::B>);
 }
 TYPED_TEST(SweptPair, other_way_round_flips_the_normal) {
-  check_property(runs, other_way_round_flips_the_normal<typename TypeParam::A, typename TypeParam::B>);
+  check_property(this->runs, other_way_round_flips_the_normal<typename TypeParam::A, typename TypeParam::B>);
 }
 TYPED_TEST(SweptPair, powers_of_two_change_no_bits) {
-  check_property(runs, powers_of_two_change_no_bits<typename TypeParam::A, typename TypeParam::B>);
+  check_property(this->runs, powers_of_two_change_no_bits<typename TypeParam::A, typename TypeParam::B>);
 }
-
-template <class Shape> class SweptBounds : public ::testing::Test {};
-using Shapes = ::testing::Types<Sphere<float>, Sphere<double>, Sphere<Wide>, Aabb<float>, Aabb<double>, Capsule<float>,
-                                Capsule<double>>;
-TYPED_TEST_SUITE(SweptBounds, Shapes);
-
-TYPED_TEST(SweptBounds, contain_the_shape) { check_property(runs, bounds_contain_the_shape<TypeParam>); }
 
 /// A swept ball is a capsule: its core holds the center at every time, to rounding.
 template <class S> void capsule_holds_the_ball() {

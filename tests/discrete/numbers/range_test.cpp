@@ -20,8 +20,8 @@ template <class S> class Range : public ::testing::Test {
   template <class A, class B> static void same_at_every_size(const A& a, const B& b) {
     for (const int k : exponents()) {
       SCOPED_TRACE(k);
-      const A large_a = resized(a, k);
-      const B large_b = resized(b, k);
+      const A large_a = scaled(a, k);
+      const B large_b = scaled(b, k);
       EXPECT_EQ(overlaps(large_a, large_b), overlaps(a, b));
       EXPECT_EQ(separation(large_a, large_b).distance, times_power(separation(a, b).distance, k));
       EXPECT_EQ(separation(large_a, large_b).normal, separation(a, b).normal);
@@ -72,7 +72,7 @@ TYPED_TEST(Range, rays) {
     for (const int k : this->exponents()) {
       SCOPED_TRACE(k);
       const Ray<S> large{times_power(ray.origin, k), times_power(ray.direction, k), ray.max_t};
-      const auto found = raycast(large, resized(shape, k));
+      const auto found = raycast(large, scaled(shape, k));
       ASSERT_TRUE(found.has_value());
       EXPECT_EQ(found->t, expected->t);
       EXPECT_EQ(found->normal, expected->normal);

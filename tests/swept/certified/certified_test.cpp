@@ -10,24 +10,9 @@
 namespace thinwall::testing {
 namespace {
 
-/// Runs `check` on every case of every table.
-template <class Check> void for_each_exact_case(const Check& check) {
-  const auto run = [&](const auto& cases) {
-    for (const auto& c : cases) {
-      SCOPED_TRACE(c.name);
-      check(c);
-    }
-  };
-  run(sphere_cases<double>());
-  run(box_cases<double>());
-  run(box_pair_cases<double>());
-  run(capsule_pair_cases<double>());
-  run(capsule_box_cases<double>());
-}
-
 TEST(Certified, exact_cases_have_the_listed_verdict_and_enclose_the_listed_time) {
   int hits = 0;
-  for_each_exact_case([&](const auto& c) {
+  for_each_exact_case<double>([&](const auto& c) {
     const CertifiedToi toi = certified_time_of_impact(c.a, c.b);
     EXPECT_EQ(text(toi.verdict), text(c.status));
     EXPECT_TRUE(has_form(toi));

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <random>
 #include <thinwall/swept/certified/turning_certified.hpp>
 #include <thinwall/swept/turning/turning_advancement.hpp>
 #include <thinwall/swept/turning/turning_bounds.hpp>
@@ -14,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/portable_draw.hpp"
 #include "support/thorough.hpp"
 
 namespace thinwall::testing {
@@ -24,41 +24,24 @@ using Wide = long double;
 using W = Vec3<Wide>;
 constexpr double pi = 3.14159265358979323846;
 
-class Draw {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  bool one_in(int n) { return engine_() % static_cast<unsigned>(n) == 0; }
-  V direction() {
-    V v;
-    do {
-      v = {between(-1, 1), between(-1, 1), between(-1, 1)};
-    } while (v.squaredNorm() > 1 || v.squaredNorm() < 0.01);
-    return v / std::sqrt(v.squaredNorm());
-  }
-  V point(double size) { return direction() * between(0, size); }
-
- private:
-  std::mt19937_64 engine_{7};
-};
-
-Sphere<double> shape_at(Draw& draw, const V& at, TypeTag<Sphere<double>>) { return {at, draw.between(0.01, 0.5)}; }
-Capsule<double> shape_at(Draw& draw, const V& at, TypeTag<Capsule<double>>) {
+Sphere<double> shape_at(PortableDraw& draw, const V& at, TypeTag<Sphere<double>>) {
+  return {at, draw.between(0.01, 0.5)};
+}
+Capsule<double> shape_at(PortableDraw& draw, const V& at, TypeTag<Capsule<double>>) {
   const V half = draw.point(1);
   return {at - half, at + half, draw.one_in(3) ? 0 : draw.between(0, 0.2)};
 }
-Obb<double> shape_at(Draw& draw, const V& at, TypeTag<Obb<double>>) {
+Obb<double> shape_at(PortableDraw& draw, const V& at, TypeTag<Obb<double>>) {
   return {at,
           {draw.between(0.01, 1), draw.between(0.01, 1), draw.between(0.01, 1)},
           rotation_about<double>(draw.direction(), draw.between(0, pi))};
 }
-Triangle<double> shape_at(Draw& draw, const V& at, TypeTag<Triangle<double>>) {
+Triangle<double> shape_at(PortableDraw& draw, const V& at, TypeTag<Triangle<double>>) {
   return {at + draw.point(1), at + draw.point(1), at + draw.point(1)};
 }
 
 /// Up to `most` [rad]: at times the same turn as another, about the same axis, or none.
-template <class A> Turning<A> motion(Draw& draw, double most, double far) {
+template <class A> Turning<A> motion(PortableDraw& draw, double most, double far) {
   const V at = draw.point(far);
   const A shape = shape_at(draw, at, TypeTag<A>{});
   return {shape, draw.point(2), draw.one_in(5) ? V(V::Zero()) : draw.point(most)};
@@ -145,7 +128,7 @@ void check_plane(const TurningPair<double>& pair, const Attached& attached, doub
 }
 
 template <class A, class B> void check_pair(unsigned count) {
-  Draw draw;
+  PortableDraw draw(7);
   Tightness tightness;
   for (unsigned i = 0; i < count; ++i) {
     const double most = draw.one_in(3) ? 20 : pi, far = draw.one_in(8) ? 1e4 : 2;
@@ -179,7 +162,7 @@ TEST(AttachedPlanes, are_below_the_gap) {
 
 // The margin takes a sine and a cosine to be right to 2 units in the last place.
 TEST(AttachedPlanes, have_the_sines_they_ask_for) {
-  Draw draw;
+  PortableDraw draw(7);
   for (int i = 0; i < 100'000; ++i) {
     const double x = draw.between(0, i % 2 == 0 ? pi : 1e6);
     const auto wide = static_cast<Wide>(x);
@@ -189,7 +172,7 @@ TEST(AttachedPlanes, have_the_sines_they_ask_for) {
 }
 
 template <class A> void check_bounds(double most) {
-  Draw draw;
+  PortableDraw draw(7);
   double log_volumes = 0;
   constexpr int count = 300;
   for (int i = 0; i < count; ++i) {
@@ -229,7 +212,7 @@ TEST(TurningBounds, contain_every_pose_and_little_more) {
 }
 
 TEST(TurningBounds, hold_at_any_scale) {
-  Draw draw;
+  PortableDraw draw(7);
   for (const int e : {-1060, -700, -200, 200, 700, 1000}) {
     Turning<Capsule<double>> m = motion<Capsule<double>>(draw, 2, 2);
     const Aabb<double> near = swept_bounds(m), there = swept_bounds(scaled(m, e));
@@ -250,7 +233,7 @@ TEST(TurningBounds, a_turn_whose_angle_is_no_number_is_given_up) {
 }
 
 template <class A, class B> void check_certified(int& proven, int& asked) {
-  Draw draw;
+  PortableDraw draw(7);
   const auto count = static_cast<unsigned>(thorough(slow_build ? 100 : 1'000));
   for (unsigned i = 0; i < count; ++i) {
     const Turning<A> a = motion<A>(draw, 2 * pi, 1.5);

@@ -1,0 +1,61 @@
+#pragma once
+/// Every number of a shape, of one that moves or turns, or of a ray, by the name of its column in docs/data/README.md:
+///   each_number(thing, [](const std::string& name, double& number) { ... });
+
+#include <string>
+
+#include <thinwall/capsule/capsule.hpp>
+#include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/obb.hpp>
+#include <thinwall/discrete/sphere.hpp>
+#include <thinwall/discrete/triangle.hpp>
+#include <thinwall/swept/turning.hpp>
+
+namespace thinwall::testing {
+
+template <class S, class F> void each_number(const std::string& name, Vec3<S>& v, const F& f) {
+  for (int k = 0; k < 3; ++k) f(name + "_" + "xyz"[k], v[k]);
+}
+template <class S, class F> void each_number(Sphere<S>& s, const F& f) {
+  each_number("center", s.center, f);
+  f("radius", s.radius);
+}
+template <class S, class F> void each_number(Aabb<S>& box, const F& f) {
+  each_number("center", box.center, f);
+  each_number("half", box.half_extents, f);
+}
+template <class S, class F> void each_number(Obb<S>& box, const F& f) {
+  each_number("center", box.center, f);
+  each_number("half", box.half_extents, f);
+  for (int k = 0; k < 9; ++k) f("axis" + std::to_string(k / 3 + 1) + "_" + "xyz"[k % 3], box.axes(k % 3, k / 3));
+}
+template <class S, class F> void each_number(Triangle<S>& t, const F& f) {
+  each_number("p", t.a, f);
+  each_number("q", t.b, f);
+  each_number("r", t.c, f);
+}
+template <class S, class F> void each_number(Capsule<S>& c, const F& f) {
+  each_number("p", c.a, f);
+  each_number("q", c.b, f);
+  f("radius", c.radius);
+}
+template <class S, class F> void each_number(Ray<S>& ray, const F& f) {
+  each_number("origin", ray.origin, f);
+  each_number("direction", ray.direction, f);
+  f("max_t", ray.max_t);
+}
+template <class A, class F> void each_number(Moving<A>& m, const F& f) {
+  each_number(m.shape, f);
+  each_number("displacement", m.displacement, f);
+}
+template <class A, class F> void each_number(Turning<A>& m, const F& f) {
+  each_number(m.shape, f);
+  each_number("displacement", m.displacement, f);
+  each_number("rotation", m.rotation, f);
+}
+template <class Thing, class F> void each_number(const Thing& thing, const F& f) {
+  Thing copy = thing;
+  each_number(copy, f);
+}
+
+}  // namespace thinwall::testing
