@@ -139,11 +139,7 @@ template <class A, class B> void check_raycast(const Scene<A, B>& scene) {
                  "raycast(): ", [&] { return text(toi) + ": "; });
 }
 
-}  // namespace thinwall::fuzz
-
 // ---- What every time of impact must fulfil, whatever the shapes and motions.
-
-namespace thinwall::fuzz {
 
 /// Status, time, normal and point belong together.
 template <class A, class B>

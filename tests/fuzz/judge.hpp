@@ -26,17 +26,19 @@ using AnyShape = VariantOf<Shapes<double>>::type;
 struct Exhibit {
   AnyShape a, b;
   Vec3<double> displacement_a = Vec3<double>::Zero(), displacement_b = Vec3<double>::Zero();
-  double u = 0, least = 0;  ///< of the scalar that was asked: unit round-off, smallest positive number
+  double u = 0, least = 0;    ///< of the scalar that was asked: unit round-off, smallest positive number
+  double min_separation = 0;  ///< [length] the gap that counts as contact
 };
 
-template <class A, class B> Exhibit exhibit(const Moving<A>& a, const Moving<B>& b) {
+template <class A, class B> Exhibit exhibit(const Moving<A>& a, const Moving<B>& b, double min_separation = 0) {
   using Limits = std::numeric_limits<typename A::Scalar>;
   return {cast<double>(a.shape),
           cast<double>(b.shape),
           a.displacement.template cast<double>(),
           b.displacement.template cast<double>(),
           double{Limits::epsilon()} / 2,
-          double{Limits::denorm_min()}};
+          double{Limits::denorm_min()},
+          min_separation};
 }
 
 /// What is wrong with an answer, in words and with figures.

@@ -21,7 +21,9 @@ template <class R> class Referee {
             [&](const auto& a, const auto& b) {
               return oracle::pose<R>(Moving{a, exhibit.displacement_a}, Moving{b, exhibit.displacement_b});
             },
-            exhibit.a, exhibit.b)) {}
+            exhibit.a, exhibit.b)) {
+    problem_.reach += R(exhibit.min_separation);
+  }
 
   struct State {
     R gap = 0;      ///< [length] < 0: the least translation that parts the two
@@ -69,6 +71,10 @@ template <class R> class Referee {
   }
 
   R reach() const { return problem_.reach; }
+  R path() const {
+    using std::sqrt;
+    return sqrt(oracle::dot(problem_.motion, problem_.motion));
+  }
   /// [1] Cores this near, beside the numbers involved, meet: what is left of their distance is rounding.
   static R touch() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -90)) : R(ldexp(R(1), -54)); }
   static R tolerance() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -150)) : R(ldexp(R(1), -58)); }

@@ -1,21 +1,18 @@
 #pragma once
 /// Judges what a method answered by what it claims, at 50 digits.
 ///
-/// The referee is experiments/accuracy/oracle.hpp, which shares no code with the library: it knows a shape only by its
-/// farthest point in a direction, and says how far apart two shapes are at one time, exactly as given. That is a tenth of a
-/// millisecond's work. The gap is convex in time: if it is open and closing at some time, it was open before. Only where
-/// this does not decide does the referee search for the first contact.
+/// A cross-check of judge.hpp by the other oracle (fuzz/referee.hpp), for every pair and method. What it says of one time is a tenth of
+/// a millisecond's work. The gap is convex in time: if it is open and closing at some time, it was open before. Only where this does not
+/// decide does it search for the first contact.
 
 #include <sstream>
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/accuracy/oracle.hpp>
-#include <thinwall/swept/moving.hpp>
-#include <thinwall/swept/shapes.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
-#include <thinwall/swept/toi.hpp>
 
+#include "fuzz/referee.hpp"
+#include "support/any_number.hpp"
 #include "support/method_claims.hpp"
 #include "support/property.hpp"
 #include "support/real.hpp"
@@ -23,91 +20,49 @@
 
 namespace thinwall::testing {
 
-template <class A, class B> class Referee {
-  using S = typename A::Scalar;
-
- public:
-  Referee(const Moving<A>& a, const Moving<B>& b, const S& min_separation) : problem_(oracle::pose<Wide>(a, b)) {
-    problem_.reach += Wide(min_separation);
-    path_ = sqrt(oracle::dot(problem_.motion, problem_.motion));
-    for (std::size_t i = 0; i < 3; ++i) size_ += problem_.start_size[i] + problem_.speed_size[i];
-    size_ += problem_.reach;
-    noise_ = 64 * Wide(unit<S>()) * size_;
-  }
-
-  bool touches() const { return first_contact().verdict != oracle::Verdict::apart; }
-  Wide gap(const S& time) const { return at(time).core - problem_.reach; }
-  Wide path() const { return path_; }
-  Wide noise() const { return noise_; }  ///< [length] what rounding may hide
-
-  /// [length] A gap so small that the direction of its rounded closest points may miss the gap altogether: off by e over
-  /// the gap g, it loses up to the size times e / g.
-  Wide blur() const { return sqrt(noise_ * size_) / 2; }
-
-  /// True if the shapes touch before `time`.
-  bool touches_before(const S& time) const {
-    if (time == S(0)) return false;
-    const oracle::Gap<Wide> there = at(time);
-    const Wide open = there.core - problem_.reach;
-    if (open < -Wide(1e-40) * size_) return true;
-    if (there.core > 0 && there.closing > 0) return false;
-    const oracle::Impact<Wide> first = first_contact();
-    return first.verdict != oracle::Verdict::apart && first.time < Wide(time) * Wide(1 - 1e-30);
-  }
-
-  /// There is contact, but not by more than the noise: shapes that much smaller do not touch, or not for long.
-  bool barely_touches() const {
-    const oracle::Impact<Wide> first = first_contact();
-    Wide low = first.time, high = 1;
-    for (int round = 0; round < 60; ++round) {  // to the deepest time
-      const Wide middle = (low + high) / 2;
-      (oracle::gap_at(problem_, middle, tolerance()).closing > 0 ? low : high) = middle;
-    }
-    return oracle::gap_at(problem_, low, tolerance()).core - problem_.reach >= -noise_ || problem_.reach <= noise_;
-  }
-
- private:
-  static Wide tolerance() { return Wide(1e-45); }
-  oracle::Gap<Wide> at(const S& time) const { return oracle::gap_at(problem_, Wide(time), tolerance()); }
-  oracle::Impact<Wide> first_contact() const { return oracle::first_contact(problem_, Wide(0), tolerance()); }
-
-  oracle::Problem<Wide> problem_;
-  Wide path_ = 0, size_ = 0, noise_ = 0;
-};
-
-template <class A, class B, class S>
-::testing::AssertionResult judge_claims(const Claims& claims, const Referee<A, B>& referee, const Toi<S>& toi) {
+/// Of an answer about the shapes of `exhibit`.
+inline ::testing::AssertionResult judge_claims(const Claims& claims, const fuzz::Exhibit& exhibit, ToiStatus status,
+                                               double time) {
   using ::testing::AssertionFailure;
-  if (toi.status == ToiStatus::invalid) return AssertionFailure() << "invalid";
-  if (!(toi.time >= S(0) && toi.time <= S(1))) return AssertionFailure() << "time out of range: " << toi.time;
-  if (toi.status == ToiStatus::overlapping) {
-    if (referee.gap(S(0)) > referee.noise()) return AssertionFailure() << "overlapping, yet apart at the start";
+  const fuzz::Referee<Wide> referee(exhibit);
+  // Of cores that meet, how deep they are in each other does not count.
+  const auto at_most_the_radii = [&](const Wide& gap) { return std::max(gap, Wide(-referee.reach())); };
+  const auto gap_at = [&](double t) { return at_most_the_radii(referee.at(Wide(t)).gap); };
+  const Wide size = referee.size_at(1), noise = 64 * Wide(exhibit.u) * size;  // [length] what rounding may hide
+  if (status == ToiStatus::invalid) return AssertionFailure() << "invalid";
+  if (!(time >= 0 && time <= 1)) return AssertionFailure() << "time out of range: " << time;
+  if (status == ToiStatus::overlapping) {
+    if (gap_at(0) > noise) return AssertionFailure() << "overlapping, yet apart at the start";
     return ::testing::AssertionSuccess();
   }
-  if (toi.status == ToiStatus::apart) {
-    if ((claims.never_late || claims.never_misses) && referee.touches()) {
-      const bool exact = claims.never_late && referee.path() != 0;  // at rest the discrete test decides
-      if (exact || !referee.barely_touches()) return AssertionFailure() << "missed";
-    }
+  if (status == ToiStatus::apart) {
+    if (!claims.never_late && !claims.never_misses) return ::testing::AssertionSuccess();
+    const auto first = referee.first_contact(0);
+    if (first.verdict == oracle::Verdict::apart) return ::testing::AssertionSuccess();
+    const bool at_rest = exhibit.displacement_a == exhibit.displacement_b;  // then the discrete test decides
+    if (claims.never_late && !at_rest) return AssertionFailure() << "missed";
+    if (at_most_the_radii(referee.deepest(first.time).gap) < -noise)
+      return AssertionFailure() << "missed by more than rounding";
     return ::testing::AssertionSuccess();
   }
-  if (claims.never_late && referee.touches_before(toi.time)) return AssertionFailure() << "late: " << toi.time;
-  if (toi.status == ToiStatus::gave_up) return ::testing::AssertionSuccess();
-  const Wide gap = claims.touches || claims.early_by ? referee.gap(toi.time) : Wide(0);
-  if (claims.touches && gap > referee.noise()) return AssertionFailure() << "apart by " << gap << " at a hit";
-  if (claims.early_by && gap > Wide(*claims.early_by) * referee.path() + referee.noise() + referee.blur())
-    return AssertionFailure() << "early: a gap of " << gap << " of a path of " << referee.path();
-  if (claims.late_by && toi.time > S(*claims.late_by) &&
-      referee.gap(S(toi.time - S(*claims.late_by))) < -referee.noise())
+  const auto there = referee.at(Wide(time));
+  if (claims.never_late && time > 0 && !(there.gap > 0 && there.closing > 0)) {
+    const auto first = referee.first_contact(0);
+    if (first.verdict != oracle::Verdict::apart && first.time < Wide(time) * Wide(1 - 1e-30))
+      return AssertionFailure() << "late: " << time;
+  }
+  if (status == ToiStatus::gave_up) return ::testing::AssertionSuccess();
+  if (claims.touches && there.gap > noise) return AssertionFailure() << "apart by " << there.gap << " at a hit";
+  // The direction of rounded closest points, off by e over their gap g, loses the size times e / g: near a gap of the root, all of it.
+  const Wide blur = sqrt(noise * size) / 2;
+  if (claims.early_by && there.gap > Wide(*claims.early_by) * referee.path() + noise + blur)
+    return AssertionFailure() << "early: a gap of " << there.gap << " of a path of " << referee.path();
+  if (claims.late_by && time > *claims.late_by && gap_at(time - *claims.late_by) < -noise)
     return AssertionFailure() << "late by more than the tolerance";
   return ::testing::AssertionSuccess();
 }
 
-}  // namespace thinwall::testing
-
 // ---- Every method of the list on the same random motions, held to what it claims.
-
-namespace thinwall::testing {
 
 /// One motion of a pair, a third of them with a gap that counts as contact.
 template <class A, class B> void every_method_keeps_its_claims() {
@@ -116,13 +71,13 @@ template <class A, class B> void every_method_keeps_its_claims() {
   Shaker<S> draw(static_cast<unsigned>(seed));
   const Motion<A, B> motion = drawn_motion<A, B>(draw);
   const S gap = draw.pick(0, 2) == 0 ? draw.sizes()[0] * power<S>(-draw.pick(0, 10)) : S(0);
-  const Referee<A, B> referee(motion.a, motion.b, gap);
+  const fuzz::Exhibit exhibit = fuzz::exhibit(motion.a, motion.b, double{gap});
   for_each_type(Methods<S>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (serves<Method, A, B>) {
       Method method;
       method.min_separation = gap;
       const Toi<S> toi = time_of_impact(method, motion.a, motion.b);
-      const auto judgment = judge_claims(claims_of(method), referee, toi);
+      const auto judgment = judge_claims(claims_of(method), exhibit, toi.status, double{toi.time});
       if (judgment) return;
       std::ostringstream out;
       out << Method::name << " on seed " << seed << ", min_separation " << gap << ": " << judgment.message();
@@ -133,14 +88,8 @@ template <class A, class B> void every_method_keeps_its_claims() {
 
 /// `runs` motions of every pair of shapes that is served.
 template <class S> void check_every_pair(int runs) {
-  for_each_type(Shapes<S>{}, [&]<class A>(TypeTag<A>) {
-    for_each_type(Shapes<S>{}, [&]<class B>(TypeTag<B>) {
-      if constexpr (ServedPair<A, B> && A::rank >= B::rank) {
-        SCOPED_TRACE(std::to_string(A::rank) + " and " + std::to_string(B::rank));
-        check_property(runs, every_method_keeps_its_claims<A, B>);
-      }
-    });
-  });
+  for_each_served_pair<S>(
+      [&]<class A, class B>(TypeTag<A>, TypeTag<B>) { check_property(runs, every_method_keeps_its_claims<A, B>); });
 }
 
 }  // namespace thinwall::testing

@@ -9,15 +9,7 @@ namespace thinwall::testing {
 namespace {
 
 TEST(Claims, are_kept_on_every_pair_in_double) { check_every_pair<double>(2000); }
-
-}  // namespace
-}  // namespace thinwall::testing
-
-// ---- The same for a float query, which is computed in double: the answer must be no later after it is rounded to float.
-
-namespace thinwall::testing {
-namespace {
-
+/// Computed in double: the answer must be no later after it is rounded to float.
 TEST(Claims, are_kept_on_every_pair_in_float) { check_every_pair<float>(1000); }
 
 }  // namespace

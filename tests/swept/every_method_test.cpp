@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <thinwall/swept/methods.hpp>
 
+#include "support/any_number.hpp"
 #include "support/judge.hpp"
 
 namespace thinwall::testing {
@@ -45,52 +46,50 @@ template <class S> class EveryMethod : public ::testing::Test {
 };
 TYPED_TEST_SUITE(EveryMethod, Scalars, ScalarNames);
 
-TYPED_TEST(EveryMethod, nan_and_infinity_are_invalid) {
+TYPED_TEST(EveryMethod, bad_numbers_are_invalid) {
   using S = TypeParam;
   this->each([this](const auto& method) {
-    for (const S& bad : {nan<S>(), infinity<S>(), S(-infinity<S>())}) {
-      for (int i = 0; i < 3; ++i) {
-        auto center = this->ball, path = this->ball;
-        center.shape.center[i] = path.displacement[i] = bad;
-        auto box_center = this->box, size = this->box, box_path = this->box;
-        box_center.shape.center[i] = size.shape.half_extents[i] = box_path.displacement[i] = bad;
-        for (const auto& broken : {center, path}) {
-          this->expect_invalid_both_ways(method, broken, this->other);
-          this->expect_invalid_both_ways(method, broken, this->box);
+    const auto check = [&](auto a, auto b) {
+      const auto ask = [&] {
+        if (!valid(a) || !valid(b)) this->expect_invalid_both_ways(method, a, b);
+      };
+      with_every_number<S>(a, ask);
+      with_every_number<S>(b, ask);
+    };
+    check(this->ball, this->other);
+    check(this->ball, this->box);
+  });
+}
+
+TYPED_TEST(EveryMethod, options_out_of_range_are_invalid) {
+  using S = TypeParam;
+  this->each([this](const auto& usual) {
+    auto method = usual;
+    const auto expect = [&]<class T>(T& option, const std::vector<std::type_identity_t<T>>& values, bool allowed) {
+      const T before = option;
+      for (const T& value : values) {
+        option = value;
+        if (allowed) {
+          EXPECT_EQ(text(time_of_impact(method, this->ball, this->box).status), text(ToiStatus::hit)) << value;
+        } else {
+          this->expect_invalid_both_ways(method, this->ball, this->box);
+          this->expect_invalid_both_ways(method, this->ball, this->other);
         }
-        for (const auto& broken : {box_center, size, box_path})
-          this->expect_invalid_both_ways(method, this->ball, broken);
       }
-      auto radius = this->ball;
-      radius.shape.radius = bad;
-      this->expect_invalid_both_ways(method, radius, this->other);
-      this->expect_invalid_both_ways(method, radius, this->box);
+      option = before;
+    };
+    [[maybe_unused]] const S finest = std::numeric_limits<S>::epsilon();
+    expect(method.min_separation, {S(-1), nan<S>(), infinity<S>()}, false);
+    if constexpr (requires { method.tolerance; }) {
+      expect(method.tolerance, {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}, false);
+      expect(method.tolerance, {finest, S(1)}, true);
     }
-  });
-}
-
-TYPED_TEST(EveryMethod, negative_sizes_are_invalid) {
-  using S = TypeParam;
-  this->each([this](const auto& method) {
-    auto radius = this->ball;
-    radius.shape.radius = S(-1);
-    this->expect_invalid_both_ways(method, radius, this->other);
-    this->expect_invalid_both_ways(method, radius, this->box);
-    auto size = this->box;
-    size.shape.half_extents[1] = S(-1);
-    this->expect_invalid_both_ways(method, this->ball, size);
-  });
-}
-
-TYPED_TEST(EveryMethod, min_separation_must_be_a_length) {
-  using S = TypeParam;
-  this->each([this](const auto& method) {
-    for (const S& bad : {S(-1), nan<S>(), infinity<S>()}) {
-      auto options = method;
-      options.min_separation = bad;
-      this->expect_invalid_both_ways(options, this->ball, this->box);
-      this->expect_invalid_both_ways(options, this->ball, this->other);
+    if constexpr (requires { method.margin; }) {
+      expect(method.margin, {S(-1), nan<S>(), infinity<S>()}, false);
+      expect(method.margin, {std::numeric_limits<S>::max()}, true);
     }
+    if constexpr (requires { method.max_evaluations; }) expect(method.max_evaluations, {0, -1}, false);
+    if constexpr (requires { method.n; }) expect(method.n, {0, -1}, false);
   });
 }
 

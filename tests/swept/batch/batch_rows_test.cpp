@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/batch_rows.hpp"
+#include "support/said.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -18,6 +19,12 @@ template <class S>::testing::AssertionResult same_answers(const Answers<S>& a, c
       return ::testing::AssertionFailure() << "row " << i << ": " << a.time[i] << " and " << b.time[i];
   }
   return ::testing::AssertionSuccess();
+}
+
+template <class A> RowTable<Moving<A>> repeated(const Moving<A>& row, std::size_t count) {
+  RowTable<Moving<A>> table;
+  for (std::size_t i = 0; i < count; ++i) table.push_back(row);
+  return table;
 }
 
 class BatchRowsOfBoxesAndBalls : public ::testing::TestWithParam<std::string> {
@@ -55,12 +62,8 @@ TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_for_any_number_of_threads) {
 
 TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_one_against_many_as_row_by_row) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{7}, std::size_t{400}}) {
-    RowTable<Box> boxes;
-    RowTable<Ball> balls;
-    for (std::size_t k = 0; k < count; ++k) {
-      boxes.push_back(rows.a[i]);
-      balls.push_back(rows.b[i]);
-    }
+    const RowTable<Box> boxes = repeated(rows.a[i], count);
+    const RowTable<Ball> balls = repeated(rows.b[i], count);
     Answers<double> one(count), many(count);
     time_of_impact(rows.a[i], rows.b.rows(), one.rows());
     time_of_impact(boxes.rows(), rows.b.rows(), many.rows());
@@ -146,12 +149,8 @@ TEST_P(BatchRowsOfBoxesAndBalls, of_points_are_answered_by_vectors) {
 /// Row by row and as one against many, the verdict is the scalar code's.
 template <class A, class B> void expect_as_scalar(const char* what, const Moving<A>& a, const Moving<B>& b) {
   using S = typename A::Scalar;
-  RowTable<Moving<A>> as;
-  RowTable<Moving<B>> bs;
-  for (int i = 0; i < 16; ++i) {
-    as.push_back(a);
-    bs.push_back(b);
-  }
+  const RowTable<Moving<A>> as = repeated(a, 16);
+  const RowTable<Moving<B>> bs = repeated(b, 16);
   const ToiStatus truth = time_of_impact(a, b).status;
   Answers<S> rows(16), many(16);
   time_of_impact(as.rows(), bs.rows(), rows.rows());
@@ -239,22 +238,15 @@ TEST_P(BatchRowsOfBoxesAndBalls, of_rays_are_raycasts) {
   raycast(rays.rows(), boxes[0], one.rows());
 }
 
-/// Asks one row; the scalar code is right about each of these.
-template <class A, class B> void expect_as_scalar(const Moving<A>& a, const Moving<B>& b) {
-  RowTable<Moving<B>> row;
-  row.push_back(b);
-  Answers<typename A::Scalar> answer(1);
-  time_of_impact(a, row.rows(), answer.rows());
-  EXPECT_EQ(answer.status[0], time_of_impact(a, b).status);
-}
-
 // Found by drawing five million: a slow axis is entered last, in whose noise a quick one leaves the face.
 TEST_P(BatchRowsOfBoxesAndBalls, that_pass_a_rim_while_a_slow_axis_closes_are_misses) {
   using F = Vec3<float>;
-  expect_as_scalar(Moving{Aabb<float>{F(-3.6644924F, 2, 0.99949294F), F(0.3206128F, 1.9277323F, 1.5F)},
+  expect_as_scalar("the one",
+                   Moving{Aabb<float>{F(-3.6644924F, 2, 0.99949294F), F(0.3206128F, 1.9277323F, 1.5F)},
                           F(0.00091028214F, -5.31625F, -5.539623F)},
                    at_rest(Sphere<float>{F(-1.3432537F, -0.5F, -1.308669F), 2}));
-  expect_as_scalar(Moving{Aabb<float>{F(-0.5F, 0.500006F, -1.4622943F), F(1.3395107F, 0, 0.5428998F)},
+  expect_as_scalar("the other",
+                   Moving{Aabb<float>{F(-0.5F, 0.500006F, -1.4622943F), F(1.3395107F, 0, 0.5428998F)},
                           F(-0.75F, -1.6043583e-05F, -0.25F)},
                    at_rest(Sphere<float>{F(-2, -1, -1.0130483F), 1.5F}));
 }
@@ -264,22 +256,14 @@ TEST_P(BatchRowsOfBoxesAndBalls, that_all_but_touch_a_capsules_end_are_the_scala
   using V = Vec3<double>;
   const V top(-0.79990899469703436, 1.5, 0), motion(1.1008612583391368, -0.56857734173536301, -2.4862988363020122);
   const V center(-0.79628887088038658, 0.49764269878332656, -0.0045539825722720195);
-  expect_as_scalar(Moving{Capsule<double>{top, V(top[0], 0.5, 0), 0}, motion},
+  expect_as_scalar("an end", Moving{Capsule<double>{top, V(top[0], 0.5, 0), 0}, motion},
                    at_rest(Sphere<double>{center, 0.006277015432715416}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Vectors, BatchRowsOfBoxesAndBalls, ::testing::ValuesIn(vector_targets()),
                          [](const auto& name) { return name.param; });
 
-/// What a call throws.
-template <class Call> std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& refused) {
-    return refused.what();
-  }
-  return "nothing";
-}
+template <class Call> std::string refusal(const Call& call) { return error_of<std::invalid_argument>(call); }
 
 TEST(BatchRefusals, name_what_is_wrong) {
   const BatchRows<Aabb<double>, Sphere<double>> rows(100, 3);

@@ -1,25 +1,17 @@
-// Bisection by cases: late by at most the tolerance, bounded, what it may miss, and its options.
+// Bisection by cases: late by at most the tolerance, bounded, and what it may miss.
 
 #include <gtest/gtest.h>
 
 #include <thinwall/swept/methods/bisection.hpp>
 #include <thinwall/swept/methods/conservative_advancement.hpp>
 #include <thinwall/swept/methods/inclusion.hpp>
-#include <thinwall/swept/time_of_impact.hpp>
 
-#include "support/judge.hpp"
+#include "support/method_cases.hpp"
 
 namespace thinwall::testing {
 namespace {
 
-template <class S> class BisectionMethod : public ::testing::Test {
- protected:
-  static constexpr int digits = std::numeric_limits<S>::digits;
-  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
-  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
-  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
-  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};  // of that post
-};
+template <class S> using BisectionMethod = MethodCases<S>;
 TYPED_TEST_SUITE(BisectionMethod, Scalars, ScalarNames);
 
 TYPED_TEST(BisectionMethod, is_late_by_at_most_the_tolerance) {
@@ -41,7 +33,7 @@ TYPED_TEST(BisectionMethod, finds_a_contact_however_short) {  // no pose of a se
   using S = TypeParam;
   const S third = S(1) / S(3);
   const Moving<Sphere<S>> fast{{{-1, 0, 0}, 0}, {3, 0, 0}};
-  const S thin = power<S>(3 - this->digits);
+  const S thin = power<S>(3 - std::numeric_limits<S>::digits);
   const auto plate = at_rest(Aabb<S>{{0, 0, 0}, {thin, 8, 8}});
   const Toi<S> toi = time_of_impact(Bisection<S>{}, fast, plate);
   EXPECT_EQ(toi.status, ToiStatus::hit);
@@ -50,8 +42,7 @@ TYPED_TEST(BisectionMethod, finds_a_contact_however_short) {  // no pose of a se
 
 TYPED_TEST(BisectionMethod, a_miss_is_proven_by_two_tangents) {
   using S = TypeParam;
-  const Moving<Sphere<S>> passing{{{-4, 2.0625, 0}, 1}, {8, 0, 0}};
-  const Toi<S> toi = time_of_impact(Bisection<S>{}, passing, this->post);
+  const Toi<S> toi = time_of_impact(Bisection<S>{}, this->passing, this->post);
   EXPECT_EQ(toi.status, ToiStatus::apart);
   EXPECT_LE(toi.evaluations, 12);
   const Moving<Sphere<S>> leaving{{{-4, 0, 0}, 1}, {-8, 0, 0}}, stopping{{{-4, 0, 0}, 1}, {1, 0, 0}};
@@ -61,7 +52,7 @@ TYPED_TEST(BisectionMethod, a_miss_is_proven_by_two_tangents) {
 
 TYPED_TEST(BisectionMethod, both_searches_are_bounded) {  // a touch that no pose shows and no tangent excludes
   using S = TypeParam;
-  const int most = 3 + 2 * this->digits + this->digits;
+  const int most = 3 + 2 * std::numeric_limits<S>::digits + std::numeric_limits<S>::digits;
   int longest = 0;
   for (int i = 0; i < 64; ++i) {
     const S height = S(2) * (1 + S(i - 32) * 4 * unit<S>());
@@ -70,20 +61,7 @@ TYPED_TEST(BisectionMethod, both_searches_are_bounded) {  // a touch that no pos
     longest = std::max(longest, time_of_impact(finest, touching, this->post).evaluations);
   }
   EXPECT_LE(longest, most);
-  EXPECT_GE(longest, this->digits / 3);
-}
-
-TYPED_TEST(BisectionMethod, options_out_of_range_are_invalid) {
-  using S = TypeParam;
-  const S finest = std::numeric_limits<S>::epsilon();
-  for (const S& bad : {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}) {
-    const Toi<S> toi = time_of_impact(Bisection<S>{.tolerance = bad}, this->shot, this->wall);
-    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
-    EXPECT_NE(toi.time, toi.time);
-  }
-  for (const S& good : {finest, S(1)}) {
-    EXPECT_EQ(time_of_impact(Bisection<S>{.tolerance = good}, this->shot, this->wall).status, ToiStatus::hit);
-  }
+  EXPECT_GE(longest, std::numeric_limits<S>::digits / 3);
 }
 
 TYPED_TEST(BisectionMethod, keeps_the_minimal_separation) {
@@ -92,22 +70,9 @@ TYPED_TEST(BisectionMethod, keeps_the_minimal_separation) {
   EXPECT_TRUE(toi.time >= S(0.25) && toi.time <= S(0.25) + half_digits<S>());
 }
 
-}  // namespace
-}  // namespace thinwall::testing
+// ---- Conservative advancement by cases: never late, and bounded.
 
-// ---- Conservative advancement by cases: never late, bounded, and its options.
-
-namespace thinwall::testing {
-namespace {
-
-template <class S> class Advancement : public ::testing::Test {
- protected:
-  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
-  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
-  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
-  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};    // of that post
-  const Moving<Sphere<S>> passing{{{-4, 2.0625, 0}, 1}, {8, 0, 0}};  // beside it, by 1/16
-};
+template <class S> using Advancement = MethodCases<S>;
 TYPED_TEST_SUITE(Advancement, Scalars, ScalarNames);
 
 TYPED_TEST(Advancement, one_step_takes_it_before_a_face) {
@@ -147,37 +112,7 @@ TYPED_TEST(Advancement, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
 }
 
 TYPED_TEST(Advancement, out_of_evaluations_gives_up_with_what_is_proven) {
-  using S = TypeParam;
-  const S exact = time_of_impact(this->graze, this->post).time;
-  const Toi<S> enough = time_of_impact(ConservativeAdvancement<S>{}, this->graze, this->post);
-  ASSERT_EQ(enough.status, ToiStatus::hit);
-  S before = 0;
-  for (int n = 1; n < enough.evaluations - 1; ++n) {
-    const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{.max_evaluations = n}, this->graze, this->post);
-    EXPECT_EQ(text(toi.status), text(ToiStatus::gave_up));
-    EXPECT_EQ(toi.evaluations, n + 1);
-    EXPECT_TRUE(toi.time > before && toi.time < exact) << n;
-    EXPECT_EQ(toi.normal, Vec3<S>(0, 0, 0));
-    before = toi.time;
-  }
-  EXPECT_TRUE(before > exact / 2);
-}
-
-TYPED_TEST(Advancement, options_out_of_range_are_invalid) {
-  using S = TypeParam;
-  using Method = ConservativeAdvancement<S>;
-  const S finest = std::numeric_limits<S>::epsilon();
-  for (const S& bad : {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}) {
-    const Toi<S> toi = time_of_impact(Method{.tolerance = bad}, this->shot, this->wall);
-    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
-    EXPECT_NE(toi.time, toi.time);
-  }
-  for (const int bad : {0, -1}) {
-    EXPECT_EQ(time_of_impact(Method{.max_evaluations = bad}, this->shot, this->wall).status, ToiStatus::invalid);
-  }
-  for (const S& good : {finest, S(1)}) {
-    EXPECT_EQ(time_of_impact(Method{.tolerance = good}, this->shot, this->wall).status, ToiStatus::hit);
-  }
+  this->template expect_what_is_proven<ConservativeAdvancement<TypeParam>>(true);
 }
 
 TYPED_TEST(Advancement, keeps_the_minimal_separation) {
@@ -209,23 +144,13 @@ TEST(AdvancementInFloat,
   EXPECT_EQ(below, 200);
 }
 
-}  // namespace
-}  // namespace thinwall::testing
+// ---- The inclusion method by cases: never late, early by at most the tolerance, and bounded.
 
-// ---- The inclusion method by cases: never late, early by at most the tolerance, bounded, and its options.
-
-namespace thinwall::testing {
-namespace {
-
-template <class S> class InclusionMethod : public ::testing::Test {
- protected:
-  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
-  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
-  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
-  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};               // of that post
-  const Moving<Sphere<S>> passing{{{-4, 2 + power<S>(-10), 0}, 1}, {8, 0, 0}};  // beside it
-};
+template <class S> using InclusionMethod = MethodCases<S>;
 TYPED_TEST_SUITE(InclusionMethod, Scalars, ScalarNames);
+
+template <class S>
+const Moving<Sphere<S>> passing_close{{{-4, 2 + power<S>(-10), 0}, 1}, {8, 0, 0}};  // beside the post
 
 TYPED_TEST(InclusionMethod, is_early_by_at_most_the_tolerance) {
   using S = TypeParam;
@@ -246,49 +171,21 @@ TYPED_TEST(InclusionMethod, is_early_by_at_most_the_tolerance) {
 
 TYPED_TEST(InclusionMethod, a_miss_is_proven_in_a_few_looks_each_time_the_interval_halves) {
   using S = TypeParam;
-  const Toi<S> toi = time_of_impact(Inclusion<S>{}, this->passing, this->post);
+  const Toi<S> toi = time_of_impact(Inclusion<S>{}, passing_close<S>, this->post);
   EXPECT_EQ(toi.status, ToiStatus::apart);
   EXPECT_LE(toi.evaluations, 64);
 }
 
 TYPED_TEST(InclusionMethod, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
   using S = TypeParam;
-  auto later = this->passing;  // nearest at no middle of an interval
+  auto later = passing_close<S>;  // nearest at no middle of an interval
   later.shape.center[0] -= S(1) / S(3);
   EXPECT_EQ(time_of_impact(Inclusion<S>{}, later, this->post).status, ToiStatus::apart);
   EXPECT_EQ(time_of_impact(Inclusion<S>{.tolerance = power<S>(-4)}, later, this->post).status, ToiStatus::hit);
 }
 
 TYPED_TEST(InclusionMethod, out_of_evaluations_gives_up_with_what_is_proven) {
-  using S = TypeParam;
-  const S exact = time_of_impact(this->graze, this->post).time;
-  const Toi<S> enough = time_of_impact(Inclusion<S>{}, this->graze, this->post);
-  ASSERT_EQ(enough.status, ToiStatus::hit);
-  S before = 0;
-  for (int n = 1; n < enough.evaluations - 1; ++n) {
-    const Toi<S> toi = time_of_impact(Inclusion<S>{.max_evaluations = n}, this->graze, this->post);
-    EXPECT_EQ(text(toi.status), text(ToiStatus::gave_up));
-    EXPECT_EQ(toi.evaluations, n + 1);
-    EXPECT_TRUE(toi.time >= before && toi.time < exact) << n;
-    before = toi.time;
-  }
-  EXPECT_TRUE(before > exact / 2);
-}
-
-TYPED_TEST(InclusionMethod, options_out_of_range_are_invalid) {
-  using S = TypeParam;
-  const S finest = std::numeric_limits<S>::epsilon();
-  for (const S& bad : {S(0), S(-1), S(finest / 2), S(1.5), nan<S>(), infinity<S>()}) {
-    const Toi<S> toi = time_of_impact(Inclusion<S>{.tolerance = bad}, this->shot, this->wall);
-    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
-    EXPECT_NE(toi.time, toi.time);
-  }
-  for (const int bad : {0, -1}) {
-    EXPECT_EQ(time_of_impact(Inclusion<S>{.max_evaluations = bad}, this->shot, this->wall).status, ToiStatus::invalid);
-  }
-  for (const S& good : {finest, S(1)}) {
-    EXPECT_EQ(time_of_impact(Inclusion<S>{.tolerance = good}, this->shot, this->wall).status, ToiStatus::hit);
-  }
+  this->template expect_what_is_proven<Inclusion<TypeParam>>(false);
 }
 
 TYPED_TEST(InclusionMethod, keeps_the_minimal_separation) {

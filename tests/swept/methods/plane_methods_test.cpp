@@ -6,20 +6,14 @@
 #include <thinwall/swept/methods/speculative.hpp>
 #include <thinwall/swept/methods/sweep_then_confirm.hpp>
 #include <thinwall/swept/methods/tolerance.hpp>
-#include <thinwall/swept/time_of_impact.hpp>
 
-#include "support/judge.hpp"
-#include "support/real.hpp"
+#include "support/method_cases.hpp"
 #include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
 
-template <class S> class Plane : public ::testing::Test {
- protected:
-  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
-  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};
-};
+template <class S> using Plane = MethodCases<S>;
 TYPED_TEST_SUITE(Plane, Scalars, ScalarNames);
 
 TYPED_TEST(Plane, is_open_until_just_before_contact) {
@@ -82,19 +76,9 @@ TEST(RoundedDown, is_the_largest_float_that_is_not_later) {
   EXPECT_EQ(rounded_down_to<float>(1e-60), 0.0);  // the smallest float is later
 }
 
-}  // namespace
-}  // namespace thinwall::testing
+// ---- Speculative contacts by cases: what a margin sees, and its false hits.
 
-// ---- Speculative contacts by cases: what a margin sees, its false hits, and its options.
-
-namespace thinwall::testing {
-namespace {
-
-template <class S> class SpeculativeMethod : public ::testing::Test {
- protected:
-  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
-  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
-};
+template <class S> using SpeculativeMethod = MethodCases<S>;
 TYPED_TEST_SUITE(SpeculativeMethod, Scalars, ScalarNames);
 
 TYPED_TEST(SpeculativeMethod, is_right_before_a_wall) {
@@ -127,17 +111,6 @@ TYPED_TEST(SpeculativeMethod, a_smaller_margin_misses_what_is_farther_off) {
   EXPECT_EQ(time_of_impact(Speculative<S>{.margin = 0}, touching, this->wall).status, ToiStatus::overlapping);
 }
 
-TYPED_TEST(SpeculativeMethod, options_out_of_range_are_invalid) {
-  using S = TypeParam;
-  for (const S& bad : {S(-1), nan<S>(), infinity<S>()}) {
-    const Toi<S> toi = time_of_impact(Speculative<S>{.margin = bad}, this->shot, this->wall);
-    EXPECT_EQ(text(toi.status), text(ToiStatus::invalid));
-    EXPECT_NE(toi.time, toi.time);
-  }
-  const S largest = std::numeric_limits<S>::max();
-  EXPECT_EQ(time_of_impact(Speculative<S>{.margin = largest}, this->shot, this->wall).status, ToiStatus::hit);
-}
-
 TYPED_TEST(SpeculativeMethod, keeps_the_minimal_separation) {
   using S = TypeParam;
   const Toi<S> toi = time_of_impact(Speculative<S>{.min_separation = 0.125}, this->shot, this->wall);
@@ -152,13 +125,7 @@ TYPED_TEST(SpeculativeMethod,
   EXPECT_EQ(time_of_impact(Speculative<S>{.min_separation = 0.25}, short_step, this->wall).status, ToiStatus::hit);
 }
 
-}  // namespace
-}  // namespace thinwall::testing
-
 // ---- The tutorial's rule for two fast bodies: the false hits it removes and the true ones it misses.
-
-namespace thinwall::testing {
-namespace {
 
 template <class S> class Confirm : public ::testing::Test {
  protected:
