@@ -1,6 +1,5 @@
 /// The experiment broad_phase: its worlds, its verdicts and its words, never its times.
 
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>

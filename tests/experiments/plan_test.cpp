@@ -1,7 +1,5 @@
 /// The experiment plan: its scenes, its verdicts and its words, never its times.
 
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment_list.hpp>

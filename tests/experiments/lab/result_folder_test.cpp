@@ -1,6 +1,5 @@
 /// What a run does with what it finds in its folder: go on, answer at once, start over, or refuse.
 
-#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include <atomic>
 #include <csignal>
-#include <functional>
 #include <future>
 #include <memory>
 #include <stdexcept>

@@ -1,6 +1,5 @@
 /// A result run again from its manifest: the same, or what differs and why.
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 

@@ -6,9 +6,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include <thinwall/discrete/dispatch.hpp>
 #include <thinwall/experiments/world.hpp>
-#include <thinwall/experiments/world/pairs.hpp>
+#include <thinwall/experiments/world/spin.hpp>
 
 #include "experiments/world/random_world.hpp"
 #include "support/said.hpp"
