@@ -60,9 +60,11 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
   GapSample<T> before = sample(T(0));
-  if (!(before.closing > T(0))) return {ToiStatus::apart, evaluations};
+  const bool recedes = !(before.closing > T(0));
+  // The direction of a gap within rounding, S's of the axes too, is none, and its slope proves nothing.
+  if (recedes && before.gap > T(gap_noise(S(magnitude(a) + magnitude(b))))) return {ToiStatus::apart, evaluations};
   GapSample<T> after = sample(T(1));
-  if (after.gap > T(0) && after.closing >= T(0)) return {ToiStatus::apart, evaluations};
+  if (after.gap > T(0) && (recedes || after.closing >= T(0))) return {ToiStatus::apart, evaluations};
   constexpr int rounds = 2 * std::numeric_limits<S>::digits;  // half of them halve
   for (int k = 0; k < rounds && after.gap > T(0); ++k) {
     const TangentCrossing<T> crossing(before, after);

@@ -25,9 +25,7 @@ inline ::testing::AssertionResult judge_claims(const Claims& claims, const fuzz:
                                                double time) {
   using ::testing::AssertionFailure;
   const fuzz::Referee<Wide> referee(exhibit);
-  // Of cores that meet, how deep they are in each other does not count.
-  const auto at_most_the_radii = [&](const Wide& gap) { return std::max(gap, Wide(-referee.reach())); };
-  const auto gap_at = [&](double t) { return at_most_the_radii(referee.at(Wide(t)).gap); };
+  const auto gap_at = [&](double t) { return referee.at(Wide(t)).gap; };
   const Wide size = referee.size_at(1), noise = 64 * Wide(exhibit.u) * size;  // [length] what rounding may hide
   if (status == ToiStatus::invalid) return AssertionFailure() << "invalid";
   if (!(time >= 0 && time <= 1)) return AssertionFailure() << "time out of range: " << time;
@@ -41,8 +39,7 @@ inline ::testing::AssertionResult judge_claims(const Claims& claims, const fuzz:
     if (first.verdict == oracle::Verdict::apart) return ::testing::AssertionSuccess();
     const bool at_rest = exhibit.displacement_a == exhibit.displacement_b;  // then the discrete test decides
     if (claims.never_late && !at_rest) return AssertionFailure() << "missed";
-    if (at_most_the_radii(referee.deepest(first.time).gap) < -noise)
-      return AssertionFailure() << "missed by more than rounding";
+    if (referee.deepest(first.time).gap < -noise) return AssertionFailure() << "missed by more than rounding";
     return ::testing::AssertionSuccess();
   }
   const auto there = referee.at(Wide(time));

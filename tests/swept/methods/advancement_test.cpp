@@ -7,6 +7,7 @@
 #include <thinwall/swept/methods/inclusion.hpp>
 
 #include "support/method_cases.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -68,6 +69,19 @@ TYPED_TEST(BisectionMethod, keeps_the_minimal_separation) {
   using S = TypeParam;
   const Toi<S> toi = time_of_impact(Bisection<S>{.min_separation = 0.125}, this->shot, this->wall);
   EXPECT_TRUE(toi.time >= S(0.25) && toi.time <= S(0.25) + half_digits<S>());
+}
+
+/// Boxes that are apart by 2^-24 at first, a fortieth of what their axes in float are off by: the way from one to the other says nothing.
+TEST(BisectionInFloat, goes_by_no_slope_of_a_gap_that_is_rounding) {
+  const Motion<Obb<float>, Aabb<float>> motion = [] {
+    Shaker<float> draw(632056760);
+    return drawn_motion<Obb<float>, Aabb<float>>(draw);
+  }();
+  const Toi<float> exact = time_of_impact(motion.a, motion.b),
+                   toi = time_of_impact(Bisection<float>{}, motion.a, motion.b);
+  ASSERT_EQ(exact.status, ToiStatus::hit);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_LE(toi.time, exact.time + half_digits<float>());
 }
 
 // ---- Conservative advancement by cases: never late, and bounded.
