@@ -5,6 +5,7 @@
 program_packages=(
   g++ cmake ninja-build git
   libeigen3-dev libboost-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libmd4c-dev libmd4c-html0-dev librandom123-dev libtbb-dev
+  libssl-dev libexpat1-dev
   gnuplot-nox
 )
 program_commands=(c++ cmake ninja git gnuplot)

@@ -1,7 +1,5 @@
 /// A wish as the user of `thinwall advise` words it, and the run that puts an advice to the test.
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include <thinwall/experiments/advise/advice.hpp>
@@ -18,10 +16,8 @@ namespace {
 using Word = std::optional<std::string>;
 
 double read(const char* option, const std::string& word, const Range& range) {
-  double value = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (error == std::errc{} && stop == end && contains(range, value)) return value;
+  const auto value = parsed<double>(word);
+  if (value && contains(range, *value)) return *value;
   throw UsageError(fmt::format("{}: '{}' is not allowed; {}", option, one_line(word), range_text("a number", range)));
 }
 

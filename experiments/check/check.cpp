@@ -1,9 +1,9 @@
 #include <thinwall/experiments/check/check.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -17,6 +17,8 @@
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/sha256.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 
@@ -36,15 +38,6 @@ std::set<std::string> files_below(const fs::path& folder) {
   return out;
 }
 
-/// What a run at work keeps: journal.tsv, journal.old.tsv, journal.rank-2.tsv.
-bool is_journal(std::string_view file) {
-  if (file == "journal.tsv" || file == "journal.old.tsv") return true;
-  constexpr std::string_view begin = "journal.rank-", end = ".tsv";
-  if (!file.starts_with(begin) || !file.ends_with(end) || file.size() <= begin.size() + end.size()) return false;
-  const std::string_view rank = file.substr(begin.size(), file.size() - begin.size() - end.size());
-  return std::ranges::all_of(rank, [](char letter) { return '0' <= letter && letter <= '9'; });
-}
-
 /// What lies there, in words.
 const char* kind_of(const fs::path& path) {
   if (fs::is_symlink(path)) return "a link that the manifest does not name";
@@ -56,14 +49,12 @@ void check_named_files(const KeptResult& result, Faults& faults) {
   const auto is_there = [&](const std::string& file) {
     const fs::path path = result.folder / file;
     if (fs::is_regular_file(path)) return true;
-    faults.push_back(
-        fmt::format("{}: {}; the manifest names it", one_line(file), fs::exists(path) ? "is not a file" : "missing"));
+    add_fault(faults, file, "{}; the manifest names it", fs::exists(path) ? "is not a file" : "missing");
     return false;
   };
   for (const auto& [file, hash] : result.hashes) {
     if (is_there(file) && sha256_of_file(result.folder / file) != hash) {
-      faults.push_back(
-          fmt::format("{}: was changed since the run wrote it: its SHA-256 is not the manifest's", one_line(file)));
+      add_fault(faults, file, "was changed since the run wrote it: its SHA-256 is not the manifest's");
     }
   }
   for (const std::string& file : result.unhashed) is_there(file);
@@ -81,38 +72,34 @@ bool is_drawn_again(const std::string& file, const std::set<std::string>& found)
 
 void check_unknown_files(const KeptResult& result, const std::set<std::string>& found, Faults& faults) {
   std::set<std::string> known = {"manifest.json", "report.html", std::string(played_page)};
-  for (const auto& [file, hash] : result.hashes) known.insert(file);
-  known.insert(result.unhashed.begin(), result.unhashed.end());
+  for (const std::string& file : result.files()) known.insert(file);
   for (const std::string& file : found) {
     const bool is_known = known.contains(file) || is_drawn_again(file, found);
     if (is_known && fs::is_symlink(result.folder / file)) {
-      faults.push_back(fmt::format("{}: is a link, not the file that the run wrote", one_line(file)));
+      add_fault(faults, file, "is a link, not the file that the run wrote");
       continue;
     }
     if (is_known) continue;
-    faults.push_back(
-        fmt::format("{}: {}", one_line(file),
-                    is_journal(file) ? "a run is at work here, or was interrupted" : kind_of(result.folder / file)));
+    add_fault(faults, file, "{}",
+              is_journal_name(file) ? "a run is at work here, or was interrupted" : kind_of(result.folder / file));
   }
 }
 
 void check_tables_are_known(const KeptResult& result, const std::vector<std::string>& tables, Faults& faults) {
   const std::set<std::string> described(tables.begin(), tables.end());
-  const auto check = [&](const std::string& file) {
+  for (const std::string& file : result.files()) {
     if (file.starts_with("data/") && file.ends_with(".csv") && !described.contains(file))
-      faults.push_back(fmt::format("{}: datapackage.json does not describe it", one_line(file)));
-  };
-  for (const auto& [file, hash] : result.hashes) check(file);
-  for (const std::string& file : result.unhashed) check(file);
+      add_fault(faults, file, "datapackage.json does not describe it");
+  }
 }
 
 /// The run id is a hash of what was asked, so a change of that shows.
 void check_run_id(const KeptResult& result, Faults& faults) {
   RunRecord run;
   run.experiment = result.citation.experiment;
-  run.config = result.config;
+  run.config = result.run.config;
   run.seed = result.citation.seed;
-  run.trials = result.trials;
+  run.trials = result.run.trials;
   if (const std::string id = run_id(run); id != result.citation.run_id) {
     faults.push_back(fmt::format("manifest.json: run_id is '{}', but its experiment, config, seed and trials give '{}'",
                                  one_line(result.citation.run_id), id));
@@ -160,16 +147,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* package_file = "datapackage.json";
 
-template <class... Parts>
-void add(Faults& faults, std::string_view file, fmt::format_string<Parts...> form, Parts&&... parts) {
-  faults.push_back(fmt::format("{}: {}", file, fmt::format(form, std::forward<Parts>(parts)...)));
-}
-
 /// The member as text; empty, with a complaint, if it is no text or is empty.
 std::string required_text(const json& object, const char* key, const std::string& where, Faults& faults) {
   const auto found = object.find(key);
   if (found != object.end() && found->is_string() && !found->get<std::string>().empty()) return *found;
-  add(faults, package_file, "{}: '{}' is missing, empty or no text", where, key);
+  add_fault(faults, package_file, "{}: '{}' is missing, empty or no text", where, key);
   return {};
 }
 
@@ -177,38 +159,24 @@ void require_value(const json& object, const char* key, const std::string& value
                    Faults& faults) {
   const std::string given = required_text(object, key, where, faults);
   if (!given.empty() && given != value)
-    add(faults, package_file, "{}: '{}' is '{}', not '{}'", where, key, one_line(given), value);
+    add_fault(faults, package_file, "{}: '{}' is '{}', not '{}'", where, key, one_line(given), value);
 }
 
 /// The `name` of a package or a resource: lower case, to stand in an address.
 std::string required_name(const json& object, const std::string& where, Faults& faults) {
   const std::string name = required_text(object, "name", where, faults);
   if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-._/") != std::string::npos)
-    add(faults, package_file, "{}: the name '{}' has a letter beyond a-z 0-9 - . _ /", where, one_line(name));
+    add_fault(faults, package_file, "{}: the name '{}' has a letter beyond a-z 0-9 - . _ /", where, one_line(name));
   return name;
-}
-
-bool is_whole(const std::string& text) {
-  std::int64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end;
-}
-
-bool is_number(const std::string& text) {
-  if (text == "INF" || text == "-INF") return true;  // as Table Schema spells them
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end && std::isfinite(value);
 }
 
 /// An empty field is a missing value, which every type allows.
 bool has_type(const std::string& field, const std::string& type) {
   if (field.empty() || type == "string") return true;
-  if (type == "integer") return is_whole(field);
-  if (type == "number") return is_number(field);
-  return field == "true" || field == "false";
+  if (type == "integer") return parsed<std::int64_t>(field).has_value();
+  if (type != "number") return field == "true" || field == "false";
+  if (field == "INF" || field == "-INF") return true;  // as Table Schema spells them
+  return std::isfinite(parsed<double>(field).value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 struct TableField {
@@ -219,25 +187,25 @@ std::vector<TableField> check_fields(const json& resource, const std::string& wh
   const json schema = resource.value("schema", json());
   const json fields = schema.is_object() ? schema.value("fields", json()) : json();
   if (!fields.is_array() || fields.empty()) {
-    add(faults, package_file, "{}: no schema with a list of fields", where);
+    add_fault(faults, package_file, "{}: no schema with a list of fields", where);
     return {};
   }
   if (schema.value("missingValues", json()) != json::array({""}))
-    add(faults, package_file, "{}: 'missingValues' is not [\"\"]", where);
+    add_fault(faults, package_file, "{}: 'missingValues' is not [\"\"]", where);
   std::vector<TableField> out;
   std::set<std::string> names;
   for (const json& field : fields) {
     const std::string here = fmt::format("{}, field {}", where, out.size() + 1);
     if (!field.is_object()) {
-      add(faults, package_file, "{}: not an object", here);
+      add_fault(faults, package_file, "{}: not an object", here);
       return {};
     }
     out.push_back({required_text(field, "name", here, faults), required_text(field, "type", here, faults)});
     const auto& [name, type] = out.back();
     const std::string named = fmt::format("{}, field '{}'", where, one_line(name));
-    if (!names.insert(name).second) add(faults, package_file, "{}: a second one of that name", named);
+    if (!names.insert(name).second) add_fault(faults, package_file, "{}: a second one of that name", named);
     static const std::set<std::string> types = {"string", "integer", "number", "boolean"};
-    if (!types.contains(type)) add(faults, package_file, "{}: the type '{}' is unknown", named, one_line(type));
+    if (!types.contains(type)) add_fault(faults, package_file, "{}: the type '{}' is unknown", named, one_line(type));
     required_text(field, "description", named, faults);
     if (type == "integer" || type == "number") required_text(field, "unit", named, faults);
   }
@@ -251,7 +219,7 @@ void check_rows(const std::string& path, const std::string& text, const std::vec
   try {
     rows = read_csv(text);
   } catch (const CsvError& error) {
-    faults.push_back(fmt::format("{}:{}: {}", path, error.line, error.what()));
+    add_fault(faults, fmt::format("{}:{}", path, error.line), "{}", error.what());
     return;
   }
   std::vector<std::string> names;
@@ -263,15 +231,15 @@ void check_rows(const std::string& path, const std::string& text, const std::vec
   std::size_t found = 0;
   for (std::size_t i = 1; i < rows.size() && found < most; ++i) {
     if (rows[i].fields.size() != fields.size()) {
-      faults.push_back(
-          fmt::format("{}:{}: {} fields, not {}", path, rows[i].line, rows[i].fields.size(), fields.size()));
+      add_fault(faults, fmt::format("{}:{}", path, rows[i].line), "{} fields, not {}", rows[i].fields.size(),
+                fields.size());
       ++found;
       continue;
     }
     for (std::size_t j = 0; j < fields.size() && found < most; ++j) {
       if (has_type(rows[i].fields[j], fields[j].type)) continue;
-      faults.push_back(fmt::format("{}:{}: column '{}': '{}' is no {}", path, rows[i].line, one_line(fields[j].name),
-                                   one_line(clipped(rows[i].fields[j], 40)), fields[j].type));
+      add_fault(faults, fmt::format("{}:{}", path, rows[i].line), "column '{}': '{}' is no {}",
+                one_line(fields[j].name), one_line(clipped(rows[i].fields[j], 40)), fields[j].type);
       ++found;
     }
   }
@@ -281,7 +249,7 @@ void check_rows(const std::string& path, const std::string& text, const std::vec
 std::string check_resource(const json& resource, std::size_t number, const fs::path& folder, Faults& faults) {
   std::string where = fmt::format("resource {}", number);
   if (!resource.is_object()) {
-    add(faults, package_file, "{}: not an object", where);
+    add_fault(faults, package_file, "{}: not an object", where);
     return {};
   }
   where = fmt::format("resource '{}'", one_line(required_name(resource, where, faults)));
@@ -292,19 +260,19 @@ std::string check_resource(const json& resource, std::size_t number, const fs::p
   const std::vector<TableField> fields = check_fields(resource, where, faults);
   const std::string path = required_text(resource, "path", where, faults);
   if (path.starts_with('/') || path.find("..") != std::string::npos) {  // the specification forbids both
-    add(faults, package_file, "{}: the path '{}' leaves the folder", where, one_line(path));
+    add_fault(faults, package_file, "{}: the path '{}' leaves the folder", where, one_line(path));
     return path;
   }
   if (path.empty() || !fs::is_regular_file(folder / path)) {
     const char* const why = fs::exists(folder / path) ? "is not a file" : "missing";
-    if (!path.empty()) faults.push_back(fmt::format("{}: {}; {} describes it", one_line(path), why, package_file));
+    if (!path.empty()) add_fault(faults, path, "{}; {} describes it", why, package_file);
     return path;
   }
   const std::string text = file_text(folder / path);
   if (resource.contains("bytes") && resource["bytes"] != text.size())
-    add(faults, path, "{} bytes, not the {} of {}", text.size(), resource["bytes"].dump(), package_file);
+    add_fault(faults, path, "{} bytes, not the {} of {}", text.size(), resource["bytes"].dump(), package_file);
   if (resource.contains("hash") && resource["hash"] != "sha256:" + sha256(text))
-    add(faults, path, "its SHA-256 is not that of {}", package_file);
+    add_fault(faults, path, "its SHA-256 is not that of {}", package_file);
   if (!fields.empty()) check_rows(path, text, fields, faults);
   return path;
 }
@@ -314,16 +282,16 @@ std::string check_resource(const json& resource, std::size_t number, const fs::p
 std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
   std::vector<std::string> paths;
   if (!fs::exists(folder / package_file)) {
-    add(faults, package_file, "missing");
+    add_fault(faults, package_file, "missing");
     return paths;
   }
   if (!fs::is_regular_file(folder / package_file)) {
-    add(faults, package_file, "is not a file");
+    add_fault(faults, package_file, "is not a file");
     return paths;
   }
   const json package = bounded_json(file_text(folder / package_file));
   if (!package.is_object()) {
-    add(faults, package_file, "not JSON, or no object, or nested too deep");
+    add_fault(faults, package_file, "not JSON, or no object, or nested too deep");
     return paths;
   }
   require_value(package, "profile", "tabular-data-package", "the package", faults);
@@ -331,14 +299,14 @@ std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
   for (const char* key : {"title", "description", "version"}) required_text(package, key, "the package", faults);
   const json resources = package.value("resources", json());
   if (!resources.is_array() || resources.empty()) {
-    add(faults, package_file, "no list of resources");
+    add_fault(faults, package_file, "no list of resources");
     return paths;
   }
   std::set<std::string> names;
   for (const json& resource : resources) {
     paths.push_back(check_resource(resource, paths.size() + 1, folder, faults));
     if (!paths.back().empty() && !names.insert(paths.back()).second)
-      add(faults, package_file, "'{}' is described twice", one_line(paths.back()));
+      add_fault(faults, package_file, "'{}' is described twice", one_line(paths.back()));
   }
   return paths;
 }

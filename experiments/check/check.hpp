@@ -4,8 +4,12 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 
 namespace thinwall {
@@ -20,6 +24,12 @@ std::vector<std::string> check_result(const std::filesystem::path& folder);
 inline constexpr const char* page_file = "report.html";
 
 using Faults = std::vector<std::string>;
+
+/// `add_fault(faults, "cite.bib", "{} braces", 3)`: the file and what is wrong with it.
+template <class... Parts>
+void add_fault(Faults& faults, std::string_view file, fmt::format_string<Parts...> form, Parts&&... parts) {
+  faults.push_back(fmt::format("{}: {}", one_line(file), fmt::format(form, std::forward<Parts>(parts)...)));
+}
 
 /// datapackage.json against the rules of a Tabular Data Package, and each of its tables against it. Returns the paths of the
 /// tables.

@@ -18,7 +18,7 @@ namespace {
 
 void check_content(const KeptResult& result, const std::string& page, Faults& faults) {
   const auto require = [&](const std::string& html, const char* what) {
-    if (page.find(html) == std::string::npos) faults.push_back(fmt::format("{}: {}", page_file, what));
+    if (page.find(html) == std::string::npos) add_fault(faults, page_file, "{}", what);
   };
   require("<h1>" + html_escaped(result.citation.question) + "</h1>", "does not ask the manifest's question");
   require("<p class=\"answer\">", "has no answer");
@@ -42,16 +42,16 @@ void check_content(const KeptResult& result, const std::string& page, Faults& fa
 
 void check_page(const KeptResult& result, Faults& faults) {
   if (std::filesystem::is_directory(result.folder / page_file)) {
-    faults.push_back(fmt::format("{}: is not a file", page_file));
+    add_fault(faults, page_file, "is not a file");
     return;
   }
   const std::string page = file_text(result.folder / page_file);
   if (page.empty()) {
-    faults.push_back(fmt::format("{}: missing or empty", page_file));
+    add_fault(faults, page_file, "missing or empty");
     return;
   }
   if (!page.starts_with("<!DOCTYPE html>") || page.find("</html>") == std::string::npos)
-    faults.push_back(fmt::format("{}: not a whole page", page_file));
+    add_fault(faults, page_file, "not a whole page");
   check_content(result, page, faults);
   check_page_figures(result, page, faults);
   check_page_tables(result, page, faults);
@@ -145,22 +145,20 @@ void check_page_tables(const KeptResult& result, const std::string& page, Faults
     if (!file.starts_with("tables/") || !file.ends_with(".md")) continue;
     const MarkdownTable table = read_markdown(file_text(result.folder / file));
     if (rows.find(table.rows) == std::string::npos || captions.find("\n" + table.caption + "\n") == std::string::npos)
-      faults.push_back(fmt::format("{}: does not show the rows and the caption of {}", page_file, one_line(file)));
+      add_fault(faults, page_file, "does not show the rows and the caption of {}", one_line(file));
   }
 }
 
 void check_page_figures(const KeptResult& result, const std::string& page, Faults& faults) {
-  const auto check = [&](const std::string& file) {
-    if (!file.starts_with("plots/") || !file.ends_with(".svg")) return;
+  for (const std::string& file : result.files()) {
+    if (!file.starts_with("plots/") || !file.ends_with(".svg")) continue;
     const std::filesystem::path path = result.folder / file;
     const std::string svg = file_text(path);
     const std::string title = title_of_script(file_text(std::filesystem::path(path).replace_extension(".gp")));
-    if (svg.empty() || title.empty()) return;  // said of the figures
+    if (svg.empty() || title.empty()) continue;  // said of the figures
     if (page.find(inline_svg(svg, path.stem().string(), title)) == std::string::npos)
-      faults.push_back(fmt::format("{}: does not show {}", page_file, one_line(file)));
-  };
-  for (const auto& [file, hash] : result.hashes) check(file);
-  for (const std::string& file : result.unhashed) check(file);
+      add_fault(faults, page_file, "does not show {}", one_line(file));
+  }
 }
 
 namespace {
@@ -186,7 +184,7 @@ struct AloneCheck {
   std::set<std::string> said = {};  // once each
 
   void add(const std::string& what) {
-    if (said.insert(what).second) faults.push_back(fmt::format("{}: {}", page_file, one_line(what)));
+    if (said.insert(what).second) add_fault(faults, page_file, "{}", one_line(what));
   }
 
   /// A link within the page or the folder; for the page's icon, which is empty, also `data:`.
@@ -258,19 +256,18 @@ void check_svg(const std::string& svg, const std::string& script, const std::str
   const auto last = svg.find_last_not_of(" \n");
   if (svg.find("<svg") == std::string::npos || last == std::string::npos ||
       !svg.substr(0, last + 1).ends_with("</svg>")) {
-    faults.push_back(file + ": not a whole SVG");
+    add_fault(faults, file, "not a whole SVG");
     return;
   }
   if (const std::string fault = xml_fault(svg); !fault.empty()) {
-    faults.push_back(file + ": not well-formed: " + fault);
+    add_fault(faults, file, "not well-formed: {}", fault);
     return;
   }
   const std::string shown = html_unescaped(svg);  // gnuplot escapes some of what could be
   const std::set<std::string> words = script_words(script);
-  if (words.size() < 3) faults.push_back(file + ": its script does not label both axes");
+  if (words.size() < 3) add_fault(faults, file, "its script does not label both axes");
   for (const std::string& word : words) {
-    if (shown.find(word) == std::string::npos)
-      faults.push_back(fmt::format("{}: does not show '{}'", file, one_line(word)));
+    if (shown.find(word) == std::string::npos) add_fault(faults, file, "does not show '{}'", one_line(word));
   }
 }
 
@@ -304,14 +301,6 @@ namespace {
 constexpr const char* toml_file = "resolved.toml";
 constexpr const char* bib_file = "cite.bib";
 
-/// The manifest's configuration as its file should have it.
-toml::table config_of(const KeptResult& result) {
-  RunRecord run;
-  run.experiment = result.citation.experiment;
-  run.config = result.config;
-  return toml::parse(resolved_toml(run));
-}
-
 void check_toml(const KeptResult& result, Faults& faults) {
   const std::string text = file_text(result.folder / toml_file);
   if (text.empty()) return;  // said of the files that are missing
@@ -319,16 +308,16 @@ void check_toml(const KeptResult& result, Faults& faults) {
     const toml::table table = toml::parse(text);
     const std::string experiment = table["experiment"].value_or(std::string());
     if (experiment != result.citation.experiment) {
-      faults.push_back(fmt::format("{}: is of experiment '{}', the manifest of '{}'", toml_file, one_line(experiment),
-                                   one_line(result.citation.experiment)));
+      add_fault(faults, toml_file, "is of experiment '{}', the manifest of '{}'", one_line(experiment),
+                one_line(result.citation.experiment));
     }
-    if (table != config_of(result))
-      faults.push_back(fmt::format("{}: is not the configuration that the manifest records", toml_file));
+    if (table != toml::parse(config_toml(result.run)))
+      add_fault(faults, toml_file, "is not the configuration that the manifest records");
     if (text.find("\n# " + result.reproduce + "\n") == std::string::npos)
-      faults.push_back(fmt::format("{}: does not give the manifest's line that reproduces the result", toml_file));
+      add_fault(faults, toml_file, "does not give the manifest's line that reproduces the result");
   } catch (const toml::parse_error& error) {
-    faults.push_back(
-        fmt::format("{}:{}: not TOML: {}", toml_file, error.source().begin.line, one_line(error.description())));
+    add_fault(faults, fmt::format("{}:{}", toml_file, error.source().begin.line), "not TOML: {}",
+              one_line(error.description()));
   }
 }
 
@@ -340,11 +329,10 @@ void check_bib(const KeptResult& result, Faults& faults) {
   for (std::size_t i = 0; i < text.size() && depth >= 0; ++i) {
     depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
   }
-  if (depth != 0) faults.push_back(fmt::format("{}: its braces are not balanced", bib_file));
-  if (text.find("@software{thinwall,") == std::string::npos)
-    faults.push_back(fmt::format("{}: does not cite the software", bib_file));
+  if (depth != 0) add_fault(faults, bib_file, "its braces are not balanced");
+  if (text.find("@software{thinwall,") == std::string::npos) add_fault(faults, bib_file, "does not cite the software");
   if (text.find(bibtex(result.citation)) == std::string::npos)
-    faults.push_back(fmt::format("{}: does not cite the result as its manifest says", bib_file));
+    add_fault(faults, bib_file, "does not cite the result as its manifest says");
 }
 
 }  // namespace

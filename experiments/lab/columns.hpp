@@ -143,39 +143,41 @@ template <class Condition, class Part> OnlyWhere<Condition, Part> where(Conditio
   return {std::move(condition), std::move(part)};
 }
 
-/// The share of a count in another, and the ends of its 95 % Wilson interval, `PREFIX_lower` and `PREFIX_upper`; empty where
-/// the other is 0.
-template <class Get, class Whole> struct ShareColumns {
-  std::string name, description, prefix;
-  Get count;
-  Whole whole;
+/// A `Measured`, or an optional one, and the ends of its interval, `PREFIX_lower` and `PREFIX_upper`, which are called `ends`.
+template <class Get> struct MeasuredColumns {
+  std::string name, unit, description, prefix, ends;
+  Get get;
 
   template <class Row> void add_to(Columns<Row>& columns) const {
-    const std::string lower = prefix + "lower", upper = prefix + "upper";
-    const auto interval = [count = count, whole = whole](const Row& row) -> std::optional<Interval> {
-      const std::int64_t of = std::invoke(whole, row);
-      return of > 0 ? std::optional(wilson(std::invoke(count, row), of)) : std::nullopt;
+    const auto read = [get = get](auto part) {
+      return [get, part](const Row& row) -> std::optional<double> {
+        const std::optional<Measured> m = std::invoke(get, row);
+        return m ? std::optional(part(*m)) : std::nullopt;
+      };
     };
-    const auto is_there = [interval](const Row& row) { return interval(row).has_value(); };
-    where(is_there, ValueColumn{name, "1", description,
-                                [count = count, whole = whole](const Row& row) {
-                                  return static_cast<double>(std::invoke(count, row)) /
-                                         static_cast<double>(std::invoke(whole, row));
-                                },
-                                lower, upper})
+    const std::string lower = prefix + "lower", upper = prefix + "upper";
+    ValueColumn{name, unit, description, read([](const Measured& m) { return m.value; }), lower, upper}.add_to(columns);
+    value(lower, unit, "Lower end of " + ends + ".", read([](const Measured& m) { return m.interval.lower; }))
         .add_to(columns);
-    where(is_there, value(lower, "1", "Lower end of the 95 % Wilson interval.",
-                          [interval](const Row& row) { return interval(row)->lower; }))
-        .add_to(columns);
-    where(is_there, value(upper, "1", "Upper end of the 95 % Wilson interval.",
-                          [interval](const Row& row) { return interval(row)->upper; }))
+    value(upper, unit, "Upper end of " + ends + ".", read([](const Measured& m) { return m.interval.upper; }))
         .add_to(columns);
   }
 };
+template <class Get>
+MeasuredColumns<Get> measured(std::string name, std::string unit, std::string description, Get get,
+                              std::string prefix = "", std::string ends = "its 95 % interval") {
+  return {std::move(name), std::move(unit), std::move(description), std::move(prefix), std::move(ends), std::move(get)};
+}
+
+/// The share of a count in another with its 95 % Wilson interval; empty where the other is 0.
 template <class Get, class Whole>
-ShareColumns<Get, Whole> share(std::string name, std::string description, Get count, Whole whole,
-                               std::string prefix = "") {
-  return {std::move(name), std::move(description), std::move(prefix), std::move(count), std::move(whole)};
+auto share(std::string name, std::string description, Get count, Whole whole, std::string prefix = "") {
+  const auto get = [count, whole](const auto& row) -> std::optional<Measured> {
+    const std::int64_t some = std::invoke(count, row), all = std::invoke(whole, row);
+    if (all <= 0) return std::nullopt;
+    return Measured{static_cast<double>(some) / static_cast<double>(all), wilson(some, all)};
+  };
+  return measured(std::move(name), "1", std::move(description), get, std::move(prefix), "the 95 % Wilson interval");
 }
 
 /// The fields of a record, in its order, named ones or all: of all, each whose name no other column of the table has. An

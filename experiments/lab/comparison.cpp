@@ -12,63 +12,36 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 namespace thinwall {
 
 namespace {
 
 using Kind = FileDifference::Kind;
-using Row = std::vector<std::string>;
 
-/// The rows of an RFC 4180 file.
-std::vector<Row> csv_rows(const std::string& text) {
-  std::vector<Row> rows;
-  Row row(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char letter = text[i];
-    if (letter == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
-      row.back() += text[++i];
-    } else if (letter == '"') {
-      quoted = !quoted;
-    } else if (letter == ',' && !quoted) {
-      row.emplace_back();
-    } else if (letter == '\n' && !quoted) {
-      rows.push_back(std::exchange(row, Row(1)));
-    } else {
-      row.back() += letter;
-    }
-  }
-  if (row != Row(1)) rows.push_back(row);
-  return rows;
+std::string text_of(const std::vector<CsvRow>& rows, std::size_t i) {
+  return i < rows.size() ? fmt::format("{}", fmt::join(rows[i].fields, ",")) : std::string();
 }
 
-std::string joined(const Row& row) {
-  std::string out;
-  for (const std::string& field : row) out += (&field == &row.front() ? "" : ",") + field;
-  return out;
-}
-
+/// Nothing for the same fields, otherwise quoted, and for what is no CSV.
 std::optional<FileDifference> csv_difference(const std::string& file, const std::string& recorded,
-                                             const std::string& rerun) {
-  const auto a = csv_rows(recorded), b = csv_rows(rerun);
-  if (a.empty() || b.empty() || a.front() != b.front()) {
-    return FileDifference{
-        file, Kind::columns, 0, {}, a.empty() ? "" : joined(a.front()), b.empty() ? "" : joined(b.front())};
-  }
-  for (std::size_t i = 1; i < std::max(a.size(), b.size()); ++i) {
+                                             const std::string& rerun) try {
+  const auto a = read_csv(recorded), b = read_csv(rerun);
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     const auto number = static_cast<std::int64_t>(i);
-    if (i >= a.size() || i >= b.size() || a[i].size() != b[i].size()) {
-      return FileDifference{
-          file, Kind::row, number, {}, i < a.size() ? joined(a[i]) : "", i < b.size() ? joined(b[i]) : ""};
-    }
-    for (std::size_t k = 0; k < a[i].size(); ++k) {
-      if (a[i][k] == b[i][k]) continue;
-      return FileDifference{file, Kind::cell, number, k < a[0].size() ? a[0][k] : "", a[i][k], b[i][k]};
-    }
+    const bool alike = i < a.size() && i < b.size() && a[i].fields.size() == b[i].fields.size();
+    if (alike && a[i].fields == b[i].fields) continue;
+    if (i == 0 || !alike)
+      return FileDifference{file, i == 0 ? Kind::columns : Kind::row, number, {}, text_of(a, i), text_of(b, i)};
+    const auto [ours, theirs] = std::ranges::mismatch(a[i].fields, b[i].fields);
+    const auto column = static_cast<std::size_t>(ours - a[i].fields.begin());
+    const std::vector<std::string>& names = a[0].fields;
+    return FileDifference{file, Kind::cell, number, column < names.size() ? names[column] : "", *ours, *theirs};
   }
-  return std::nullopt;  // the same fields, otherwise quoted
+  return std::nullopt;
+} catch (const CsvError&) {
+  return std::nullopt;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -142,16 +115,12 @@ std::string to_text(const FileDifference& difference) {
   return {};
 }
 
-namespace {
-
 namespace fs = std::filesystem;
-
-}  // namespace
 
 std::vector<std::string> files_changed_since(const fs::path& result, const Manifest& recorded) {
   std::vector<std::string> out;
   for (const auto& [file, hash] : recorded.hashes) {
-    if (!holds_file(result, file) || sha256_of_file(result / file) != hash) out.push_back(file);
+    if (!is_unchanged(result, file, hash)) out.push_back(file);
   }
   return out;
 }

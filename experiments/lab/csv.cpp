@@ -3,14 +3,22 @@
 #include <stdexcept>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
+
+std::size_t place_of(const Table& table, std::string_view column) {
+  const auto found = std::ranges::find(table.columns, column, &Column::name);
+  if (found == table.columns.end())
+    throw std::logic_error(fmt::format("table '{}' has no column '{}'", table.name, column));
+  return static_cast<std::size_t>(found - table.columns.begin());
+}
 
 namespace {
 
@@ -22,9 +30,7 @@ std::string number_field(double value) {
 
 std::string quoted(const std::string& field) {
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string out = "\"";
-  for (const char letter : field) out += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return out + '"';
+  return '"' + replaced(field, {{'"', "\"\""}}) + '"';
 }
 
 /// A spreadsheet computes what begins so and goes on; behind a quote it is text. A text that begins with a quote gets one too, so
@@ -140,20 +146,50 @@ std::string datapackage_text(const PackageInfo& info, std::span<const Table> tab
   return out.dump(2) + "\n";
 }
 
-Table without_columns(const Table& table, std::span<const std::string_view> names) {
-  for (const std::string_view name : names) {
-    if (std::ranges::find(table.columns, name, &Column::name) == table.columns.end())
-      throw std::logic_error("table '" + table.name + "' has no column '" + std::string(name) + "'");
+namespace {
+
+/// The field that begins at `at`, which is moved to what ends it: a comma, a line's end, or the end of the text.
+std::string read_field(std::string_view text, std::size_t& at, std::size_t line) {
+  if (at == text.size() || text[at] != '"') {
+    const std::size_t end = std::min(text.find_first_of(",\n", at), text.size());
+    const std::string_view field = text.substr(at, end - at);
+    if (field.find_first_of("\"\r") != std::string::npos)
+      throw CsvError(line, "a quote or a CR in a field without quotes");
+    at = end;
+    return std::string(field);
   }
-  Table out = table;
-  out.columns.clear();
-  for (auto& row : out.rows) row.clear();
-  for (std::size_t j = 0; j < table.columns.size(); ++j) {
-    if (std::ranges::find(names, table.columns[j].name) != names.end()) continue;
-    out.columns.push_back(table.columns[j]);
-    for (std::size_t i = 0; i < table.rows.size(); ++i) out.rows[i].push_back(table.rows[i][j]);
+  std::string field;
+  for (++at; at < text.size(); ++at) {
+    if (text[at] != '"') {
+      field += text[at];
+    } else if (at + 1 < text.size() && text[at + 1] == '"') {
+      field += text[at++];
+    } else {
+      ++at;
+      if (at < text.size() && text[at] != ',' && text[at] != '\n') throw CsvError(line, "text behind a closing quote");
+      return field;
+    }
   }
-  return out;
+  throw CsvError(line, "a quote is not closed");
+}
+
+}  // namespace
+
+std::vector<CsvRow> read_csv(std::string_view text) {
+  std::vector<CsvRow> rows;
+  std::size_t line = 1;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    CsvRow row{line, {}};
+    for (const std::size_t begin = at;; ++at) {
+      row.fields.push_back(read_field(text, at, line));
+      if (at < text.size() && text[at] == ',') continue;
+      line += static_cast<std::size_t>(std::ranges::count(text.substr(begin, at - begin), '\n')) + 1;
+      break;
+    }
+    if (at == text.size()) throw CsvError(row.line, "the last line has no end: the file was cut");
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 }  // namespace thinwall

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -107,7 +106,7 @@ Panel panel_of(const JsonReader& in) {
 std::string figure_json(const Figure& figure) {
   ordered_json out = {{"name", figure.name}, {"title", figure.title}, {"panels", ordered_json::array()}};
   for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
-  return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_line(out);
 }
 
 Figure parse_figure(const std::string& text, const std::string& file) {
@@ -228,19 +227,10 @@ namespace fs = std::filesystem;
 /// Of the figures that a manifest names.
 std::set<std::string> figure_names(const Manifest& manifest) {
   std::set<std::string> out;
-  const auto add = [&](const fs::path& file) {
+  for (const fs::path file : manifest.files()) {
     if (file.parent_path() == "plots" && file.extension() == ".gp") out.insert(file.stem().string());
-  };
-  for (const auto& [file, hash] : manifest.hashes) add(file);
-  for (const std::string& file : manifest.unhashed) add(file);
+  }
   return out;
-}
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string());
 }
 
 /// Writes the script and the data of a figure into `workshop`, from what the folder says of it. Returns what went wrong.
@@ -249,8 +239,8 @@ std::string prepare(const fs::path& folder, const std::string& name, const fs::p
   if (!holds_file(folder, file)) return file + " is missing";
   const Figure figure = parse_figure(file_text(folder / file), file);
   if (figure.name != name) return file + " is of another figure";
-  write(workshop / (name + ".gp"), plot_script(figure));
-  write(workshop / (name + ".dat"), plot_data(figure));
+  write_file(workshop / (name + ".gp"), plot_script(figure));
+  write_file(workshop / (name + ".dat"), plot_data(figure));
   return {};
 } catch (const std::logic_error& error) {
   return error.what();

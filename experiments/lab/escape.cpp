@@ -6,25 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/lab/text.hpp>
+
 namespace thinwall {
 namespace {
 
 bool is_control(char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; }
-
-/// Each letter as `replacement(letter)` says, or itself where that is empty.
-template <class Replacement> std::string replaced(std::string_view text, Replacement replacement) {
-  std::string out;
-  out.reserve(text.size());
-  for (const char letter : text) {
-    const std::string_view other = replacement(letter);
-    if (other.empty()) {
-      out += letter;
-    } else {
-      out += other;
-    }
-  }
-  return out;
-}
 
 /// What begins a letter in UTF-8: how many bytes it has, the bits of it there, and the least that needs so many bytes.
 struct Lead {
@@ -38,6 +25,15 @@ constexpr std::array<Lead, 4> leads = {{{0x00, 0x7f, 1, 0x7f, 0},
                                         {0xf0, 0xf7, 4, 0x07, 0x10000}}};
 
 }  // namespace
+
+std::string replaced(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> spelled) {
+  std::string out;
+  for (const char letter : text) {
+    const auto* const found = std::ranges::find(spelled, letter, &std::pair<char, std::string_view>::first);
+    out += found == spelled.end() ? std::string_view(&letter, 1) : found->second;
+  }
+  return out;
+}
 
 std::size_t letter_bytes(std::string_view text) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
@@ -119,81 +115,48 @@ std::string json_string(std::string_view text) {
 }
 
 std::string html_escaped(std::string_view text) {
-  return replaced(text, [](char letter) -> std::string_view {
-    switch (letter) {
-      case '&': return "&amp;";
-      case '<': return "&lt;";
-      case '>': return "&gt;";
-      case '"': return "&quot;";
-      case '\'': return "&#39;";
-      default: return {};
-    }
-  });
+  return replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});
 }
 
 std::string latex_escaped(std::string_view text) {
-  return replaced(text, [](char letter) -> std::string_view {
-    switch (letter) {
-      case '\\': return "\\textbackslash{}";
-      case '~': return "\\textasciitilde{}";
-      case '^': return "\\textasciicircum{}";
-      case '&': return "\\&";
-      case '%': return "\\%";
-      case '$': return "\\$";
-      case '#': return "\\#";
-      case '_': return "\\_";
-      case '{': return "\\{";
-      case '}': return "\\}";
-      case '<': return "\\textless{}";
-      case '>': return "\\textgreater{}";
-      case '|': return "\\textbar{}";
-      case '"': return "''";
-      default: return {};
-    }
-  });
+  return replaced(text, {{'\\', "\\textbackslash{}"},
+                         {'~', "\\textasciitilde{}"},
+                         {'^', "\\textasciicircum{}"},
+                         {'&', "\\&"},
+                         {'%', "\\%"},
+                         {'$', "\\$"},
+                         {'#', "\\#"},
+                         {'_', "\\_"},
+                         {'{', "\\{"},
+                         {'}', "\\}"},
+                         {'<', "\\textless{}"},
+                         {'>', "\\textgreater{}"},
+                         {'|', "\\textbar{}"},
+                         {'"', "''"}});
 }
 
 std::string markdown_escaped(std::string_view text) {
-  std::string out = replaced(text, [](char letter) -> std::string_view {
-    switch (letter) {
-      case '|': return "\\|";
-      case '*': return "\\*";
-      case '_': return "\\_";
-      case '`': return "\\`";
-      case '<': return "&lt;";
-      case '\\': return "\\\\";
-      case '\n': return " ";
-      default: return {};
-    }
-  });
-  for (auto at = out.find("]("); at != std::string::npos; at = out.find("](", at)) out.insert(at + 1, 1, '\\');
+  std::string out = replaced(
+      text, {{'|', "\\|"}, {'*', "\\*"}, {'_', "\\_"}, {'`', "\\`"}, {'<', "&lt;"}, {'\\', "\\\\"}, {'\n', " "}});
+  replace_all(out, "](", "]\\(");
   return out;
 }
+
+std::string single_quoted(std::string_view text) { return "'" + replaced(text, {{'\'', "'\\''"}}) + "'"; }
 
 std::string shell_line(const std::vector<std::string>& words) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
   std::string line;
   for (const std::string& word : words) {
     if (!line.empty()) line += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
-      line += word;
-    } else {
-      line += '\'' + replaced(word, [](char letter) { return letter == '\'' ? "'\\''" : ""; }) + '\'';
-    }
+    const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
+    line += is_plain ? word : single_quoted(word);
   }
   return line;
 }
 
 std::string tsv_escaped(std::string_view text) {
-  return replaced(text, [](char letter) -> std::string_view {
-    switch (letter) {
-      case '\t': return "\\t";
-      case '\n': return "\\n";
-      case '\r': return "\\r";
-      case '\\': return "\\\\";
-      default: return {};
-    }
-  });
+  return replaced(text, {{'\t', "\\t"}, {'\n', "\\n"}, {'\r', "\\r"}, {'\\', "\\\\"}});
 }
 
 std::string tsv_unescaped(std::string_view text) {

@@ -2,11 +2,16 @@
 /// Text made safe for where it goes.
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace thinwall {
+
+/// Each letter as the list spells it, or itself: `replaced("a<b", {{'<', "&lt;"}})`.
+std::string replaced(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> spelled);
 
 /// How many bytes the UTF-8 letter has that `text` begins with; 0 if there is none that can be shown: a control character, a
 /// surrogate, one that Unicode says is no character (U+FFFE, U+FFFF), or bytes that are not UTF-8.
@@ -36,6 +41,9 @@ std::string latex_escaped(std::string_view text);
 
 /// For a cell of a Markdown table, or a line of text: no markup, no link.
 std::string markdown_escaped(std::string_view text);
+
+/// A word of a shell, whatever is in it.
+std::string single_quoted(std::string_view text);
 
 /// A command line that a shell splits into the same words.
 std::string shell_line(const std::vector<std::string>& words);

@@ -1,6 +1,7 @@
 #pragma once
 /// A figure as data: panels of series. The results module turns it into a gnuplot script, its data and an SVG.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,19 @@ struct Tic {
 struct Series {
   std::string label;                               ///< legend entry; the same label has the same colour in every panel
   Mark mark = Mark::points;                        ///< theory is drawn with `line`, measurement with `points`
-  std::vector<double> x, y;                        ///< equally long; NaN leaves a gap
-  std::vector<double> lower, upper;                ///< interval bars, as long as `y`, or both empty
+  std::vector<double> x = {}, y = {};              ///< equally long; NaN leaves a gap
+  std::vector<double> lower = {}, upper = {};      ///< interval bars, as long as `y`, or both empty
   std::vector<double> x_lower = {}, x_upper = {};  ///< the same for `x`; only beside bars for `y`
   std::string color = {};                          ///< #rrggbb; empty: the next of the palette
+
+  void add(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
+  /// A line does not lead from the last point to the next.
+  void end_line() {
+    if (!x.empty()) add(x.back(), std::numeric_limits<double>::quiet_NaN());
+  }
 };
 
 struct Panel {
@@ -34,11 +44,11 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name;           ///< the files are plots/<name>.svg, .gp, .dat
-  std::string title;          ///< what is seen, a short phrase
-  std::string caption;        ///< what it means, a sentence or two
-  std::vector<Panel> panels;  ///< stacked from top to bottom
-  bool is_timing = false;     ///< differs from run to run: left out of the manifest's hashes
+  std::string name;                ///< the files are plots/<name>.svg, .gp, .dat
+  std::string title;               ///< what is seen, a short phrase
+  std::string caption;             ///< what it means, a sentence or two
+  std::vector<Panel> panels = {};  ///< stacked from top to bottom
+  bool is_timing = false;          ///< differs from run to run: left out of the manifest's hashes
 };
 
 }  // namespace thinwall

@@ -11,6 +11,9 @@ namespace thinwall {
 /// be taken for an empty one.
 std::string file_text(const std::filesystem::path& file);
 
+/// In the place of what was there. Throws std::system_error.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
 // ---- What was written, on the disk: so that a power failure finds either the old or the new.
 
 /// Returns when the content of a file, or the names in a folder, are on the disk. Throws std::system_error, also where a

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <fstream>
 #include <limits>
@@ -122,14 +121,9 @@ std::string sealed(const std::string& fields, const std::string& run) {
 std::optional<std::vector<std::string>> unsealed(std::string_view row, const std::string& run) {
   const auto last = row.rfind('\t');
   if (last == std::string_view::npos) return std::nullopt;
-  std::string_view rest = row.substr(0, last);
-  if (checksum(rest, run) != row.substr(last + 1)) return std::nullopt;
+  if (checksum(row.substr(0, last), run) != row.substr(last + 1)) return std::nullopt;
   std::vector<std::string> fields;
-  for (auto tab = rest.find('\t'); tab != std::string_view::npos; tab = rest.find('\t')) {
-    fields.push_back(tsv_unescaped(rest.substr(0, tab)));
-    rest.remove_prefix(tab + 1);
-  }
-  fields.push_back(tsv_unescaped(rest));
+  for (const std::string_view field : split(row.substr(0, last), '\t')) fields.push_back(tsv_unescaped(field));
   return fields;
 }
 
@@ -139,12 +133,6 @@ std::string header_row(const std::string& identity) {
 
 std::string unit_row(const std::string& key, const Journal::Row& row, const std::string& run) {
   return sealed(fmt::format("{}\t{}\t{}", tsv_escaped(key), exact_text(row.seconds), tsv_escaped(row.result)), run);
-}
-
-double parse_seconds(const std::string& text) {
-  double seconds = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seconds);
-  return seconds;
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
@@ -170,7 +158,7 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
       continue;
     }
     if (fields && fields->size() == 3) {
-      out.rows[fields->front()] = {parse_seconds((*fields)[1]), fields->back()};
+      out.rows[fields->front()] = {parsed<double>((*fields)[1]).value_or(0), fields->back()};
       out.good_rows.append(row).append("\n");
     } else {
       const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));

@@ -9,6 +9,7 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {
@@ -27,6 +28,23 @@ json bounded_json(std::string_view text) {
   };
   json out = json::parse(text, is_shallow, false);
   return deep ? json(json::value_t::discarded) : out;
+}
+
+std::string json_line(const nlohmann::ordered_json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::string exact_text(const json& value, std::string_view comma, std::string_view is) {
+  if (value.is_string()) return json_string(value.get<std::string>());
+  if (value.is_number_float()) return exact_text(value.get<double>());
+  if (!value.is_structured()) return value.dump();
+  std::vector<std::string> items;
+  for (const auto& [key, item] : value.items()) {
+    const std::string name = value.is_object() ? fmt::format("{}{}", json_string(key), is) : "";
+    items.push_back(name + exact_text(item, comma, is));
+  }
+  const std::string inner = fmt::format("{}", fmt::join(items, comma));
+  return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
 }
 
 JsonReader::JsonReader(std::string_view text, const std::string& file)

@@ -1,5 +1,5 @@
 #pragma once
-/// Typed, checked access to JSON that anybody may have written, such as the manifest of a result from elsewhere.
+/// JSON as text, and typed, checked access to JSON that anybody may have written, such as the manifest of a result from elsewhere.
 /// Every complaint is a `UsageError` of one line: file, key, what was found, what is allowed.
 
 #include <cstdint>
@@ -15,6 +15,13 @@ namespace thinwall {
 
 /// `is_discarded()` if `text` is no JSON, or is nested more than 64 deep: what copies, compares or prints a value recurses.
 nlohmann::json bounded_json(std::string_view text);
+
+/// On one line, which it ends; what is not UTF-8 becomes U+FFFD.
+std::string json_line(const nlohmann::ordered_json& value);
+
+/// A value whose real numbers are as `exact_text` of lab/text.hpp has them. `comma` and `is` stand between items, and between a key
+/// and its value: `,` and `:` of canonical JSON, `, ` and ` = ` of TOML.
+std::string exact_text(const nlohmann::json& value, std::string_view comma, std::string_view is);
 
 class JsonReader {
  public:

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <thinwall/experiments/lab/columns.hpp>
+
 namespace thinwall {
 
 namespace {
@@ -63,12 +65,7 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
   for (const CellCount& cell : cells) {
     auto found = std::find_if(tests.begin(), tests.end(),
                               [&](const SelfTest& test) { return test.name == cell.name && test.part == cell.part; });
-    if (found == tests.end()) {
-      tests.emplace_back();
-      found = tests.end() - 1;
-      found->name = cell.name;
-      found->part = cell.part;
-    }
+    if (found == tests.end()) found = tests.insert(tests.end(), {.name = cell.name, .part = cell.part});
     add(*found, cell);
   }
   const auto judged =
@@ -103,36 +100,31 @@ std::string self_test_text(const std::vector<SelfTest>& tests) {
 }
 
 Table self_test_table(const std::vector<SelfTest>& tests) {
-  Table table;
-  table.name = "self_test";
-  table.description = "Counts of independent shots against theory, over all cells of a method and scalar at once.";
-  table.in_report = true;
-  table.columns = {
-      {"method", ColumnType::text, "", "Way of detecting the hit."},
-      {"scalar", ColumnType::text, "", "Floating-point type the method ran in."},
-      {"certain_cells", ColumnType::integer, "1", "Cells whose theory is exactly 0 or 1."},
-      {"certain_wrong", ColumnType::integer, "1", "Of those, cells whose count is not exactly that; must be 0."},
-      {"judged_cells", ColumnType::integer, "1", "Cells with at least 5 expected to tunnel and 5 not to."},
-      {"covered", ColumnType::integer, "1", "Of those, cells whose 95 % Wilson interval holds the theory."},
-      {"covered_lower", ColumnType::integer, "1",
-       "Least allowed by Binomial(judged_cells, 0.95): all of this table fail a right run once in 1000."},
-      {"covered_upper", ColumnType::integer, "1", "Most allowed."},
-      {"chi_square", ColumnType::number, "1", "Sum of squared standard residuals over the judged cells."},
-      {"chi_square_lower", ColumnType::number, "1", "Least allowed by the chi-square distribution, likewise."},
-      {"chi_square_upper", ColumnType::number, "1", "Most allowed."},
-      {"other_cells", ColumnType::integer, "1", "Cells with a theory but too few expected events to judge alone."},
-      {"passed", ColumnType::boolean, "", "All of the above hold."},
-  };
-  for (const SelfTest& t : tests) {
-    const bool judged = t.judged_cells > 0;
-    const auto count = [&](double x) { return judged ? Value(static_cast<std::int64_t>(x)) : Value(); };
-    const auto number = [&](double x) { return judged ? Value(x) : Value(); };
-    table.rows.push_back({t.name, t.part, t.certain_cells, t.certain_wrong, t.judged_cells, t.covered,
-                          count(t.covered_allowed.lower), count(t.covered_allowed.upper), number(t.chi_square),
-                          number(t.chi_square_allowed.lower), number(t.chi_square_allowed.upper), t.other_cells,
-                          t.passed()});
-  }
-  return table;
+  using T = SelfTest;
+  const auto count = [](double x) { return static_cast<std::int64_t>(x); };
+  const auto columns = columns_of<T>(
+      text("method", "Way of detecting the hit.", &T::name),
+      text("scalar", "Floating-point type the method ran in.", &T::part),
+      value("certain_cells", "1", "Cells whose theory is exactly 0 or 1.", &T::certain_cells),
+      value("certain_wrong", "1", "Of those, cells whose count is not exactly that; must be 0.", &T::certain_wrong),
+      value("judged_cells", "1", "Cells with at least 5 expected to tunnel and 5 not to.", &T::judged_cells),
+      value("covered", "1", "Of those, cells whose 95 % Wilson interval holds the theory.", &T::covered),
+      where(
+          [](const T& t) { return t.judged_cells > 0; },
+          columns_of<T>(
+              value("covered_lower", "1",
+                    "Least allowed by Binomial(judged_cells, 0.95): all of this table fail a right run once in 1000.",
+                    [=](const T& t) { return count(t.covered_allowed.lower); }),
+              value("covered_upper", "1", "Most allowed.", [=](const T& t) { return count(t.covered_allowed.upper); }),
+              value("chi_square", "1", "Sum of squared standard residuals over the judged cells.", &T::chi_square),
+              value("chi_square_lower", "1", "Least allowed by the chi-square distribution, likewise.",
+                    [](const T& t) { return t.chi_square_allowed.lower; }),
+              value("chi_square_upper", "1", "Most allowed.", [](const T& t) { return t.chi_square_allowed.upper; }))),
+      value("other_cells", "1", "Cells with a theory but too few expected events to judge alone.", &T::other_cells),
+      value("passed", "", "All of the above hold.", &T::passed));
+  return in_report(table("self_test",
+                         "Counts of independent shots against theory, over all cells of a method and scalar at once.",
+                         columns, tests));
 }
 
 }  // namespace thinwall

@@ -4,6 +4,7 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/report.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
@@ -23,45 +24,23 @@ namespace fs = std::filesystem;
   throw UsageError(fmt::format("{}: {}", one_line(folder.string()), why));
 }
 
-/// The configuration as its run id was computed from: numbers in their shortest form, which JSON may spell otherwise.
-std::string canonical(const nlohmann::json& value) {
-  std::string out;
-  if (value.is_object()) {
-    for (const auto& [key, item] : value.items())
-      out += (out.empty() ? "" : ",") + json_string(key) + ":" + canonical(item);
-    return "{" + out + "}";
-  }
-  if (value.is_array()) {
-    for (const auto& item : value) out += (out.empty() ? "" : ",") + canonical(item);
-    return "[" + out + "]";
-  }
-  if (value.is_string()) return json_string(value.get<std::string>());
-  return value.is_number_float() ? exact_text(value.get<double>()) : value.dump();
-}
-
 }  // namespace
 
 KeptResult kept_result(const fs::path& folder, const std::string& file) {
-  const Manifest manifest = parse_manifest(file_text(folder / manifest_name), file);
-  KeptResult out{.folder = folder,
-                 .answer = manifest.answer,
-                 .summary = manifest.summary,
-                 .config = canonical(nlohmann::json::parse(manifest.run.config)),
-                 .trials = manifest.run.trials,
-                 .self_test_passed = manifest.self_test_passed,
-                 .reproduce = manifest.reproduce,
-                 .hashes = manifest.hashes,
-                 .unhashed = manifest.unhashed,
-                 .software = this_software(),
-                 .citation = {.experiment = manifest.run.experiment,
-                              .question = manifest.question,
-                              .run_id = manifest.run_id,
-                              .seed = manifest.run.seed,
-                              .commit = manifest.commit,
-                              .dirty = manifest.dirty,
-                              .date = manifest.finished.substr(0, 10)}};
-  out.software.version = manifest.version;
-  if (!manifest.release_date.empty()) out.software.date = manifest.release_date;
+  KeptResult out;
+  static_cast<Manifest&>(out) = parse_manifest(file_text(folder / manifest_name), file);
+  out.folder = folder;
+  out.run.config = exact_text(nlohmann::json::parse(out.run.config), ",", ":");
+  out.software = this_software();
+  out.software.version = out.version;
+  if (!out.release_date.empty()) out.software.date = out.release_date;
+  out.citation = {.experiment = out.run.experiment,
+                  .question = out.question,
+                  .run_id = out.run_id,
+                  .seed = out.run.seed,
+                  .commit = out.commit,
+                  .dirty = out.dirty,
+                  .date = out.finished.substr(0, 10)};
   return out;
 }
 

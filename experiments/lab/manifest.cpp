@@ -125,22 +125,7 @@ namespace {
 using nlohmann::json;
 
 /// A value on one line; a table within a list becomes an inline one.
-std::string value_text(const json& value) {
-  std::string out;
-  switch (value.type()) {
-    case json::value_t::string: return json_string(value.get<std::string>());
-    case json::value_t::number_float: return exact_text(value.get<double>());
-    case json::value_t::array:
-      for (const json& item : value) out += (out.empty() ? "" : ", ") + value_text(item);
-      return "[" + out + "]";
-    case json::value_t::object:
-      for (const auto& [key, item] : value.items()) {
-        out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", json_string(key), value_text(item));
-      }
-      return "{" + out + "}";
-    default: return value.dump();  // integers and booleans look the same in both
-  }
-}
+std::string value_text(const json& value) { return exact_text(value, ", ", " = "); }
 
 std::string key_text(const std::string& key) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
@@ -162,11 +147,15 @@ std::string table_text(const json& table, const std::string& path) {
 
 }  // namespace
 
-std::string resolved_toml(const RunRecord& run) {
+std::string config_toml(const RunIdentity& run) {
   json config = json::parse(run.config);
   config.erase("experiment");
-  return fmt::format("# To run it again from inside this folder:\n# {}\nexperiment = {}\n{}", reproduce_line(run),
-                     json_string(run.experiment), table_text(config, ""));
+  return fmt::format("experiment = {}\n{}", json_string(run.experiment), table_text(config, ""));
+}
+
+std::string resolved_toml(const RunRecord& run) {
+  return fmt::format("# To run it again from inside this folder:\n# {}\n{}", reproduce_line(run),
+                     config_toml({.experiment = run.experiment, .config = run.config, .trials = {}, .program = {}}));
 }
 
 namespace {
@@ -253,6 +242,17 @@ bool holds_file(const fs::path& folder, const std::string& file) {
     if (fs::is_symlink(path /= part, none)) return false;
   }
   return fs::is_regular_file(path, none);
+}
+
+bool is_unchanged(const fs::path& folder, const std::string& file, const std::string& hash) {
+  return holds_file(folder, file) && sha256_of_file(folder / file) == hash;
+}
+
+std::vector<std::string> Manifest::files() const {
+  std::vector<std::string> out;
+  for (const auto& [file, hash] : hashes) out.push_back(file);
+  out.insert(out.end(), unhashed.begin(), unhashed.end());
+  return out;
 }
 
 Manifest parse_manifest(const std::string& text, const std::string& file) {

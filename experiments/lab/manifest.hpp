@@ -91,6 +91,8 @@ struct Manifest {
   std::vector<std::pair<std::string, std::string>> facts;  ///< commit, compiler, libraries, machine: name and value
   std::map<std::string, std::string> hashes;               ///< SHA-256 of each file that must not differ, by path
   std::vector<std::string> unhashed;                       ///< files that differ from run to run
+
+  std::vector<std::string> files() const;  ///< all that it names, by path
 };
 
 /// Throws UsageError in one line, which names `file`, the key, what was found and what is allowed.
@@ -101,6 +103,9 @@ bool stays_within(const std::string& path);
 
 /// True if `folder` itself holds the file: it is a regular one, and no link leads to it from there.
 bool holds_file(const std::filesystem::path& folder, const std::string& file);
+
+/// True if it does, and the file has that SHA-256: as the manifest says that the run wrote it.
+bool is_unchanged(const std::filesystem::path& folder, const std::string& file, const std::string& hash);
 
 // ---- Where two results came from, held against each other: it may explain why they differ.
 
@@ -115,6 +120,9 @@ std::vector<FactChange> changed_facts(const Manifest& recorded, const Manifest& 
 // ---- The whole configuration of a run as a TOML file that runs as it is.
 
 std::string resolved_toml(const RunRecord& run);
+
+/// The same without the line that runs it again.
+std::string config_toml(const RunIdentity& run);
 
 // ---- BibTeX entries of the software and of one result.
 

@@ -21,21 +21,22 @@ std::optional<double> number_in(const Value& value) {
 
 }  // namespace
 
-std::size_t Plot::place_of(std::string_view column) const {
-  const auto found = std::ranges::find(table_.columns, column, &Column::name);
-  if (found == table_.columns.end())
-    throw std::logic_error("table '" + table_.name + "' has no column '" + std::string(column) + "'");
-  return static_cast<std::size_t>(found - table_.columns.begin());
+void add_curve(Series& series, double from, double to, Axis axis, const std::function<double(double)>& f, int steps) {
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const double at = axis == Axis::log ? from * std::pow(to / from, share) : from + (to - from) * share;
+    series.add(at, f(at));
+  }
 }
 
 Plot& Plot::where(std::string_view column, const Value& value) {
-  const std::size_t at = place_of(column);
+  const std::size_t at = place_of(table_, column);
   std::erase_if(table_.rows, [&](const auto& row) { return exact_text(row[at]) != exact_text(value); });
   return *this;
 }
 
 Plot& Plot::where(std::string_view column, const std::function<bool(double)>& is_it) {
-  const std::size_t at = place_of(column);
+  const std::size_t at = place_of(table_, column);
   std::erase_if(table_.rows, [&](const auto& row) {
     const auto x = number_in(row[at]);
     return !x || !is_it(*x);
@@ -46,14 +47,14 @@ Plot& Plot::where(std::string_view column, const std::function<bool(double)>& is
 Plot& Plot::x(std::string_view column, Axis axis, std::string label) {
   x_ = column;
   panel_.log_x = axis == Axis::log;
-  panel_.x_label = label.empty() ? header_of(table_.columns[place_of(column)]) : std::move(label);
+  panel_.x_label = label.empty() ? header_of(table_.columns[place_of(table_, column)]) : std::move(label);
   return *this;
 }
 
 Plot& Plot::y(std::string_view column, Axis axis, std::string label) {
   y_ = column;
   panel_.log_y = axis == Axis::log;
-  panel_.y_label = label.empty() ? header_of(table_.columns[place_of(column)]) : std::move(label);
+  panel_.y_label = label.empty() ? header_of(table_.columns[place_of(table_, column)]) : std::move(label);
   return *this;
 }
 
@@ -88,14 +89,13 @@ Plot& Plot::curve(std::string label, const std::function<double(double)>& f, dou
 }
 
 Plot& Plot::line(std::string label, std::vector<double> xs, std::vector<double> ys, Mark mark) {
-  panel_.series.push_back(
-      {.label = std::move(label), .mark = mark, .x = std::move(xs), .y = std::move(ys), .lower = {}, .upper = {}});
+  panel_.series.push_back({.label = std::move(label), .mark = mark, .x = std::move(xs), .y = std::move(ys)});
   return *this;
 }
 
 Plot& Plot::through(std::string_view column, const std::string& label) {
   Plot lines = Plot(table_).x(x_).y(column).by(by_).mark(Mark::line);
-  const auto at = [x = place_of(x_)](const auto& row) { return number_in(row[x]); };
+  const auto at = [x = place_of(table_, x_)](const auto& row) { return number_in(row[x]); };
   std::ranges::stable_sort(lines.table_.rows, {}, at);
   for (Series& series : Panel(lines).series) {
     series.label = label;
@@ -107,43 +107,38 @@ Plot& Plot::through(std::string_view column, const std::string& label) {
 Plot::operator Panel() const {
   Panel panel = panel_;
   panel.series.clear();
-  const std::size_t x = place_of(x_), y = place_of(y_);
-  const Column& measured = table_.columns[y];
-  const bool has_bars = !measured.lower.empty() && !measured.upper.empty();
+  const std::size_t x = place_of(table_, x_), y = place_of(table_, y_);
+  const Column &across = table_.columns[x], &measured = table_.columns[y];
+  const auto has_bars = [](const Column& column) { return !column.lower.empty() && !column.upper.empty(); };
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const auto& row : table_.rows) {
     const auto at = number_in(row[x]), value = number_in(row[y]);
     if (!at || !value) continue;
     least = std::min(least, *at);
     most = std::max(most, *at);
-    const std::string label = by_.empty() ? label_ : exact_text(row[place_of(by_)]);
+    const std::string label = by_.empty() ? label_ : exact_text(row[place_of(table_, by_)]);
     auto series = std::ranges::find(panel.series, label, &Series::label);
     if (series == panel.series.end()) {
-      series = panel.series.insert(panel.series.end(),
-                                   {.label = label, .mark = mark_, .x = {}, .y = {}, .lower = {}, .upper = {}});
+      series = panel.series.insert(panel.series.end(), {.label = label, .mark = mark_});
     }
-    series->x.push_back(*at);
-    series->y.push_back(*value);
-    if (!has_bars) continue;
-    series->lower.push_back(number_in(row[place_of(measured.lower)]).value_or(*value));
-    series->upper.push_back(number_in(row[place_of(measured.upper)]).value_or(*value));
+    series->add(*at, *value);
+    const auto add_bar = [&](const Column& column, double middle, auto& lower, auto& upper) {
+      lower.push_back(has_bars(column) ? number_in(row[place_of(table_, column.lower)]).value_or(middle) : middle);
+      upper.push_back(has_bars(column) ? number_in(row[place_of(table_, column.upper)]).value_or(middle) : middle);
+    };
+    if (has_bars(across)) add_bar(across, *at, series->x_lower, series->x_upper);
+    if (has_bars(across) || has_bars(measured)) add_bar(measured, *value, series->lower, series->upper);
   }
   for (Series& series : panel.series) {  // bars only where one of its points has an interval
-    if (series.lower == series.y && series.upper == series.y) series.lower = series.upper = {};
+    if (series.x_lower.empty() && series.lower == series.y && series.upper == series.y)
+      series.lower = series.upper = {};
   }
   panel.series.insert(panel.series.end(), panel_.series.begin(), panel_.series.end());
   for (const Curve& curve : curves_) {
     const double from = std::isnan(curve.from) ? least : curve.from, to = std::isnan(curve.to) ? most : curve.to;
     if (!(from < to)) continue;
-    Series& series = panel.series.emplace_back();
-    series.label = curve.label;
-    series.mark = curve.mark;
-    for (int i = 0; i <= curve_points; ++i) {
-      const double share = static_cast<double>(i) / curve_points;
-      const double at = panel.log_x ? from * std::pow(to / from, share) : from + (to - from) * share;
-      series.x.push_back(at);
-      series.y.push_back(curve.f(at));
-    }
+    Series& series = panel.series.emplace_back(Series{.label = curve.label, .mark = curve.mark});
+    add_curve(series, from, to, panel.log_x ? Axis::log : Axis::linear, curve.f, curve_points);
   }
   return panel;
 }
@@ -159,7 +154,7 @@ std::vector<Figure> only_measured(std::vector<Figure> figures) {
 Panel joined(Panel panel) {
   std::vector<Series> both;
   for (Series& points : panel.series) {
-    both.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}});
+    both.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y});
     both.push_back(std::move(points));
   }
   panel.series = std::move(both);

@@ -6,7 +6,7 @@
 ///           .curve("theory", [](double x) { return miss_probability(x); }),
 ///       plot(cells).x("step_ratio", Axis::log).y("residual").by("method")}};
 ///
-/// A series for each value of the `by` column, in the order of the rows; bars where the y column has an interval; rows without x or y
+/// A series for each value of the `by` column, in the order of the rows; bars where the x or the y column has an interval; rows without x or y
 /// are left out. A method looks the same in every figure: lab/method_looks.hpp.
 
 #include <functional>
@@ -19,6 +19,9 @@
 namespace thinwall {
 
 enum class Axis { linear, log };
+
+/// Points of a curve, `steps` apart evenly on such an axis, to the end of the series.
+void add_curve(Series& series, double from, double to, Axis axis, const std::function<double(double)>& f, int steps);
 
 class Plot {
  public:
@@ -54,8 +57,6 @@ class Plot {
     double from, to;
     Mark mark;
   };
-
-  std::size_t place_of(std::string_view column) const;
 
   Table table_;
   Panel panel_;

@@ -9,13 +9,10 @@
 #include <ctime>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
 
@@ -67,7 +64,7 @@ void run_rounds(std::vector<TimedLoop<Query>>& loops, std::span<const Query> que
   }
 }
 
-// ---- What rounds of timing give: the clock they read, the median with its interval, and the columns of such a measurement.
+// ---- What rounds of timing give: the clock they read, and the median with its interval.
 
 /// [s] of the processor that this thread has had: what others do meanwhile does not count.
 inline double thread_seconds() {
@@ -75,13 +72,6 @@ inline double thread_seconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-struct Measured {
-  double value;
-  Interval interval;  ///< 95 %
-
-  Measured times(double factor) const { return {factor * value, {factor * interval.lower, factor * interval.upper}}; }
-};
 
 /// The median, and its interval by bootstrap over the rounds. Not empty.
 inline Measured median_of_rounds(const std::vector<double>& rounds) {
@@ -93,32 +83,6 @@ inline Measured median_of_rounds(const std::vector<double>& rounds) {
 inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
   const double bar = 1.96 * deviation / std::sqrt(static_cast<double>(count));
   return {mean, {mean - bar, mean + bar}};
-}
-
-/// A Measured, or an optional one, and the ends of its interval, `PREFIX_lower` and `PREFIX_upper`.
-template <class Get> struct MeasuredColumns {
-  std::string name, unit, description, prefix;
-  Get get;
-
-  template <class Row> void add_to(Columns<Row>& columns) const {
-    const auto read = [get = get](auto part) {
-      return [get, part](const Row& row) -> std::optional<double> {
-        const std::optional<Measured> m = std::invoke(get, row);
-        return m ? std::optional(part(*m)) : std::nullopt;
-      };
-    };
-    const std::string lower = prefix + "lower", upper = prefix + "upper";
-    ValueColumn{name, unit, description, read([](const Measured& m) { return m.value; }), lower, upper}.add_to(columns);
-    value(lower, unit, "Lower end of its 95 % interval.", read([](const Measured& m) { return m.interval.lower; }))
-        .add_to(columns);
-    value(upper, unit, "Upper end of its 95 % interval.", read([](const Measured& m) { return m.interval.upper; }))
-        .add_to(columns);
-  }
-};
-template <class Get>
-MeasuredColumns<Get> measured(std::string name, std::string unit, std::string description, Get get,
-                              std::string prefix = "") {
-  return {std::move(name), std::move(unit), std::move(description), std::move(prefix), std::move(get)};
 }
 
 }  // namespace thinwall

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 
@@ -54,11 +55,9 @@ std::string_view JournalReader::word() {
 }
 
 std::int64_t JournalReader::integer() {
-  const std::string_view text = word();
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  require(error == std::errc() && end == text.data() + text.size());
-  return number;
+  const auto number = parsed<std::int64_t>(word());
+  require(number.has_value());
+  return *number;
 }
 
 std::size_t JournalReader::size() {

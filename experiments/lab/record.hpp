@@ -218,6 +218,22 @@ template <class T> T from_text(std::string_view text) {
   return value;
 }
 
+/// The rows for which `is_it` holds.
+template <class Row> std::vector<Row> only(const std::vector<Row>& rows, const auto& is_it) {
+  std::vector<Row> some;
+  std::ranges::copy_if(rows, std::back_inserter(some), is_it);
+  return some;
+}
+
+/// The values of the key, each once, in the order of their first.
+template <class Row, class Key> auto distinct(const std::vector<Row>& rows, const Key& key) {
+  std::vector<std::remove_cvref_t<std::invoke_result_t<const Key&, const Row&>>> values;
+  for (const Row& row : rows) {
+    if (std::ranges::find(values, std::invoke(key, row)) == values.end()) values.push_back(std::invoke(key, row));
+  }
+  return values;
+}
+
 template <class Row> using Group = std::vector<const Row*>;
 
 /// The rows of each key, both in the order of their first. `rows` must outlive the groups.

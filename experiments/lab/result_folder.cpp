@@ -4,9 +4,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <set>
@@ -42,18 +42,17 @@ constexpr std::array result_names = {manifest_name, seal_name,       "datapackag
 /// Also of a link that leads nowhere.
 bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
 
-bool is_rank_journal(const std::string& name) {
+bool is_rank_journal(std::string_view name) {
   return name.starts_with(rank_journal_begin) && name.ends_with(rank_journal_end) &&
          parse_count(
              name.substr(rank_journal_begin.size(), name.size() - rank_journal_begin.size() - rank_journal_end.size()));
 }
 
-/// A file as the manifest says that the run wrote it.
-bool is_unchanged(const fs::path& folder, const std::string& file, const std::string& hash) {
-  return holds_file(folder, file) && sha256_of_file(folder / file) == hash;
-}
-
 }  // namespace
+
+bool is_journal_name(std::string_view file) {
+  return file == journal_name || file == old_journal_name || is_rank_journal(file);
+}
 
 FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -204,11 +203,7 @@ void ResultFolder::stage(const std::string& file, const std::string& text) {
   if (!staging_) staging_.emplace(path_);
   const fs::path target = staging() / file;
   fs::create_directories(target.parent_path());
-  errno = 0;
-  std::ofstream out(target, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::system_error(errno ? errno : EIO, std::generic_category(), target.string());
+  write_file(target, text);
 }
 
 std::map<std::string, std::string> ResultFolder::staged_hashes() const {
@@ -268,8 +263,7 @@ void ResultFolder::clear_up() const {
 bool remove_result(const fs::path& folder) {
   const Manifest manifest = parse_manifest(file_text(folder / manifest_name), (folder / manifest_name).string());
   std::vector<std::string> files = {manifest_name, "report.html"};
-  for (const auto& [file, hash] : manifest.hashes) files.push_back(file);
-  files.insert(files.end(), manifest.unhashed.begin(), manifest.unhashed.end());
+  std::ranges::copy(manifest.files(), std::back_inserter(files));
   std::set<fs::path, std::greater<>> folders = {folder};  // what lies in a folder comes before it
   for (const std::string& file : files) {
     if (!holds_file(folder, file)) continue;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/experiment.hpp>
@@ -25,6 +26,9 @@ namespace thinwall {
 
 inline constexpr const char* journal_name = "journal.tsv";
 inline constexpr const char* seal_name = "shard.json";
+
+/// What a run at work keeps: journal.tsv, journal.old.tsv, journal.rank-2.tsv.
+bool is_journal_name(std::string_view file);
 
 /// Holds a folder for this process alone, as long as it lives.
 class FolderLock {
@@ -104,16 +108,9 @@ bool remove_result(const std::filesystem::path& folder);
 
 // ---- A complete result, read back from its folder.
 
-/// What manifest.json says of a result to someone who did not run it.
-struct KeptResult {
+/// What manifest.json says of a result, its configuration as its run id was computed from, and how to cite it.
+struct KeptResult : Manifest {
   std::filesystem::path folder;
-  std::string answer, summary;
-  std::string config;                  ///< canonical JSON
-  std::optional<std::int64_t> trials;  ///< as given on the command line
-  bool self_test_passed = false;
-  std::string reproduce;                      ///< the command line that gives it again
-  std::map<std::string, std::string> hashes;  ///< SHA-256 by path
-  std::vector<std::string> unhashed;          ///< files that differ from run to run
   SoftwareCitation software;
   ResultCitation citation;
 };

@@ -31,12 +31,6 @@ std::string title(const Column& column) {
   return name;
 }
 
-std::size_t place_of(const Table& table, const std::string& name) {
-  const auto found = std::ranges::find(table.columns, name, &Column::name);
-  if (found == table.columns.end()) throw std::logic_error("table '" + table.name + "' has no column '" + name + "'");
-  return static_cast<std::size_t>(found - table.columns.begin());
-}
-
 /// Every column but those that are the end of another's interval.
 std::vector<Choice> choices(const Table& table) {
   std::vector<Choice> out;

@@ -14,6 +14,14 @@ struct Interval {
   bool contains(double x) const { return lower <= x && x <= upper; }
 };
 
+/// A number and its 95 % interval.
+struct Measured {
+  double value;
+  Interval interval;
+
+  Measured times(double factor) const { return {factor * value, {factor * interval.lower, factor * interval.upper}}; }
+};
+
 /// For a curve: the Wilson score interval of a probability, after `successes` in `trials` >= 1 independent trials.
 /// Covers the true probability `confidence` of the time on average; at the ends it is exactly 0 and exactly 1.
 /// Source: derived in docs/tunneling_theory.md.

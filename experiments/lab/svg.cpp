@@ -22,7 +22,7 @@ std::string spelled(const std::string& text) {
   std::string plain = one_line(text);
   const std::string latex = latex_escaped(plain);
   const bool alike = latex == plain;
-  for (auto at = plain.find("]]>"); at != std::string::npos; at = plain.find("]]>", at)) plain.insert(at + 2, " ");
+  replace_all(plain, "]]>", "]] >");
   return alike ? gnuplot_quoted(plain) : fmt::format("text_of({}, {})", gnuplot_quoted(plain), gnuplot_quoted(latex));
 }
 
@@ -118,8 +118,8 @@ std::size_t point_count(const Panel& panel) {
 }
 
 /// What plots one series: its bars first, so that its points lie on them.
-std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block, std::size_t style,
-                                    bool crowded) {
+std::vector<std::string> plot_items(const std::string& file, const Series& series, std::size_t block,
+                                    std::ptrdiff_t style, bool crowded) {
   const std::string from = fmt::format("'{}' index {}", file, block);
   if (series.mark == Mark::cells) {
     return {fmt::format("{} using 1:2:(0.46):(0.46) with boxxyerror linestyle {} fillstyle solid noborder notitle",
@@ -229,7 +229,7 @@ std::string plot_script(const Figure& figure) {
     std::vector<std::string> items;
     const bool crowded = point_count(panel) > 400;
     for (const Series& series : panel.series) {
-      const auto style = static_cast<std::size_t>(&style_of(styles, series.label) - styles.data()) + 1;
+      const auto style = std::ranges::find(styles, series.label, &SeriesStyle::label) - styles.begin() + 1;
       for (std::string& item : plot_items(figure.name + ".dat", series, block, style, crowded))
         items.push_back(std::move(item));
       ++block;

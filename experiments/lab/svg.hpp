@@ -40,9 +40,6 @@ struct SeriesStyle {
 /// One style for each label of the figure, in the order in which they first appear.
 std::vector<SeriesStyle> series_styles(const Figure& figure);
 
-/// The style of `label`, which must be there.
-const SeriesStyle& style_of(const std::vector<SeriesStyle>& styles, const std::string& label);
-
 // ---- Where the parts of a figure stand on its page, in pixels from the top left.
 
 struct PanelBox {

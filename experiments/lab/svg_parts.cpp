@@ -194,10 +194,4 @@ std::vector<SeriesStyle> series_styles(const Figure& figure) {
   return styles;
 }
 
-const SeriesStyle& style_of(const std::vector<SeriesStyle>& styles, const std::string& label) {
-  const auto style = std::ranges::find(styles, label, &SeriesStyle::label);
-  if (style == styles.end()) throw std::logic_error("no series is labeled '" + label + "'");
-  return *style;
-}
-
 }  // namespace thinwall

@@ -1,7 +1,9 @@
 #pragma once
 /// A table as CSV, as Markdown, LaTeX and HTML, and described for machines.
 
+#include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +12,9 @@
 
 namespace thinwall {
 
+/// The column of that name. Throws std::logic_error if the table has none.
+std::size_t place_of(const Table& table, std::string_view column);
+
 // ---- A table as CSV (RFC 4180, lines end in LF), and all tables of a result as a Frictionless Data Package.
 
 /// One field, without quotes: numbers in shortest form that reads back as the same bits; missing and NaN are empty.
@@ -17,6 +22,20 @@ std::string exact_text(const Value& value);
 
 /// A text that a spreadsheet would compute stands behind a single quote, as docs/results.md says. Throws std::logic_error, naming the row, if one is not as long as the columns, or a value not of its column's type.
 std::string csv_text(const Table& table);
+
+struct CsvRow {
+  std::size_t line = 0;  ///< where it begins, from 1
+  std::vector<std::string> fields;
+};
+
+/// Says what is wrong and in which line.
+struct CsvError : std::runtime_error {
+  CsvError(std::size_t at, const std::string& what) : std::runtime_error(what), line(at) {}
+  std::size_t line;
+};
+
+/// Every row, the header too, of a file as `csv_text` writes it. Throws CsvError.
+std::vector<CsvRow> read_csv(std::string_view text);
 
 struct PackageInfo {
   std::string name, title, description, version;
@@ -65,10 +84,5 @@ std::string markdown_table(const Table& whole);
 std::string latex_table(const Table& whole);
 
 std::string html_table(const Table& whole);
-
-// ---- A narrower table, for a report: what a reader looks at, in the order in which it stood.
-
-/// Removes the columns of these names, each of which must be there.
-Table without_columns(const Table& table, std::span<const std::string_view> names);
 
 }  // namespace thinwall

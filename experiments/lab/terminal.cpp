@@ -63,11 +63,8 @@ Table only_columns(const Table& table, std::initializer_list<std::string_view> n
   out.columns.clear();
   for (auto& row : out.rows) row.clear();
   const auto take = [&](std::string_view name) {
-    const auto found = std::ranges::find(table.columns, name, &Column::name);
-    if (found == table.columns.end())
-      throw std::logic_error("table '" + table.name + "' has no column '" + std::string(name) + "'");
-    const auto j = static_cast<std::size_t>(found - table.columns.begin());
-    out.columns.push_back(*found);
+    const std::size_t j = place_of(table, name);
+    out.columns.push_back(table.columns[j]);
     for (std::size_t i = 0; i < table.rows.size(); ++i) out.rows[i].push_back(table.rows[i][j]);
   };
   for (const std::string_view name : names) {

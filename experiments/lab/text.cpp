@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string.hpp>
 
 namespace thinwall {
 
@@ -55,6 +56,13 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
+std::optional<std::int64_t> parse_count(std::string_view text) {
+  if (const auto count = parsed<std::int64_t>(text)) return count;
+  const auto value = parsed<double>(text);
+  if (!value || !(std::abs(*value) < two_to_53) || *value != std::trunc(*value)) return std::nullopt;
+  return static_cast<std::int64_t>(*value);
+}
+
 namespace {
 
 int power_of_ten(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
@@ -69,13 +77,8 @@ std::string to_place(double value, int place, bool scientific) {
   if (value == std::trunc(value) && std::abs(value) < 10) return exact_text(value);
   const double unit = std::pow(10, place);
   if (std::abs(value) < unit / 2) return "0";
-  std::array<char, 64> buffer{};
-  const auto text = [&](std::chars_format format, int digits) {
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format, digits).ptr;
-    return std::string(buffer.data(), end);
-  };
-  if (scientific) return text(std::chars_format::scientific, std::max(0, power_of_ten(value) - place));
-  if (place < 0) return text(std::chars_format::fixed, -place);
+  if (scientific) return to_text(value, std::chars_format::scientific, std::max(0, power_of_ten(value) - place));
+  if (place < 0) return to_text(value, std::chars_format::fixed, -place);
   return exact_text(std::round(value / unit) * unit);
 }
 
@@ -148,11 +151,7 @@ std::string_view nearest_spelling(std::string_view word, std::span<const std::st
 }
 
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates) {
-  std::string list = "allowed: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i > 0) list += ", ";
-    list += candidates[i];
-  }
+  const std::string list = fmt::format("allowed: {}", fmt::join(candidates, ", "));
   const std::string_view nearest = nearest_spelling(word, candidates);
   return nearest.empty() ? list : "did you mean '" + std::string(nearest) + "'? (" + list + ")";
 }
@@ -194,9 +193,12 @@ int line_of_deep_key(std::string_view text, int most) {
   return 0;
 }
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  boost::split(parts, text, [separator](char letter) { return letter == separator; });
+  return parts;
 }
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) { boost::replace_all(text, from, to); }
 
 }  // namespace thinwall

@@ -1,6 +1,7 @@
 #pragma once
 /// Text: numbers and intervals as people read them, lists of values, names that are nearly right.
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thinwall {
 
@@ -28,6 +30,13 @@ std::string plural_text(std::int64_t count, std::string_view noun);
 
 /// As a person says it: `0.4 s`, `12 s`, `3 min 20 s`, `2 h 5 min`.
 std::string duration_text(double seconds);
+
+/// The number that all of `text` is.
+template <class Number> std::optional<Number> parsed(std::string_view text) {
+  Number number{};
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && stop == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
 
 /// A whole number, also as 1e6; nothing if `text` is anything else or does not fit.
 std::optional<std::int64_t> parse_count(std::string_view text);
@@ -70,6 +79,9 @@ std::string_view nearest_spelling(std::string_view word, std::span<const std::st
 
 /// The end of a complaint: `did you mean 'radius'? (allowed: angle, radius)`; if nothing is near, `allowed: angle, radius`.
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates);
+
+/// What stands between the separators: of `a,,b` three parts, of an empty text one.
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// Every `from` in `text`, which is not empty, becomes `to`.
 void replace_all(std::string& text, std::string_view from, std::string_view to);

@@ -10,6 +10,7 @@
 
 #include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
@@ -56,7 +57,7 @@ int print_advice(const AdviseText& text, const Call& call) {
   if (text.json) {
     nlohmann::ordered_json reply = advice_json(advice);
     if (to_file) reply["toml"] = *text.toml;
-    call.out << reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+    call.out << json_line(reply);
   } else {
     call.out << advice_text(advice);
   }

@@ -116,14 +116,6 @@ class HarmlessOutput final : public std::ostream {
   Buffer buffer_;
 };
 
-// ---- What `--json` prints: one object or array, ended by a newline.
-
-std::string list_reply(std::span<const Experiment> experiments);
-std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const RunEstimate& told);
-std::string list_cells_reply(const RunRecord& run, const std::string& out, std::span<const Unit> units);
-std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard);
-std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report);
-
 // ---- The commands.
 
 Command advise_command();

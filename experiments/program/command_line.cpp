@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <memory>
 #include <ostream>
@@ -14,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/ranks.hpp>
 #include <thinwall/experiments/lab/runner.hpp>
@@ -190,13 +190,12 @@ void add_target(CLI::App& command, const std::string& name, std::string& target,
 
 std::uint64_t parse_seed(const OptionText& text) {
   if (!text) return 0;
-  std::uint64_t seed = 0;
-  const auto [stop, error] = std::from_chars(text->data(), text->data() + text->size(), seed);
-  if (error != std::errc{} || stop != text->data() + text->size()) {
+  const auto seed = parsed<std::uint64_t>(*text);
+  if (!seed) {
     throw UsageError(fmt::format("--seed: '{}' is not allowed; a whole number from 0 to {}", one_line(*text),
                                  std::numeric_limits<std::uint64_t>::max()));
   }
-  return seed;
+  return *seed;
 }
 
 int parse_threads(const OptionText& text) {
@@ -247,61 +246,6 @@ int HarmlessOutput::Buffer::sync() {
   return out_.flush() ? 0 : -1;
 }
 
-namespace {
-
-using nlohmann::ordered_json;
-
-ordered_json size_of(const RunRecord& run, const std::string& out) {
-  return {{"experiment", run.experiment}, {"out", out},       {"units", run.units},
-          {"trials", run.total_trials},   {"seed", run.seed}, {"threads", run.threads}};
-}
-
-std::string line(const ordered_json& json) {
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
-}  // namespace
-
-std::string list_reply(std::span<const Experiment> experiments) {
-  ordered_json out = ordered_json::array();
-  for (const Experiment& experiment : experiments) {
-    out.push_back({{"name", experiment.name}, {"question", experiment.question}});
-  }
-  return line(out);
-}
-
-std::string dry_run_reply(const RunRecord& run, const std::string& out, double seconds, const RunEstimate& told) {
-  ordered_json reply = size_of(run, out);
-  reply["dry_run"] = true;
-  reply["estimated_seconds"] = told.tried() > 0 ? ordered_json(seconds) : ordered_json();
-  reply["units_left_out_of_estimate"] = told.unknown;
-  reply["estimated_from"] = basis_text(told);
-  return line(reply);
-}
-
-std::string list_cells_reply(const RunRecord& run, const std::string& out, std::span<const Unit> units) {
-  ordered_json reply = size_of(run, out);
-  reply["cells"] = ordered_json::array();
-  for (const Unit& unit : units) reply["cells"].push_back({{"key", unit.key}, {"trials", unit.trials}});
-  return line(reply);
-}
-
-std::string shard_json(const RunRecord& run, const std::string& out, const std::string& shard) {
-  ordered_json reply = size_of(run, out);
-  reply["shard"] = shard;
-  reply["resumed_units"] = run.resumed_units;
-  return line(reply);
-}
-
-std::string run_reply(const RunRecord& run, const std::string& out, const Outcome& outcome, const std::string& report) {
-  ordered_json reply = size_of(run, out);
-  reply["resumed_units"] = run.resumed_units;
-  reply["answer"] = outcome.answer;
-  reply["self_test_passed"] = outcome.self_test_passed;
-  reply["report"] = report;
-  return line(reply);
-}
-
 std::span<const Command> commands() {
   static const std::array all = {
       list_command(),        //
@@ -322,6 +266,13 @@ std::span<const Command> commands() {
 
 namespace {
 
+std::string list_json(std::span<const Experiment> experiments) {
+  auto out = nlohmann::ordered_json::array();
+  for (const Experiment& experiment : experiments)
+    out.push_back({{"name", experiment.name}, {"question", experiment.question}});
+  return json_line(out);
+}
+
 std::string list_text(std::span<const Experiment> experiments) {
   std::size_t longest = 0;
   for (const Experiment& experiment : experiments) longest = std::max(longest, experiment.name.size());
@@ -336,7 +287,7 @@ Action declare_list(CLI::App& self) {
   const auto json = std::make_shared<bool>(false);
   add_json(self, *json);
   return [json](const Call& call) {
-    call.out << (*json ? list_reply(call.experiments) : list_text(call.experiments));
+    call.out << (*json ? list_json(call.experiments) : list_text(call.experiments));
     return exit_done;
   };
 }

@@ -8,33 +8,24 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
 
 namespace thinwall {
 
 namespace {
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> out(1);
-  for (const char letter : text) {
-    if (letter == at) {
-      out.emplace_back();
-    } else {
-      out.back() += letter;
-    }
-  }
-  return out;
-}
-
-bool is_word(const std::string& text) {
+bool is_word(std::string_view text) {
   return !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
 }
 
 /// `form` is what the help shows in the place of a value: `lean|full`, `NAME|FILE.toml`, `DIR`.
 CompletedValue value_of_form(const std::string& form, std::span<const Experiment> experiments) {
   CompletedValue out;
-  for (const std::string& part : split(form, '|')) {
+  for (const std::string_view part : split(form, '|')) {
     if (part == "NAME") {
       for (const Experiment& experiment : experiments) out.words.emplace_back(experiment.name);
     } else if (part.ends_with(".toml")) {
@@ -42,7 +33,7 @@ CompletedValue value_of_form(const std::string& form, std::span<const Experiment
     } else if (part.starts_with("DIR") || part.starts_with("RESULT") || part.starts_with("SHARD...")) {
       out.folder = true;
     } else if (is_word(part)) {
-      out.words.push_back(part);
+      out.words.emplace_back(part);
     }
   }
   return out;
@@ -50,13 +41,6 @@ CompletedValue value_of_form(const std::string& form, std::span<const Experiment
 
 std::string joined(const std::vector<std::string>& words, const char* between = " ") {
   return fmt::format("{}", fmt::join(words, between));
-}
-
-/// In single quotes, for each of the three shells.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char letter : text) out += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return out + "'";
 }
 
 std::vector<std::string> names_of(const CompletedCommand& command) {
@@ -69,7 +53,7 @@ std::vector<std::string> names_of(const CompletedCommand& command) {
 
 /// Sets what `_thinwall` may offer: words, and whether files.
 std::string bash_value(const CompletedValue& value) {
-  return fmt::format("words={} toml={} folder={}", quoted(joined(value.words)), value.toml ? 1 : 0,
+  return fmt::format("words={} toml={} folder={}", single_quoted(joined(value.words)), value.toml ? 1 : 0,
                      value.folder ? 1 : 0);
 }
 
@@ -94,14 +78,14 @@ std::string bash_script(std::span<const CompletedCommand> commands) {
       values += fmt::format("    {}:{}) {} is_value=1 ;;\n", command.name, option.name, bash_value(option.value));
     }
     targets += fmt::format("    {}) {}; [[ $cur == -* ]] && {{ words={}; toml=0; folder=0; }} ;;\n", command.name,
-                           bash_value(command.target), quoted(joined(names_of(command))));
+                           bash_value(command.target), single_quoted(joined(names_of(command))));
   }
   return "# Completion of thinwall for bash. To load it: source <(thinwall completion bash)\n"
          "_thinwall() {\n"
          "  local cur=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}\n"
          "  local words= toml=0 folder=0 is_value=0\n"
          "  ((COMP_CWORD == 1)) && words=" +
-         quoted(joined(names) + " --help --version") +
+         single_quoted(joined(names) + " --help --version") +
          "\n"
          "  ((COMP_CWORD > 2)) && case $command:$before in\n" +
          values +
@@ -114,10 +98,7 @@ std::string bash_script(std::span<const CompletedCommand> commands) {
 
 /// Within an argument of _arguments or _describe.
 std::string zsh_escaped(const std::string& text) {
-  std::string out;
-  for (const char letter : text)
-    out += (std::string_view("[]:\\").find(letter) != std::string_view::npos ? "\\" : "") + std::string(1, letter);
-  return out;
+  return replaced(text, {{'[', "\\["}, {']', "\\]"}, {':', "\\:"}, {'\\', "\\\\"}});
 }
 
 std::string zsh_action(const CompletedValue& value) {
@@ -137,13 +118,14 @@ constexpr const char* zsh_offer = R"(_thinwall_offer() {
 std::string zsh_script(std::span<const CompletedCommand> commands) {
   std::string names, cases;
   for (const CompletedCommand& command : commands) {
-    names += "    " + quoted(zsh_escaped(command.name) + ":" + zsh_escaped(command.summary)) + "\n";
+    names += "    " + single_quoted(zsh_escaped(command.name) + ":" + zsh_escaped(command.summary)) + "\n";
     cases += fmt::format("    {})\n      _arguments", command.name);
     for (const CompletedOption& option : command.options) {
-      cases += " \\\n        " + quoted(fmt::format("{}[{}]{}", option.name, zsh_escaped(option.meaning),
-                                                    option.takes_value ? ":value:" + zsh_action(option.value) : ""));
+      cases +=
+          " \\\n        " + single_quoted(fmt::format("{}[{}]{}", option.name, zsh_escaped(option.meaning),
+                                                      option.takes_value ? ":value:" + zsh_action(option.value) : ""));
     }
-    cases += " \\\n        " + quoted("*:argument:" + zsh_action(command.target)) + " ;;\n";
+    cases += " \\\n        " + single_quoted("*:argument:" + zsh_action(command.target)) + " ;;\n";
   }
   return "#compdef thinwall\n"
          "# Completion of thinwall for zsh. To load it: source <(thinwall completion zsh)\n" +
@@ -157,11 +139,7 @@ std::string zsh_script(std::span<const CompletedCommand> commands) {
 
 // fish -------------------------------------------------------------------------------------------------------------
 
-std::string fish_quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char letter : text) out += (letter == '\'' || letter == '\\' ? "\\" : "") + std::string(1, letter);
-  return out + "'";
-}
+std::string fish_quoted(const std::string& text) { return "'" + replaced(text, {{'\'', "\\'"}, {'\\', "\\\\"}}) + "'"; }
 
 std::string fish_arguments(const CompletedValue& value) {
   std::vector<std::string> parts = value.words;
@@ -231,7 +209,7 @@ int print_completion(const CompletionText& text, const Call& call) {
   const std::string shell = parse_choice("completion", text.shell, completion_shells);
   const std::string script = completion_script(shell, completed_commands(call.experiments));
   if (text.json) {
-    call.out << nlohmann::ordered_json{{"shell", shell}, {"script", script}}.dump() << "\n";
+    call.out << json_line({{"shell", shell}, {"script", script}});
   } else {
     call.out << script;
   }

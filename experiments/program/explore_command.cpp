@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/program/command.hpp>
@@ -35,9 +36,8 @@ std::string page_of_this_program() {
         "libclang-rt-16-dev-wasm32 wasi-libc, and build it with -DTHINWALL_BUILD_EXPLORER=ON");
   }
   constexpr std::string_view place = R"("/*citation*/")";
-  std::string citation = nlohmann::json(bibtex(this_software())).dump();
-  for (std::size_t at = 0; (at = citation.find('<', at)) != std::string::npos;) citation.replace(at, 1, "\\u003c");
-  return page.replace(page.find(place), place.size(), citation);
+  const std::string citation = nlohmann::json(bibtex(this_software())).dump();
+  return page.replace(page.find(place), place.size(), replaced(citation, {{'<', "\\u003c"}}));
 }
 
 /// True if a browser was told to. Where there is no screen none is looked for.
@@ -54,7 +54,7 @@ int explore(const ExploreText& text, const Call& call) {
   const bool shown = !text.no_open && opened(file);
   if (text.json) {
     const nlohmann::ordered_json reply = {{"page", file}, {"opened", shown}};
-    call.out << reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+    call.out << json_line(reply);
   } else {
     call.out << one_line(file) << ": the thin wall, to play with\n";
   }

@@ -1,4 +1,3 @@
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -6,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/program/command.hpp>
 
@@ -30,16 +30,12 @@ void write_own_file(std::string_view option, const std::filesystem::path& file, 
   }
   const std::filesystem::path fresh = file.string() + ".new";
   if (std::filesystem::exists(fresh, error)) refuse("needs the name " + one_line(fresh.string()) + ", which is taken");
-  errno = 0;
-  std::ofstream out(fresh, std::ios::binary);
-  out << text;
-  out.close();
-  error.assign(errno, std::generic_category());
-  if (out) std::filesystem::rename(fresh, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(fresh, ignored);
-    refuse("cannot be written: " + error.message());
+  try {
+    write_file(fresh, text);
+    std::filesystem::rename(fresh, file);
+  } catch (const std::system_error& why) {
+    std::filesystem::remove(fresh, error);
+    refuse("cannot be written: " + why.code().message());
   }
 }
 

@@ -10,9 +10,11 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -23,6 +25,8 @@
 namespace thinwall {
 namespace {
 
+using nlohmann::ordered_json;
+
 constexpr std::chrono::milliseconds patience(500);  // for a unit to end when Ctrl-C is pressed; one may be long
 
 std::string size_text(const RunRecord& run) {
@@ -30,6 +34,12 @@ std::string size_text(const RunRecord& run) {
   return fmt::format("{}: {}, {} on {}", run.experiment, plural_text(static_cast<std::int64_t>(run.units), "unit"),
                      plural_text(run.total_trials, "trial"),
                      run.ranks > 1 ? fmt::format("{} ranks of {}", run.ranks, threads) : threads);
+}
+
+/// What every answer in JSON begins with.
+ordered_json size_json(const RunRecord& run, const RunWish& wish) {
+  return {{"experiment", run.experiment}, {"out", wish.out},  {"units", run.units},
+          {"trials", run.total_trials},   {"seed", run.seed}, {"threads", run.threads}};
 }
 
 std::string time_text(const RunEstimate& told, double seconds) {
@@ -49,7 +59,12 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all
   const auto crew = std::min(static_cast<double>(run.threads) * run.ranks, static_cast<double>(run.units));
   const double seconds = told.seconds * static_cast<double>(run.total_trials) / trials / crew;
   if (wish.json) {
-    call.out << dry_run_reply(run, wish.out, seconds, told);
+    ordered_json reply = size_json(run, wish);
+    reply["dry_run"] = true;
+    reply["estimated_seconds"] = told.tried() > 0 ? ordered_json(seconds) : ordered_json();
+    reply["units_left_out_of_estimate"] = told.unknown;
+    reply["estimated_from"] = basis_text(told);
+    call.out << json_line(reply);
   } else {
     call.out << fmt::format("{}\n{} ({}); results would go to {}\n", size_text(run), time_text(told, seconds),
                             basis_text(told), one_line(wish.out));
@@ -59,7 +74,10 @@ int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all
 
 int list_cells(const RunWish& wish, const RunRecord& run, std::span<const Unit> units, std::ostream& out) {
   if (wish.json) {
-    out << list_cells_reply(run, wish.out, units);
+    ordered_json reply = size_json(run, wish);
+    reply["cells"] = ordered_json::array();
+    for (const Unit& unit : units) reply["cells"].push_back({{"key", unit.key}, {"trials", unit.trials}});
+    out << json_line(reply);
   } else {
     for (const Unit& unit : units) out << fmt::format("{:>12}  {}\n", unit.trials, one_line(unit.key));
   }
@@ -72,7 +90,12 @@ int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, con
   for (const std::string& trouble : troubles) err << trouble << "\n";
   const std::string report = (std::filesystem::path(wish.out) / "report.html").string();
   if (wish.json) {
-    out << run_reply(run, wish.out, outcome, report);
+    ordered_json reply = size_json(run, wish);
+    reply["resumed_units"] = run.resumed_units;
+    reply["answer"] = outcome.answer;
+    reply["self_test_passed"] = outcome.self_test_passed;
+    reply["report"] = report;
+    out << json_line(reply);
   } else {
     if (!outcome.summary.empty()) out << outcome.summary << (outcome.summary.ends_with('\n') ? "\n" : "\n\n");
     out << outcome.answer << "\n\nreport: " << one_line(report) << "\n";
@@ -86,7 +109,10 @@ int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, con
 
 int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
   if (wish.json) {
-    call.out << shard_json(run, wish.out, to_text(*wish.shard));
+    ordered_json reply = size_json(run, wish);
+    reply["shard"] = to_text(*wish.shard);
+    reply["resumed_units"] = run.resumed_units;
+    call.out << json_line(reply);
   } else {
     call.out << fmt::format("shard {} of {} is finished, in {}\n", to_text(*wish.shard), run.experiment,
                             one_line(wish.out));

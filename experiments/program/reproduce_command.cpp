@@ -12,6 +12,7 @@
 #include <thinwall/experiments/lab/comparison.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -128,7 +129,7 @@ std::string json_reply(const Rerun& rerun, const RerunComparison& found) {
   for (const FactChange& change : found.facts) {
     reply["facts"].push_back({{"fact", change.fact}, {"recorded", change.recorded}, {"rerun", change.rerun}});
   }
-  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_line(reply);
 }
 
 std::string facts_text(const std::vector<FactChange>& facts) {

@@ -11,9 +11,11 @@
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/run.hpp>
 
@@ -69,7 +71,7 @@ int check(const ReportText& text, const Call& call) {
   if (text.json) {
     ordered_json reply = {{"folder", text.target}, {"whole", whole}, {"faults", faults}};
     if (whole) reply["self_test_passed"] = !doubtful;
-    call.out << reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+    call.out << json_line(reply);
   } else {
     for (const std::string& fault : faults) call.out << fault << "\n";
     call.out << fmt::format("{}: {}\n", one_line(text.target),
@@ -99,7 +101,7 @@ int report(const ReportText& text, const Call& call) {
   if (text.json) {
     ordered_json reply = result_json(result);
     reply["drawn"] = drawn.files;
-    call.out << reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+    call.out << json_line(reply);
   } else {
     call.out << result_text(result);
     for (const std::string& file : drawn.files)
@@ -128,11 +130,9 @@ std::vector<std::string> parse_figures(const OptionText& figures) {
   constexpr std::array<std::string_view, 2> allowed = {"pdf", "tex"};
   std::vector<std::string> out;
   if (!figures) return out;
-  for (std::size_t at = 0; at <= figures->size();) {
-    const auto end = std::min(figures->find(',', at), figures->size());
-    const std::string format = parse_choice("--figures", figures->substr(at, end - at), allowed);
+  for (const std::string_view part : split(*figures, ',')) {
+    const std::string format = parse_choice("--figures", std::string(part), allowed);
     if (std::ranges::find(out, format) == out.end()) out.push_back(format);
-    at = end + 1;
   }
   return out;
 }
@@ -168,7 +168,7 @@ std::string json_reply(const SoftwareCitation& software, const std::optional<Res
                        {"date", result->date},
                        {"bibtex", bibtex(*result)}};
   }
-  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_line(reply);
 }
 
 struct CiteText {

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -89,10 +90,7 @@ ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::spa
   const std::vector<Experiment> all = with_scenes(experiments);
   const Experiment* const chosen = find_experiment(all, identity.experiment);
   if (!chosen) throw UsageError(fmt::format("'{}': unknown experiment", one_line(identity.experiment)));
-  RunRecord record;
-  record.experiment = identity.experiment;
-  record.config = identity.config;
-  Settings settings(resolved_toml(record), "configuration", chosen->default_toml);
+  Settings settings(config_toml(identity), "configuration", chosen->default_toml);
   settings.reject_unknown_keys();
   ConfiguredRun out = configured(*chosen, settings, {identity.seed, identity.trials, threads});
   RunIdentity again = identity;
@@ -256,7 +254,7 @@ std::string json_reply(const Scene& scene, const Plan& plan) {
                         {"lines", ordered_json::array()}};
   for (const PlanLine& line : plan.lines)
     reply["lines"].push_back({{"what", line.what}, {"omitted", line.omitted}, {"why", line.why}});
-  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_line(reply);
 }
 
 struct PlanText {

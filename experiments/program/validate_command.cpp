@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/validate/turning.hpp>
@@ -82,7 +83,7 @@ std::string json_reply(const Validation& validation) {
     entry.update(object(family.counts));
     reply["families"].push_back(entry);
   }
-  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_line(reply);
 }
 
 // ---- Of shapes that turn.
@@ -111,16 +112,8 @@ std::string json_reply(const TurningValidation& validation) {
   const auto methods = [&](const std::vector<TurningCounts>& all) {
     ordered_json list = ordered_json::array();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const TurningCounts& counts = all[i];
-      list.push_back({{"method", validation.methods[i].name},
-                      {"queries", counts.queries},
-                      {"touching", counts.touching},
-                      {"late", counts.late},
-                      {"missed", counts.missed},
-                      {"false", counts.false_hits},
-                      {"near", counts.near},
-                      {"gave_up", counts.gave_up},
-                      {"largest_error", counts.largest_error}});
+      ordered_json& counts = list.emplace_back(ordered_json{{"method", validation.methods[i].name}});
+      for_each_field<TurningCounts>([&](const auto& field) { counts[field.name] = all[i].*field.member; });
     }
     return list;
   };
@@ -133,7 +126,7 @@ std::string json_reply(const TurningValidation& validation) {
   reply["pairs"] = ordered_json::array();
   for (const TurningPairCounts& pair : validation.pairs)
     reply["pairs"].push_back({{"pair", pair.pair}, {"methods", methods(pair.counts)}});
-  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_line(reply);
 }
 
 constexpr const char* validate_examples =

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -16,6 +15,8 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/swept/certified/turning_certified.hpp>
 
 namespace thinwall {
@@ -122,22 +123,14 @@ class TurningFile {
 
   /// The line's fields; exactly so many.
   std::vector<std::string_view> fields(std::size_t needed) const {
-    std::vector<std::string_view> made;
-    for (std::string_view rest = text_;;) {
-      const std::size_t comma = rest.find(',');
-      made.push_back(rest.substr(0, comma));
-      if (comma == std::string_view::npos) break;
-      rest.remove_prefix(comma + 1);
-    }
+    std::vector<std::string_view> made = split(text_, ',');
     if (made.size() != needed) refuse(fmt::format("{} columns; {} are needed", made.size(), needed));
     return made;
   }
   double number(std::string_view field, std::size_t column) const {
-    double value = 0;
-    const char* const end = field.data() + field.size();
-    const auto [stop, error] = std::from_chars(field.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value)) complain(field, column, "is not a finite number");
-    return value;
+    const auto value = parsed<double>(field);
+    if (!value || !std::isfinite(*value)) complain(field, column, "is not a finite number");
+    return *value;
   }
   [[noreturn]] void complain(std::string_view field, std::size_t column, std::string_view what) const {
     refuse(fmt::format("column {}: '{}' {}", column + 1, one_line(clipped(field, 40)), what));
@@ -312,11 +305,8 @@ class TurningJudge {
   }
 
   TurningValidation result() {
-    for (std::vector<double>& times : nanoseconds_) {
-      const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-      std::ranges::nth_element(times, middle);
-      result_.median_ns.push_back(middle == times.end() ? 0 : *middle);
-    }
+    for (const std::vector<double>& times : nanoseconds_)
+      result_.median_ns.push_back(times.empty() ? 0 : median(times));
     return std::move(result_);
   }
 
@@ -370,18 +360,6 @@ class TurningJudge {
 };
 
 }  // namespace
-
-TurningCounts& TurningCounts::operator+=(const TurningCounts& other) {
-  queries += other.queries;
-  touching += other.touching;
-  late += other.late;
-  missed += other.missed;
-  false_hits += other.false_hits;
-  near += other.near;
-  gave_up += other.gave_up;
-  largest_error = std::max(largest_error, other.largest_error);
-  return *this;
-}
 
 TurningValidation validate_turning(const fs::path& file_or_folder) {
   TurningJudge judge;

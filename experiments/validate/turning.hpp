@@ -7,20 +7,27 @@
 #include <string>
 #include <vector>
 
+#include <thinwall/experiments/lab/record.hpp>
+
 namespace thinwall {
 
 /// What one method answered. Of a query that touches at the start the time of first contact is 0.
 struct TurningCounts {
-  std::int64_t queries = 0;
-  std::int64_t touching = 0;    ///< of those, that touch during the step, by the file
-  std::int64_t late = 0;        ///< hits after first contact, by however little
-  std::int64_t missed = 0;      ///< touching, and said to be apart
-  std::int64_t false_hits = 0;  ///< apart, and said to touch
-  std::int64_t near = 0;        ///< of those, where the file proves no clearance beyond what the method calls contact
-  std::int64_t gave_up = 0;
-  double largest_error = 0;  ///< [1] of a step, of the times of what touches and is said to
+  std::int64_t queries = 0, touching = 0, late = 0, missed = 0, false_hits = 0, near = 0, gave_up = 0;
+  double largest_error = 0;  ///< [1] of a step
 
-  TurningCounts& operator+=(const TurningCounts& other);
+  static constexpr auto fields() {
+    using T = TurningCounts;
+    return record(sum("queries", &T::queries, "1", "Asked."),
+                  sum("touching", &T::touching, "1", "Of those, that touch during the step, by the file."),
+                  sum("late", &T::late, "1", "Hits after first contact, by however little."),
+                  sum("missed", &T::missed, "1", "Touching, and said to be apart."),
+                  sum("false", &T::false_hits, "1", "Apart, and said to touch."),
+                  sum("near", &T::near, "1",
+                      "Of those, where the file proves no clearance beyond what the method calls contact."),
+                  sum("gave_up", &T::gave_up, "1", "Without an answer."),
+                  most("largest_error", &T::largest_error, "1", "Of the times of what touches and is said to."));
+  }
 };
 
 /// A method, and what it owes.

@@ -9,6 +9,8 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
@@ -86,16 +88,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t columns = 7;
 constexpr std::size_t most_digits = 10'000;  // of an integer; the largest ratio a double needs has 324
 
-std::vector<std::string_view> fields_of(std::string_view row) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const std::size_t comma = row.find(',');
-    fields.push_back(row.substr(0, comma));
-    if (comma == std::string_view::npos) return fields;
-    row.remove_prefix(comma + 1);
-  }
-}
-
 bool is_integer(std::string_view text) {
   if (text.starts_with('-')) text.remove_prefix(1);
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
@@ -143,7 +135,7 @@ bool QueryFile::next_row(RationalPoint& vertex, bool& answer) {
   }
   ++line_;
   if (row.ends_with('\r')) row.pop_back();
-  const std::vector<std::string_view> fields = fields_of(row);
+  const std::vector<std::string_view> fields = split(row, ',');
   if (fields.size() != columns) refuse(fmt::format("{} columns; 7 are needed", fields.size()));
   for (std::size_t i = 0; i + 1 < columns; ++i) {
     const std::string_view field = fields[i];
@@ -223,13 +215,6 @@ double nanoseconds_a_call(const RigidQuery& query) {
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / timed_calls;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Counts one answer and says what is wrong with it; nothing if all agree.
 std::string judge(ToiStatus status, bool exact, bool published, QueryCounts& counts) {
   const bool hit = status == ToiStatus::hit || status == ToiStatus::overlapping;
@@ -297,7 +282,7 @@ Validation validate(const fs::path& folder) {
     out.families.back().counts += counts;
     out.total += counts;
   }
-  out.median_ns = median(std::move(times));
+  out.median_ns = times.empty() ? 0 : median(times);
   return out;
 }
 

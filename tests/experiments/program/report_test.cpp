@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include <thinwall/experiments/check/check.hpp>
-#include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 #include "support/said.hpp"
 #include "support/toy.hpp"
