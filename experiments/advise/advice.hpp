@@ -146,9 +146,6 @@ std::string wanted_words(const Wish& wish);    ///< "no shot tunnels, and ..."
 /// As rounded_text, but never more than `value` > 0: a bound that is safe to keep to.
 std::string rounded_down_text(double value, int digits);
 
-/// `text` in lines of at most `width` columns, broken between words, each ended by a newline.
-std::string wrapped(const std::string& text, std::size_t width = 100);
-
 // ---- The advice in words, for a terminal, and as JSON, for a script.
 
 /// The advice itself: a sentence or two, of one line.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
 
 namespace thinwall {
@@ -89,19 +89,6 @@ std::string rounded_down_text(double value, int digits) {
   const double near = std::stod(rounded_text(value, digits));
   const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
   return rounded_text(near <= value ? near : near - unit, digits);
-}
-
-std::string wrapped(const std::string& text, std::size_t width) {
-  std::istringstream words(text);
-  std::string out, line;
-  for (std::string word; words >> word;) {
-    if (!line.empty() && line.size() + 1 + word.size() > width) {
-      out += line + "\n";
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-  }
-  return out + line + "\n";
 }
 
 namespace {

@@ -189,12 +189,6 @@ std::vector<double> distinct(const std::vector<Row>& rows, double Crossing::*fac
   return values;
 }
 
-std::vector<Row> chosen(const std::vector<Row>& rows, const std::function<bool(const Row&)>& choice) {
-  std::vector<Row> result;
-  std::ranges::copy_if(rows, std::back_inserter(result), choice);
-  return result;
-}
-
 /// One curve a ratio over the angle, as one series with gaps.
 Series theory_curves(const std::vector<Row>& rows, const Quantity& quantity) {
   constexpr double curve_step = 5, end_step = 2;  // [deg], finer within 10 degrees of the ends
@@ -244,9 +238,9 @@ std::vector<double> ends(const std::vector<double>& values) {
 std::vector<Panel> by_speed(const std::vector<Row>& rows, const std::string& y_label, const Quantity& quantity) {
   std::vector<Panel> panels;
   for (const double speed : ends(distinct(rows, &Crossing::speed))) {
-    const auto as_fast = chosen(rows, [&](const Row& r) { return r.cell.speed == speed; });
+    const auto as_fast = only(rows, [&](const Row& r) { return r.cell.speed == speed; });
     const double narrowest = distinct(as_fast, &Crossing::offset).front();
-    const auto drawn = chosen(as_fast, [&](const Row& r) { return r.cell.offset == narrowest; });
+    const auto drawn = only(as_fast, [&](const Row& r) { return r.cell.offset == narrowest; });
     const Crossing& c = drawn.front().cell;
     const double path = c.speed * c.step / contact_distance(c);
     panels.push_back(panel(drawn, fmt::format("{}, path {:.3g} R", y_label, path), quantity));
@@ -289,7 +283,7 @@ Figure lateness_figure(const std::vector<Row>& rows) {
 /// A panel for the narrowest and the widest disc that leaves room to pass, at the fastest speed.
 Figure false_hits_figure(const std::vector<Row>& rows) {
   const double fastest = distinct(rows, &Crossing::speed).back();
-  const auto drawn = chosen(rows, [&](const Row& r) { return r.cell.speed == fastest && r.cell.offset > 1; });
+  const auto drawn = only(rows, [&](const Row& r) { return r.cell.speed == fastest && r.cell.offset > 1; });
   const Quantity quantity = {
       [](const Row& r) { return r.tally.apart() > 0 ? share_of(r.tally.false_hits, r.tally.apart()) : nan; },
       [](const Row& r) { return wilson(r.tally.false_hits, std::max<std::int64_t>(1, r.tally.apart())); },
@@ -303,7 +297,7 @@ Figure false_hits_figure(const std::vector<Row>& rows) {
                        fastest),
                    .panels = {}};
   for (const double offset : ends(distinct(drawn, &Crossing::offset))) {
-    const auto those = chosen(drawn, [&](const Row& r) { return r.cell.offset == offset; });
+    const auto those = only(drawn, [&](const Row& r) { return r.cell.offset == offset; });
     figure.panels.push_back(panel(those, fmt::format("false hits [1], passing within {:g} R", offset), quantity));
   }
   return figure;
@@ -316,7 +310,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows) {
     return c != head_on && c.speed == head_on.speed && c.step == head_on.step && c.radius == head_on.radius;
   });
   const auto of_rule = [&](std::string_view rule) {
-    return chosen(rows, [&](const Row& r) { return r.rule == rule && (with_head_on || r.cell != head_on); });
+    return only(rows, [&](const Row& r) { return r.rule == rule && (with_head_on || r.cell != head_on); });
   };
   std::vector<Figure> figures;
   const auto confirm = of_rule(confirming), swept = of_rule("swept_overlap");
@@ -391,7 +385,7 @@ Outcome outcome_of(const std::vector<Row>& rows) {
       row_columns(), rows);
   const Table meeting = in_report(
       table("head_on", "Two bullets at 10 m/s and 60 steps a second that meet head-on; every pair truly touches.",
-            row_columns(), chosen(rows, [](const Row& r) { return r.cell == head_on; })));
+            row_columns(), only(rows, [](const Row& r) { return r.cell == head_on; })));
   const Table rules = rules_table(totals);
   return {
       .answer = answer_of(rows, totals),
@@ -450,7 +444,7 @@ std::vector<CellCount> counts_of(const std::vector<CrossingRow>& rows) {
 }
 
 std::vector<TimingTest> timing_test(const std::vector<CrossingRow>& rows) {
-  std::vector<Row> timed = chosen(rows, [](const Row& row) { return row.expected.reported && has_times(row.tally); });
+  std::vector<Row> timed = only(rows, [](const Row& row) { return row.expected.reported && has_times(row.tally); });
   std::vector<TimingTest> tests;
   for (const Group<Row>& group : group_by(timed, &Row::rule)) {
     TimingTest& test = tests.emplace_back();

@@ -54,7 +54,6 @@ EngineMode box2d_mode(std::string name, std::string what, bool continuous, bool 
           .what = std::move(what),
           .poses_per_step = continuous ? 0 : 1,
           .skin = b2_polygonRadius,
-          .exact = false,
           .make = [continuous, bullet](const EngineScene& scene, const BodyState& ball) {
             return std::make_unique<Box2dWorld>(scene, ball, continuous, bullet);
           }};

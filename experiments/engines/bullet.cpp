@@ -90,8 +90,6 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
   std::vector<EngineMode> modes = {{.name = "discrete",
                                     .what = "as it comes",
                                     .poses_per_step = 1,
-                                    .skin = 0,
-                                    .exact = false,
                                     .make = [](const EngineScene& scene, const BodyState& ball) {
                                       return std::make_unique<BulletWorld>(scene, ball, BulletSweep{});
                                     }}};
@@ -102,9 +100,6 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
     modes.push_back({.name = "ccd_" + exact_text(factor),
                      .what = fmt::format("setCcdSweptSphereRadius({0} r), setCcdMotionThreshold({1} r)", factor,
                                          choices.motion_threshold),
-                     .poses_per_step = 0,
-                     .skin = 0,
-                     .exact = false,
                      .make = make});
   }
   return modes;

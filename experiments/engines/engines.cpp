@@ -29,36 +29,20 @@ std::string label_of(const Row& row) { return row.setup->label(); }
 double wall_of(const Row& row) { return row.cell.wall_size; }
 bool looks_at_poses(const Row& row) { return row.setup->mode.poses_per_step > 0 || row.setup->mode.never_sweeps; }
 
-Rows chosen(const Rows& rows, const std::function<bool(const Row&)>& is_it) {
-  Rows some;
-  std::ranges::copy_if(rows, std::back_inserter(some), is_it);
-  return some;
-}
-
-std::vector<double> walls_of(const Rows& rows) {
-  std::vector<double> walls;
-  for (const Group<Row>& group : group_by(rows, wall_of)) walls.push_back(wall_of(*group[0]));
-  return walls;
-}
-
-std::vector<std::string> labels_of(const Rows& rows) {
-  std::vector<std::string> labels;
-  for (const Group<Row>& group : group_by(rows, label_of)) labels.push_back(label_of(*group[0]));
-  return labels;
-}
+std::vector<double> walls_of(const Rows& rows) { return distinct(rows, wall_of); }
 
 /// [%] Of the balls that went through, with its 95 % Wilson interval.
-double percent(const Row& row) {
-  return 100.0 * static_cast<double>(row.tally.tunneled) / static_cast<double>(row.tally.shots);
-}
-Interval percent_interval(const Row& row) {
+Measured percent_of(const Row& row) {
+  const auto tunneled = static_cast<double>(row.tally.tunneled), shots = static_cast<double>(row.tally.shots);
   const Interval share = wilson(row.tally.tunneled, row.tally.shots);
-  return {100 * share.lower, 100 * share.upper};
+  return {100.0 * tunneled / shots, {100 * share.lower, 100 * share.upper}};
 }
+double percent(const Row& row) { return percent_of(row).value; }
 
 /// [ns] A step.
-double time_of(const Row& row) { return median(row.nanoseconds); }
-Interval time_interval(const Row& row) { return bootstrap_median(row.nanoseconds, {1, row.nanoseconds.size()}); }
+Measured time_of(const Row& row) {
+  return {median(row.nanoseconds), bootstrap_median(row.nanoseconds, {1, row.nanoseconds.size()})};
+}
 
 /// The path that is nearest to a meter: what is told first.
 double told_path(const Rows& rows) {
@@ -67,7 +51,7 @@ double told_path(const Rows& rows) {
 }
 
 Rows told_rows(const Rows& rows) {
-  return chosen(rows, [path = told_path(rows)](const Row& row) { return row.cell.path == path; });
+  return only(rows, [path = told_path(rows)](const Row& row) { return row.cell.path == path; });
 }
 
 /// [m] The longest path of those asked, at the wall, up to and with which no shot was wrong; 0 if that is none.
@@ -92,10 +76,7 @@ Columns<Row> names_and_factors() {
 Columns<Row> verdict_columns() {
   return columns_of<Row>(
       fields(&Row::tally, {"shots", "tunneled"}),
-      ValueColumn{"tunneled_percent", "%", "100 tunneled / shots.", percent, "percent_lower", "percent_upper"},
-      value("percent_lower", "%", "Lower end of its 95 % Wilson interval.",
-            [](const Row& r) { return percent_interval(r).lower; }),
-      value("percent_upper", "%", "Upper end of it.", [](const Row& r) { return percent_interval(r).upper; }),
+      measured("tunneled_percent", "%", "100 tunneled / shots.", percent_of, "percent_", "its 95 % Wilson interval"),
       value("theory_percent", "%", "By theory, where only poses are looked at; missing elsewhere.",
             [](const Row& r) { return r.theory ? std::optional(100 * *r.theory) : std::nullopt; }),
       text("verdict", "By the oracle: right if every ball was kept in front of the wall.",
@@ -141,11 +122,8 @@ Table cells_table(const Rows& rows) {
 Table timings_table(const Rows& rows) {
   const auto columns = columns_of<Row>(
       names_and_factors(),
-      ValueColumn{"nanoseconds", "ns", "Time a step of a world of one wall and one ball, median over volleys.", time_of,
-                  "lower", "upper"},
-      value("lower", "ns", "Lower end of its 95 % bootstrap interval.",
-            [](const Row& r) { return time_interval(r).lower; }),
-      value("upper", "ns", "Upper end of it.", [](const Row& r) { return time_interval(r).upper; }),
+      measured("nanoseconds", "ns", "Time a step of a world of one wall and one ball, median over volleys.", time_of,
+               "", "its 95 % bootstrap interval"),
       value("volleys", "1", "Timed apart, in turn with the other engines.",
             [](const Row& r) { return r.nanoseconds.size(); }));
   return timing(table("timings", "Time a step; making the world is not in it.", columns, rows));
@@ -206,7 +184,6 @@ Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
 /// A curve for each number of poses and skin that took part, as one series with gaps, and the dashes of the ball that is never seen
 /// at the step's end; in percent.
 void add_theory(Panel& panel, const Rows& rows) {
-  constexpr int samples = 200;
   EngineCell cell = rows.front().cell;
   const double least = cell.path;
   const double most = std::ranges::max(rows, {}, [](const Row& r) { return r.cell.path; }).cell.path;
@@ -215,19 +192,18 @@ void add_theory(Panel& panel, const Rows& rows) {
     if (row.theory) looked.emplace(row.setup->mode.poses_per_step, row.setup->mode.skin);
   }
   if (most == least) return;
-  Series late = {.label = "theory, not seen in time", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
-  Series never = {.label = "theory, never seen", .mark = Mark::dashes, .x = {}, .y = {}, .lower = {}, .upper = {}};
-  const auto add_curve = [&](Series& series, int poses, double skin, const auto& chance) {
-    for (int i = 0; i <= samples; ++i) {
-      cell.path = least * std::pow(most / least, static_cast<double>(i) / samples);
-      series.x.push_back(cell.path);
-      series.y.push_back(100 * chance(cell, poses, skin));
-    }
-    series.x.push_back(cell.path);
-    series.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  Series late = {.label = "theory, not seen in time", .mark = Mark::line};
+  Series never = {.label = "theory, never seen", .mark = Mark::dashes};
+  const auto add = [&](Series& series, int poses, double skin, const auto& chance) {
+    const auto through = [&](double path) {
+      cell.path = path;
+      return 100 * chance(cell, poses, skin);
+    };
+    add_curve(series, least, most, Axis::log, through, 200);
+    series.end_line();
   };
-  for (const auto& [poses, skin] : looked) add_curve(late, poses, skin, through_theory);
-  add_curve(never, 1, 0, unseen_theory);
+  for (const auto& [poses, skin] : looked) add(late, poses, skin, through_theory);
+  add(never, 1, 0, unseen_theory);
   panel.series.insert(panel.series.end(), {std::move(late), std::move(never)});
 }
 
@@ -240,15 +216,14 @@ Figure tunneling_figure(const Rows& rows) {
                        "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
                        "number of poses and each skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
                        "times the radius. All others let none through.",
-                       cell.radius, cell.thickness, cell.angle_deg),
-                   .panels = {}};
-  const Rows poses = chosen(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
+                       cell.radius, cell.thickness, cell.angle_deg)};
+  const Rows poses = only(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
   if (!poses.empty()) {
     figure.panels.push_back(path_panel(poses, "tunneled_percent", "through, looking at poses [%]"));
     add_theory(figure.panels.back(), rows);
   }
   for (const double wall : walls_of(rows)) {
-    const Rows sweeping = chosen(rows, [&](const Row& r) { return !looks_at_poses(r) && wall_of(r) == wall; });
+    const Rows sweeping = only(rows, [&](const Row& r) { return !looks_at_poses(r) && wall_of(r) == wall; });
     if (sweeping.empty()) continue;
     figure.panels.push_back(
         path_panel(sweeping, "tunneled_percent", fmt::format("through, sweeping, wall {} m wide [%]", wall)));
@@ -259,9 +234,9 @@ Figure tunneling_figure(const Rows& rows) {
 /// Of the balls that turned, at the first wall.
 Figure bounce_figure(const Rows& rows, const char* name, const char* column, const char* y_label, const char* title,
                      std::string caption) {
-  Figure figure = {.name = name, .title = title, .caption = std::move(caption), .panels = {}};
+  Figure figure = {.name = name, .title = title, .caption = std::move(caption)};
   for (const bool poses : {true, false}) {
-    const Rows some = chosen(rows, [&](const Row& r) {
+    const Rows some = only(rows, [&](const Row& r) {
       return looks_at_poses(r) == poses && wall_of(r) == wall_of(rows.front()) && r.tally.turned > 0;
     });
     if (some.empty()) continue;
@@ -278,28 +253,19 @@ Figure time_figure(const Rows& rows) {
       .caption = fmt::format("Time a step of a world of one wall and one ball against the share of balls that go "
                              "through at {} m a step, with 95 % intervals.",
                              path),
-      .panels = {},
       .is_timing = true};
+  const auto columns = columns_of<Row>(text("label", "", label_of), measured("through", "", "", percent_of, "through_"),
+                                       measured("time", "", "", time_of, "time_"));
   for (const double wall : walls_of(rows)) {
-    Panel panel;
-    panel.x_label = fmt::format("through at {} m a step, wall {} m wide [%]", path, wall);
-    panel.y_label = "time a step [ns]";
-    panel.log_y = true;
-    Rows some = chosen(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
+    Rows some = only(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
+    if (some.empty()) continue;
     std::stable_partition(some.begin(), some.end(),
                           looks_at_poses);  // in the other pictures' order, and so with their marks
-    for (const Row& row : some) {
-      const Interval time = time_interval(row), share = percent_interval(row);
-      panel.series.push_back({.label = label_of(row),
-                              .mark = Mark::points,
-                              .x = {percent(row)},
-                              .y = {time_of(row)},
-                              .lower = {time.lower},
-                              .upper = {time.upper},
-                              .x_lower = {share.lower},
-                              .x_upper = {share.upper}});
-    }
-    if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
+    figure.panels.push_back(
+        plot(table("drawn", "", columns, some))
+            .x("through", Axis::linear, fmt::format("through at {} m a step, wall {} m wide [%]", path, wall))
+            .y("time", Axis::log, "time a step [ns]")
+            .by("label"));
   }
   return figure;
 }
@@ -329,8 +295,8 @@ std::vector<Figure> figures_of(const Rows& rows) {
 std::string percent_text(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 std::string with_interval(const Row& row) {
-  const Interval i = percent_interval(row);
-  return fmt::format("{} {:.3g} % [{:.3g}, {:.3g}]", label_of(row), percent(row), i.lower, i.upper);
+  const auto [value, interval] = percent_of(row);
+  return fmt::format("{} {:.3g} % [{:.3g}, {:.3g}]", label_of(row), value, interval.lower, interval.upper);
 }
 
 std::string listed(const std::vector<std::string>& parts) {
@@ -344,12 +310,12 @@ std::string listed(const std::vector<std::string>& parts) {
 
 /// All modes and walls get the same shots: those of one are all there are.
 std::string own_zero(const Rows& rows) {
-  const Rows exact = chosen(rows, [](const Row& r) { return r.setup->mode.exact; });
+  const Rows exact = only(rows, [](const Row& r) { return r.setup->mode.exact; });
   if (exact.empty()) return "";
   std::int64_t shots = 0, wrong = 0;
   for (const Row& row : exact) wrong += row.tally.wrong();
   for (const Row& row : rows_of(exact, label_of(exact.front()), wall_of(exact.front()))) shots += row.tally.shots;
-  const std::string modes = listed(labels_of(exact));
+  const std::string modes = listed(distinct(exact, label_of));
   if (wrong > 0) return fmt::format(" {} let {} shots through: the self-test fails.", modes, grouped_text(wrong));
   return fmt::format(" {} let none of {} shots through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
                      grouped_text(shots), percent_text(clopper_pearson(0, shots).upper));
@@ -393,11 +359,10 @@ std::vector<SelfTest> tests_of(const Rows& rows, const std::vector<StageRow>& st
 
 /// A row for each engine and mode, a column for each path, as many as fit.
 std::string percent_matrix(const Rows& rows, double wall) {
-  const std::vector<std::string> labels = labels_of(rows);
+  const std::vector<std::string> labels = distinct(rows, label_of);
   auto columns = columns_of<std::string>(text("engine and mode", "", [](const std::string& label) { return label; }));
   std::size_t width = std::ranges::max(labels, {}, &std::string::size).size();
-  for (const Group<Row>& group : group_by(rows, [](const Row& r) { return r.cell.path; })) {
-    const double path = group[0]->cell.path;
+  for (const double path : distinct(rows, [](const Row& r) { return r.cell.path; })) {
     const std::string header = rounded_text(path, 3);
     width += 2 + std::max<std::size_t>(4, header.size());
     if (width > terminal_width) break;
@@ -418,7 +383,7 @@ std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vect
   for (const double wall : walls_of(rows)) text += percent_matrix(rows, wall) + "\n";
   const double first = wall_of(rows.front());
   Table turned =
-      cells_table(chosen(told_rows(rows), [&](const Row& r) { return wall_of(r) == first && r.tally.turned > 0; }));
+      cells_table(only(told_rows(rows), [&](const Row& r) { return wall_of(r) == first && r.tally.turned > 0; }));
   turned.description = "Of the balls that turned: lateness, and energy after over energy before.";
   text += terminal(
       turned, {"engine", "mode", "wall_size", "path", "lateness", "latest", "energy", "least_energy", "most_energy"});
@@ -430,14 +395,14 @@ std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vect
 
 /// How the engines of others that look at poses stand to the same theory, at the first wall: told, and held against nobody.
 std::string agreement_text(const Rows& rows) {
-  const Rows peers = chosen(rows, [&](const Row& r) {
+  const Rows peers = only(rows, [&](const Row& r) {
     return !r.setup->is_ours() && r.theory.has_value() && wall_of(r) == wall_of(rows.front());
   });
   const auto excess = [](const Row* r) { return percent(*r) - 100 * *r->theory; };
   std::string text;
   for (const Group<Row>& group : group_by(peers, label_of)) {
     const auto covered =
-        std::ranges::count_if(group, [](const Row* r) { return percent_interval(*r).contains(100 * *r->theory); });
+        std::ranges::count_if(group, [](const Row* r) { return percent_of(*r).interval.contains(100 * *r->theory); });
     const Row* farthest = *std::ranges::max_element(group, {}, [&](const Row* r) { return std::abs(excess(r)); });
     text += fmt::format(
         "\n\n{}: theory lies in {} of {} intervals of 95 %; the largest difference is {:+.2f} points, at {} m.",
@@ -495,9 +460,9 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
                      v.shots, compute});
   }
   const std::vector<StageRow> stages = stage_rows(*plan);
-  const std::vector<StageVolley> played = stage_volleys(*plan, stages);
+  const std::vector<EngineVolley> played = stage_volleys(*plan, stages);
   std::vector<Task<StageTally>> stage_tasks;
-  for (const StageVolley& v : played) {
+  for (const EngineVolley& v : played) {
     const StageRow& row = stages[v.row];
     stage_tasks.push_back(
         {fmt::format("stage {} {} {} from {}", row.kind->name, row.setup->engine.name, row.setup->mode.name, v.first),

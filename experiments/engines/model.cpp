@@ -251,15 +251,7 @@ std::vector<EngineRow> engine_rows(const EnginePlan& plan) {
 }
 
 std::vector<EngineVolley> engine_volleys(const EnginePlan& plan, const std::vector<EngineRow>& rows) {
-  std::vector<EngineVolley> volleys;
-  for (std::size_t row = 0, next = 0; row < rows.size(); row = next) {
-    while (next < rows.size() && rows[next].cell == rows[row].cell) ++next;
-    for (std::int64_t first = 0; first < plan.shots; first += most_shots_an_engine_volley) {
-      for (std::size_t i = row; i < next; ++i)
-        volleys.push_back({i, first, std::min(most_shots_an_engine_volley, plan.shots - first)});
-    }
-  }
-  return volleys;
+  return volleys_in_turn(rows, &EngineRow::cell, plan.shots);
 }
 
 EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t first, std::int64_t shots,
@@ -309,11 +301,8 @@ void add_results(const std::vector<EngineVolley>& volleys, const std::vector<Eng
 }
 
 std::vector<EngineRow> rows_of(const std::vector<EngineRow>& rows, const std::string& label, double wall_size) {
-  std::vector<EngineRow> some;
-  std::ranges::copy_if(rows, std::back_inserter(some), [&](const EngineRow& row) {
-    return row.setup->label() == label && row.cell.wall_size == wall_size;
-  });
-  return some;
+  return only(rows,
+              [&](const EngineRow& row) { return row.setup->label() == label && row.cell.wall_size == wall_size; });
 }
 
 std::vector<CellCount> own_counts(const std::vector<EngineRow>& rows) {

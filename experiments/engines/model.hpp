@@ -2,6 +2,7 @@
 /// Fast balls at a thin wall in whole engines: the shots (thin_wall's, each at an angle of its own), a world for each, what becomes of
 /// the ball, what theory expects of looking at poses, and the rows of the results.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -143,7 +144,20 @@ struct EngineVolley {
 };
 inline constexpr std::int64_t most_shots_an_engine_volley = 1000;
 
-/// In an order in which engines take turns.
+/// `shots` of each row, in an order in which the rows of one key, which are engines, take turns.
+template <class Row, class Key>
+std::vector<EngineVolley> volleys_in_turn(const std::vector<Row>& rows, const Key& key, std::int64_t shots) {
+  constexpr std::int64_t most = most_shots_an_engine_volley;
+  std::vector<EngineVolley> volleys;
+  for (const Group<Row>& group : group_by(rows, key)) {
+    for (std::int64_t first = 0; first < shots; first += most) {
+      for (const Row* row : group)
+        volleys.push_back({static_cast<std::size_t>(row - rows.data()), first, std::min(most, shots - first)});
+    }
+  }
+  return volleys;
+}
+
 std::vector<EngineVolley> engine_volleys(const EnginePlan& plan, const std::vector<EngineRow>& rows);
 
 EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t first, std::int64_t shots,

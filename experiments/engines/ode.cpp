@@ -81,8 +81,6 @@ std::vector<EngineMode> ode_modes(const EngineChoices&) {
   return {{.name = "discrete",
            .what = "as it comes",
            .poses_per_step = 1,
-           .skin = 0,
-           .exact = false,
            .make = [](const EngineScene& scene, const BodyState& ball) {
              return std::make_unique<OdeWorld>(scene, ball);
            }}};

@@ -76,14 +76,12 @@ EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
   WorldOptions options;
   options.policy = policy;
   options.substeps = substeps;
-  const bool sweeps = policy == TimePolicy::clamp || policy == TimePolicy::event_driven;
   std::string name(name_of(policy));
   if (policy == TimePolicy::substeps) name += fmt::format("_{}", substeps);
   return {.name = std::move(name),
           .what = std::move(what),
-          .poses_per_step = sweeps ? 0 : substeps,
-          .skin = 0,
-          .exact = sweeps,
+          .poses_per_step = sweeps(policy) ? 0 : substeps,
+          .exact = sweeps(policy),
           .make =
               [options](const EngineScene& scene, const BodyState& ball) {
                 return std::make_unique<OwnWorld>(stage_of(scene), std::span(&ball, 1), options);

@@ -59,10 +59,7 @@ Table stage_timings_table(const std::vector<StageRow>& rows) {
 
 std::string stages_summary(const std::vector<StageRow>& rows) {
   if (rows.empty()) return "";
-  std::vector<std::string> labels;
-  for (const StageRow& row : rows) {
-    if (std::ranges::find(labels, row.setup->label()) == labels.end()) labels.push_back(row.setup->label());
-  }
+  const std::vector<std::string> labels = distinct(rows, [](const StageRow& r) { return r.setup->label(); });
   auto columns = columns_of<std::string>(text("engine and mode", "", [](const std::string& label) { return label; }));
   for (const StageKind& kind : stage_kinds()) {
     if (std::ranges::none_of(rows, [&](const StageRow& r) { return r.kind == &kind; })) continue;
@@ -83,11 +80,9 @@ std::string stages_text(const EnginePlan& plan, const std::vector<StageRow>& row
     if (std::ranges::any_of(rows, [&](const StageRow& r) { return r.kind == &kind; }))
       text += fmt::format("\n\n{}: {}.", kind.name, kind.what);
   }
-  std::vector<std::string> apart;
-  for (const EngineSetup& setup : plan.setups) {
-    if (!setup.mode.play && std::ranges::find(apart, setup.engine.called) == apart.end())
-      apart.push_back(setup.engine.called);
-  }
+  const auto is_apart = [](const EngineSetup& setup) { return !setup.mode.play; };
+  const auto apart =
+      distinct(only(plan.setups, is_apart), [](const EngineSetup& setup) { return setup.engine.called; });
   if (!apart.empty())
     text += fmt::format("\n\nNot played in {}: only the ball at the wall is.", fmt::join(apart, ", "));
   return text;

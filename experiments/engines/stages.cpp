@@ -225,16 +225,8 @@ std::vector<StageRow> stage_rows(const EnginePlan& plan) {
   return rows;
 }
 
-std::vector<StageVolley> stage_volleys(const EnginePlan& plan, const std::vector<StageRow>& rows) {
-  std::vector<StageVolley> volleys;
-  for (std::size_t row = 0, next = 0; row < rows.size(); row = next) {
-    while (next < rows.size() && rows[next].kind == rows[row].kind) ++next;
-    for (std::int64_t first = 0; first < plan.stage_shots; first += most_shots_an_engine_volley) {
-      for (std::size_t i = row; i < next; ++i)
-        volleys.push_back({i, first, std::min(most_shots_an_engine_volley, plan.stage_shots - first)});
-    }
-  }
-  return volleys;
+std::vector<EngineVolley> stage_volleys(const EnginePlan& plan, const std::vector<StageRow>& rows) {
+  return volleys_in_turn(rows, &StageRow::kind, plan.stage_shots);
 }
 
 StageTally play(const StageRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed) {

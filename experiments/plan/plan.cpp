@@ -138,9 +138,7 @@ Table gate_timings_table(const std::vector<GateRow>& rows) {
 Figure savings_figure(const std::vector<PlanRace>& races) {
   std::vector<WayRow> rows = rows_of(races);
   std::erase_if(rows, [](const WayRow& row) { return row.way.name == lean_way; });
-  std::vector<std::string> names;
-  for (const auto& group : group_by(rows, [](const WayRow& row) { return row.way.name; }))
-    names.push_back(group[0]->way.name);
+  const std::vector<std::string> names = distinct(rows, [](const WayRow& row) { return row.way.name; });
   const auto aside = [&](const WayRow& row) {  // the ways of a scene stand next to each other
     const auto scene = std::ranges::find(races, row.scene, &PlanRace::scene) - races.begin();
     const auto way = std::ranges::find(names, row.way.name) - names.begin();

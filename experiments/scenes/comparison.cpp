@@ -25,7 +25,7 @@ std::string Contender::label() const {
 
 CompareKeys read_compare_keys(const Settings& settings) {
   CompareKeys keys;
-  keys.policies = settings.choices("compare.policy", policy_names());
+  keys.policies = settings.choices("compare.policy", policy_names);
   keys.steps = settings.numbers("compare.dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
   std::sort(keys.steps.begin(), keys.steps.end());
   keys.finer = static_cast<int>(settings.integer("compare.finer", 1, 1000));

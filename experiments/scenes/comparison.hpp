@@ -131,7 +131,10 @@ Figure course_figure(const Playback& playback);
 /// Everything a run of a scene hands over but the trace.
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback);
 
-/// True if what this policy claims held: one that looks at all of the motion misses nothing.
+/// True of a policy that misses nothing, with that gate.
+bool looks_at_all_motion(TimePolicy policy, double gate);
+
+/// True if what this policy claims held.
 bool claims_held(const Scene& scene, const Playback& playback);
 
 }  // namespace thinwall

@@ -159,9 +159,7 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
   std::vector<Body>& before = memory_->before;
   std::vector<bool> touched(after.size());
   const auto index_of = [&after](std::uint32_t id) {
-    const auto found = std::lower_bound(after.begin(), after.end(), id,
-                                        [](const Body& body, std::uint32_t wanted) { return body.id < wanted; });
-    return static_cast<std::size_t>(found - after.begin());
+    return static_cast<std::size_t>(std::ranges::lower_bound(after, id, {}, &Body::id) - after.begin());
   };
   for (const Hit& hit : world.hits()) {
     for (const std::uint32_t id : {hit.first, hit.second}) {
@@ -216,7 +214,7 @@ std::vector<Track> begin_tracks(const std::vector<Body>& bodies) {
   }
   const std::size_t count = std::min(ids.size(), most_tracks);
   std::vector<Track> tracks;
-  for (std::size_t i = 0; i < count; ++i) tracks.push_back({.id = ids[i * ids.size() / count], .x = {}, .y = {}});
+  for (std::size_t i = 0; i < count; ++i) tracks.push_back({ids[i * ids.size() / count]});
   return tracks;
 }
 

@@ -78,20 +78,6 @@ AnyShape read_shape(const Settings& body, const Vec3<double>& at) {
   return std::monostate{};
 }
 
-AnyShape moved(const AnyShape& shape, const Vec3<double>& by) {
-  return std::visit(
-      [&by](auto held) -> AnyShape {
-        if constexpr (requires { held.a; }) {
-          held.a += by;
-          held.b += by;
-        } else if constexpr (requires { held.center; }) {
-          held.center += by;
-        }
-        return held;
-      },
-      shape);
-}
-
 /// Uniform in a box around zero of these widths.
 Vec3<double> shaken(const Vec3<double>& widths, const RandomStream& stream, std::uint64_t copy, std::uint64_t draw) {
   const RandomWords words = random_words(stream, copy, draw);
@@ -178,7 +164,7 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
         Body& added = bodies.emplace_back(body);
         added.id = id++;
         added.name = alone || name.empty() ? name : fmt::format("{} {}", name, copy + 1);
-        added.shape = moved(body.shape, Vec3<double>(cell.cwiseProduct(every) + shaken(jitter, stream, copy, 0)));
+        move_shape(added.shape, cell.cwiseProduct(every) + shaken(jitter, stream, copy, 0));
         added.velocity += shaken(speeds, stream, copy, 1);
       }
     }
@@ -210,8 +196,6 @@ Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
 
 namespace {
 
-constexpr std::array policies = {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp,
-                                 TimePolicy::event_driven};
 constexpr std::array<std::string_view, 3> view_names = {"xy", "xz", "zy"};
 constexpr std::array<std::string_view, 2> plan_names = {"lean", "full"};
 constexpr std::string_view push_defaults = "time = 0\nbody = \"\"\nvelocity = [0, 0, 0]\n";
@@ -230,7 +214,7 @@ WorldOptions world_options(const Settings& settings, int threads) {
   const std::vector<double> gravity =
       settings.vector("gravity", 3, {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s^2"});
   options.gravity = {gravity[0], gravity[1], gravity[2]};
-  options.policy = policy_named(settings.choice("policy", policy_names()));
+  options.policy = policy_named(settings.choice("policy", policy_names));
   options.substeps = static_cast<int>(settings.integer("substeps", 1, 1000));
   options.max_events = static_cast<int>(settings.integer("max_events", 1, 1'000'000));
   options.contact_rounds = static_cast<int>(settings.integer("contact_rounds", 0, 1000));
@@ -289,17 +273,8 @@ void check_trace(const Settings& settings, const Scene& scene) {
 
 }  // namespace
 
-std::vector<std::string_view> policy_names() {
-  std::vector<std::string_view> names;
-  for (const TimePolicy policy : policies) names.push_back(name_of(policy));
-  return names;
-}
-
 TimePolicy policy_named(std::string_view name) {
-  for (const TimePolicy policy : policies) {
-    if (name_of(policy) == name) return policy;
-  }
-  return TimePolicy::event_driven;
+  return static_cast<TimePolicy>(std::ranges::find(policy_names, name) - policy_names.begin());
 }
 
 constexpr std::int64_t most_steps = 10'000'000;
@@ -320,8 +295,7 @@ Scene read_scene(const Settings& settings, const RunOptions& options) {
     const Pushable bodies = pushable(scene.bodies);
     for (const Settings& push : pushes) scene.pushes.push_back(read_push(push, bodies));
   }
-  std::stable_sort(scene.pushes.begin(), scene.pushes.end(),
-                   [](const Push& a, const Push& b) { return a.time < b.time; });
+  std::ranges::stable_sort(scene.pushes, {}, &Push::time);
   scene.trace = settings.flag("trace");
   scene.trace_every = settings.integer("trace_every", 1, 10'000'000);
   check_trace(settings, scene);

@@ -63,9 +63,7 @@ struct Scene {
 /// `options.trials` stands for the number of steps, `options.seed` for the copies' random places.
 Scene read_scene(const Settings& settings, const RunOptions& options);
 
-/// The policies a scene may name, in the order of TimePolicy.
-std::vector<std::string_view> policy_names();
-TimePolicy policy_named(std::string_view name);
+TimePolicy policy_named(std::string_view name);  ///< one of policy_names
 
 // ---- What a viewer needs: JSON lines, one object each. The first line names the bodies and their shapes; every further one
 // is a frame, with the places of the bodies that move, in the order of their ids, and where any turn, with how those do.
@@ -153,7 +151,7 @@ struct LoggedEvent {
 /// The way of one body in the plane of the picture.
 struct Track {
   std::uint32_t id = 0;
-  std::vector<double> x, y;  ///< [m]
+  std::vector<double> x = {}, y = {};  ///< [m]
   static constexpr auto fields() { return record(kept("id", &Track::id), kept("x", &Track::x), kept("y", &Track::y)); }
 };
 

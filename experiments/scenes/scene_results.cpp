@@ -22,11 +22,6 @@ std::string policy_text(const Scene& scene) {
   return text;
 }
 
-bool looks_at_all_motion(const WorldOptions& options) {
-  const bool sweeps = options.policy == TimePolicy::clamp || options.policy == TimePolicy::event_driven;
-  return sweeps && options.gate == 0;
-}
-
 /// The first lines of the log: who met whom.
 std::string log_text(const Scene& scene, const Playback& playback) {
   constexpr std::size_t most = 12;
@@ -78,10 +73,12 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
 
 }  // namespace
 
+bool looks_at_all_motion(TimePolicy policy, double gate) { return sweeps(policy) && gate == 0; }
+
 bool claims_held(const Scene& scene, const Playback& playback) {
   const StepRow sums = playback.sums();
   const bool paired = sums.begins - sums.ends == playback.live;
-  return paired && (!looks_at_all_motion(scene.options) || playback.all_missed == 0);
+  return paired && (playback.all_missed == 0 || !looks_at_all_motion(scene.options.policy, scene.options.gate));
 }
 
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
@@ -188,20 +185,9 @@ Table phases_table(const Playback& playback) {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_outlines = 400;
 constexpr std::size_t most_marks = 1500;  // more would be a blot: then lines
 constexpr std::size_t most_named = 8;     // tracks in the legend; the others share one entry
-
-Series lines(const std::string& label, Mark mark) {
-  return {.label = label, .mark = mark, .x = {}, .y = {}, .lower = {}, .upper = {}};
-}
-
-void append_gap(Series& series) {
-  if (series.x.empty()) return;
-  series.x.push_back(series.x.back());
-  series.y.push_back(nan);
-}
 
 /// A rectangle of the picture.
 struct Window {
@@ -239,11 +225,8 @@ void append_clipped(Series& series, const Window& w, double x0, double y0, doubl
     return from <= to;
   };
   if (!cut(x0, x1 - x0, w.left, w.right) || !cut(y0, y1 - y0, w.bottom, w.top)) return;
-  append_gap(series);
-  for (const double t : {from, to}) {
-    series.x.push_back(x0 + t * (x1 - x0));
-    series.y.push_back(y0 + t * (y1 - y0));
-  }
+  series.end_line();
+  for (const double t : {from, to}) series.add(x0 + t * (x1 - x0), y0 + t * (y1 - y0));
 }
 
 /// The twelve edges of a box: its corners differ along one axis.
@@ -268,8 +251,7 @@ void append_edges(Series& series, const Window& w, const Scene& scene, const Vec
 
 /// The edges of what stays, where they are in the window; of what is round, those of the box that holds it.
 Series outlines(const Scene& scene, const Window& window) {
-  Series series = lines("at rest", Mark::line);
-  series.color = "#888888";
+  Series series = {.label = "at rest", .mark = Mark::line, .color = "#888888"};
   std::size_t drawn = 0;
   for (const Body& body : scene.bodies) {
     if (!body.is_static || std::holds_alternative<std::monostate>(body.shape) || ++drawn > most_outlines) continue;
@@ -297,9 +279,9 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   const Mark mark = points <= most_marks ? Mark::points : Mark::line;
   for (const Track& track : playback.tracks) {
     if (few || &track == &playback.tracks.front())
-      panel.series.push_back(lines(few ? name_in(scene, track.id) : "bodies that move", mark));
+      panel.series.push_back({.label = few ? name_in(scene, track.id) : "bodies that move", .mark = mark});
     Series& series = panel.series.back();
-    append_gap(series);
+    series.end_line();
     series.x.insert(series.x.end(), track.x.begin(), track.x.end());
     series.y.insert(series.y.end(), track.y.begin(), track.y.end());
   }
@@ -312,18 +294,14 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
 }
 
 Figure course_figure(const Playback& playback) {
-  Series energy = lines("energy", Mark::line), begun = lines("contacts begun", Mark::line);
-  Series through = lines("tunneled", Mark::dashes);
+  Series energy = {.label = "energy", .mark = Mark::line}, begun = {.label = "contacts begun", .mark = Mark::line};
+  Series through = {.label = "tunneled", .mark = Mark::dashes};
   std::int64_t begins = 0, tunneled = 0;
-  energy.x.push_back(0);
-  energy.y.push_back(playback.energy);
+  energy.add(0, playback.energy);
   for (const StepRow& row : playback.rows) {
-    energy.x.push_back(row.time);
-    energy.y.push_back(row.energy);
-    begun.x.push_back(row.time);
-    begun.y.push_back(static_cast<double>(begins += row.begins));
-    through.x.push_back(row.time);
-    through.y.push_back(static_cast<double>(tunneled += row.tunneled));
+    energy.add(row.time, row.energy);
+    begun.add(row.time, static_cast<double>(begins += row.begins));
+    through.add(row.time, static_cast<double>(tunneled += row.tunneled));
   }
   Panel top, bottom;
   top.x_label = bottom.x_label = "time [s]";

@@ -28,14 +28,6 @@ std::vector<BatchRow> batch_rows(const std::vector<TimedWay>& all) {
   return rows;
 }
 
-template <class Part> std::vector<std::string> distinct(const std::vector<BatchRow>& rows, Part part) {
-  std::vector<std::string> names;
-  for (const BatchRow& row : rows) {
-    if (std::ranges::find(names, row.*part) == names.end()) names.push_back(row.*part);
-  }
-  return names;
-}
-
 std::string way_label(const std::string& how) {
   if (how == "scalar") return "row after row, front door";
   if (how == "SCALAR") return "batch, without vectors";
@@ -47,10 +39,9 @@ std::string way_label(const std::string& how) {
 
 void add_row(Series& series, const BatchRow& row, double at) {
   const Measured time = row.timed->time();
-  series.x.push_back(time.value);
+  series.add(time.value, at);
   series.x_lower.push_back(time.interval.lower);
   series.x_upper.push_back(time.interval.upper);
-  series.y.push_back(at);
   series.lower.push_back(at);
   series.upper.push_back(at);
 }
@@ -59,26 +50,24 @@ void add_row(Series& series, const BatchRow& row, double at) {
 
 std::string batch_text(const std::vector<TimedWay>& all) {
   const std::vector<BatchRow> rows = batch_rows(all);
-  double least = std::numeric_limits<double>::infinity(), most = 0, least_gain = least, most_gain = 0;
+  Extremes times, gains;
   for (const BatchRow& scalar : rows) {
     if (scalar.how != "scalar") continue;
-    double best = std::numeric_limits<double>::infinity();
+    Extremes others;
     for (const BatchRow& row : rows) {
       if (row.what != scalar.what || row.where != scalar.where || row.how == "scalar" || row.how == "two_threads")
         continue;
-      best = std::min(best, median(row.timed->nanoseconds));
+      others.add(median(row.timed->nanoseconds));
     }
-    const double gain = median(scalar.timed->nanoseconds) / best;
-    if (gain == 0) continue;  // nothing but the scalar code
-    least = std::min(least, best);
-    most = std::max(most, best);
-    least_gain = std::min(least_gain, gain);
-    most_gain = std::max(most_gain, gain);
+    if (!others.any()) continue;  // nothing but the scalar code
+    times.add(others.least);
+    gains.add(median(scalar.timed->nanoseconds) / others.least);
   }
-  if (most == 0) return "";
+  if (!times.any()) return "";
   return fmt::format(
       " A batch on one thread takes {} to {} ns a row at its quickest, {} to {} times as fast as the same rows one after another.",
-      rounded_text(least, 2), rounded_text(most, 2), rounded_text(least_gain, 2), rounded_text(most_gain, 2));
+      rounded_text(times.least, 2), rounded_text(times.most, 2), rounded_text(gains.least, 2),
+      rounded_text(gains.most, 2));
 }
 
 Figure batch_figure(const std::vector<TimedWay>& all) {
@@ -96,24 +85,21 @@ Figure batch_figure(const std::vector<TimedWay>& all) {
     panel.x_label = "ns a row";
     panel.y_label = where == "cache" ? "in the first cache" : where == "memory" ? "streamed from memory" : where;
     panel.log_x = true;
-    Series floor{.label = "floor", .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
-    floor.color = "#000000";
+    Series floor{.label = "floor", .color = "#000000"};
     for (const std::string& how : distinct(rows, &BatchRow::how)) {
-      Series series{.label = way_label(how), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
+      Series series{.label = way_label(how)};
       for (const BatchRow& row : rows) {
         if (row.where != where || row.how != how) continue;
         const auto at = static_cast<double>(subjects.end() - std::ranges::find(subjects, row.what));
         add_row(series, row, at);
         if (row.timed->floor_ns.empty() || how == "row_by_row") continue;
         if (std::ranges::find(floor.y, at) != floor.y.end()) continue;
-        floor.x.push_back(median(row.timed->floor_ns));
-        floor.y.push_back(at);
+        floor.add(median(row.timed->floor_ns), at);
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
     if (!floor.x.empty()) panel.series.push_back(std::move(floor));
-    for (std::size_t i = 0; i < subjects.size(); ++i)
-      panel.y_tics.push_back({static_cast<double>(i + 1), subjects[subjects.size() - 1 - i]});
+    panel.y_tics = tics_from_top(subjects);
     figure.panels.push_back(std::move(panel));
   }
   return figure;

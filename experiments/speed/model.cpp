@@ -72,26 +72,6 @@ void read_context(const Json& context, BenchOutput& output) {
 
 namespace fs = std::filesystem;
 
-/// A folder of our own, gone with this.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "thinwall-speed-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// The last line that is not empty, for a message.
 std::string last_words(const std::string& output) {
   const std::size_t end = output.find_last_not_of(" \t\r\n");
@@ -191,7 +171,7 @@ BenchOutput run_bench_program(const fs::path& folder, const std::string& name, c
     output.missing = fmt::format("it is not in the folder of the benchmarks: {}", how_to_build(name));
     return output;
   }
-  const ScratchFolder scratch;
+  const Workshop scratch(fs::temp_directory_path());
   const fs::path out = scratch.path() / "out.json";
   std::vector<std::string> words = {program.string(), fmt::format("--benchmark_min_time={}", options.seconds),
                                     "--benchmark_out=" + out.string(), "--benchmark_out_format=json"};
@@ -232,6 +212,13 @@ std::string TimedWay::name() const {
     return rest.empty() ? std::string(name) : std::string(name) + "," + spaced(rest);
   }
   return way;
+}
+
+std::vector<Tic> tics_from_top(const std::vector<std::string>& names) {
+  std::vector<Tic> tics;
+  for (auto name = names.rbegin(); name != names.rend(); ++name)
+    tics.push_back({static_cast<double>(tics.size() + 1), *name});
+  return tics;
 }
 
 std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds) {

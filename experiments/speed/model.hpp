@@ -1,7 +1,9 @@
 #pragma once
 /// The benchmark programs: which there are, where they lie, running one, what it said, and all rounds of one of its rows.
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -92,6 +94,20 @@ struct TimedWay {
   bool must_be_right()
       const;  ///< our own, on queries where a wrong verdict has no excuse: not the ones made to be hard
 };
+
+/// The least and the most of numbers > 0.
+struct Extremes {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+
+  void add(double x) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  bool any() const { return most > 0; }
+};
+
+/// Names along an axis, the first at the far end: the last is at 1.
+std::vector<Tic> tics_from_top(const std::vector<std::string>& names);
 
 /// By program in the order of the suite, then as the program lists its rows.
 std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds);

@@ -161,40 +161,26 @@ Table programs_table(const std::vector<BenchOutput>& outputs) {
 
 constexpr double least_length = 1e-17;  // [m] drawn in place of an error that is less, down to 0
 
-std::vector<std::string> distinct(const std::vector<TimedWay>& drawn,
-                                  const std::function<std::string(const TimedWay&)>& key) {
-  std::vector<std::string> values;
-  for (const auto& group : group_by(drawn, key)) values.push_back(key(*group[0]));
-  return values;
-}
 std::vector<std::string> subjects_of(const std::vector<TimedWay>& drawn) { return distinct(drawn, &TimedWay::subject); }
 
-void add_point(Series& series, const TimedWay& c) {
+/// [m] The error of the hits that are found: 99th percentile, to the largest.
+Measured drawn_length(const TimedWay& c) {
   const double p99 = std::max(least_length, c.error("p99_length").value_or(0));
-  const Measured time = c.time();
-  series.x.push_back(p99);
-  series.x_lower.push_back(p99);
-  series.x_upper.push_back(std::max(p99, c.error("max_length").value_or(0)));
-  series.y.push_back(time.value);
-  series.lower.push_back(time.interval.lower);
-  series.upper.push_back(time.interval.upper);
+  return {p99, {p99, std::max(p99, c.error("max_length").value_or(0))}};
 }
 
 /// Of one pair, or of all of them.
 Panel race_panel(const std::vector<TimedWay>& drawn, const std::string& subject) {
-  Panel panel;
-  panel.x_label = "error of the time of impact, as a length [m]: 99th percentile, with a bar to the largest";
-  panel.y_label = subject.empty() ? "ns a query" : subject + ", ns";
-  panel.log_x = panel.log_y = true;
-  panel.height = subject.empty() ? 1.6 : 0.8;
-  for (const Group<TimedWay>& group : group_by(drawn, &TimedWay::name)) {
-    Series series{.label = group[0]->name(), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
-    for (const TimedWay* c : group) {
-      if (subject.empty() || c->subject == subject) add_point(series, *c);
-    }
-    if (!series.x.empty()) panel.series.push_back(std::move(series));
-  }
-  return panel;
+  const auto columns = columns_of<TimedWay>(text("subject", "", &TimedWay::subject), text("who", "", &TimedWay::name),
+                                            measured("length", "", "", drawn_length, "length_"), time_columns());
+  Plot points = plot(table("drawn", "", columns, drawn));
+  if (!subject.empty()) points.where("subject", subject);
+  return points
+      .x("length", Axis::log,
+         "error of the time of impact, as a length [m]: 99th percentile, with a bar to the largest")
+      .y("nanoseconds", Axis::log, subject.empty() ? "ns a query" : subject + ", ns")
+      .by("who")
+      .height(subject.empty() ? 1.6 : 0.8);
 }
 
 /// Who gives a wrong verdict, in words.
@@ -242,8 +228,7 @@ Figure verdict_figure(const std::vector<TimedWay>& drawn) {
   const auto place = [&](const TimedWay& c) { return subjects.end() - std::ranges::find(subjects, c.subject); };
   Figure figure = {.name = "wrong_verdicts",
                    .title = "Wrong verdicts",
-                   .caption = "Who is not there has none. " + wrong_text(drawn),
-                   .panels = {}};
+                   .caption = "Who is not there has none. " + wrong_text(drawn)};
   for (const auto& [counter, label] : {std::pair{"missed", "hits missed"}, {"false", "hits invented"}}) {
     const auto columns = columns_of<TimedWay>(text("who", "", &TimedWay::name), number_column("wrong", "", "", counter),
                                               value("place", "", "", place));  // the first on top
@@ -252,8 +237,7 @@ Figure verdict_figure(const std::vector<TimedWay>& drawn) {
                       .x("wrong", Axis::log, "of 100 000 queries, half of them hits")
                       .y("place", Axis::linear, label)
                       .by("who");
-    for (std::size_t i = 0; i < subjects.size(); ++i)
-      panel.y_tics.push_back({static_cast<double>(i + 1), subjects[subjects.size() - 1 - i]});
+    panel.y_tics = tics_from_top(subjects);
     if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -304,15 +288,6 @@ std::string self_test_words(const std::vector<TimedWay>& all) {
       "verdict.{}",
       judged, broken.empty() ? " It holds." : broken);
 }
-
-struct Extremes {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  void add(double x) {
-    least = std::min(least, x);
-    most = std::max(most, x);
-  }
-  bool any() const { return most > 0; }
-};
 
 std::string answer_of(const std::vector<TimedWay>& all) {
   Extremes ours, floor, slower;

@@ -63,15 +63,18 @@ template <class Row> Columns<Row> tunneled_columns() {
             }));
 }
 
+template <class Row> auto late_share(std::string description) {
+  return share(
+      "late_share", std::move(description), [](const Row& r) { return r.tally.late; },
+      [](const Row& r) { return r.tally.detected(); }, "late_");
+}
+
 template <class Row> Columns<Row> timing_columns() {
-  return columns_of<Row>(
-      share(
-          "late_share", "late over the trials with a hit.", [](const Row& r) { return r.tally.late; },
-          [](const Row& r) { return r.tally.detected(); }, "late_"),
-      value("lateness_mean", "step", "Mean time from first contact to the hit.",
-            [](const Row& r) { return r.tally.lateness.mean(); }),
-      fields(&Row::tally, {"lateness_max", "lateness_min", "gap_max", "gap_min", "false_hits", "undecided", "steps",
-                           "evaluations"}));
+  return columns_of<Row>(late_share<Row>("late over the trials with a hit."),
+                         value("lateness_mean", "step", "Mean time from first contact to the hit.",
+                               [](const Row& r) { return r.tally.lateness.mean(); }),
+                         fields(&Row::tally, {"lateness_max", "lateness_min", "gap_max", "gap_min", "false_hits",
+                                              "undecided", "steps", "evaluations"}));
 }
 
 Table flights_table(const std::vector<FlightRow>& rows) {
@@ -121,9 +124,7 @@ Table methods_table(const std::vector<Total>& totals) {
       text("obstacle", "What is in the way.", &Total::obstacle),
       text("method", "Way of detecting the hit.", &Total::method), fields(&Total::tally, {"trials", "tunneled"}),
       value("expected", "1", "Tunneled by theory; missing where it has none.", &Total::tunneled_theory),
-      share(
-          "late_share", "First hits later than first contact, by more than a millionth of a step.",
-          [](const Total& t) { return t.tally.late; }, [](const Total& t) { return t.tally.detected(); }, "late_"),
+      late_share<Total>("First hits later than first contact, by more than a millionth of a step."),
       fields(&Total::tally, {"false_hits", "lateness_max", "gap_min", "gap_max"}),
       value("looks", "1", "Looks at a pose and closed forms a step.", [](const Total& t) {
         return static_cast<double>(t.tally.evaluations) / static_cast<double>(t.tally.steps);
@@ -134,8 +135,7 @@ Table methods_table(const std::vector<Total>& totals) {
 
 /// What a linear sweep finds too late, by spin.
 std::vector<Total> spins_of(const std::vector<FlightRow>& rows) {
-  std::vector<FlightRow> swept;
-  std::ranges::copy_if(rows, std::back_inserter(swept), [](const FlightRow& r) { return r.method == "linear_sweep"; });
+  const std::vector<FlightRow> swept = only(rows, [](const FlightRow& r) { return r.method == "linear_sweep"; });
   std::vector<Total> totals;
   const auto spin = [](const FlightRow& r) { return r.cell.spin_deg; };
   add_totals("wall", swept, spin, totals);
@@ -145,17 +145,15 @@ std::vector<Total> spins_of(const std::vector<FlightRow>& rows) {
 }
 
 Table spins_table(const std::vector<Total>& totals) {
-  const auto columns = columns_of<Total>(
-      value("spin_deg", "deg", "How far the rod turns in a step.", &Total::spin_deg),
-      fields(&Total::tally, {"trials", "tunneled"}),
-      share(
-          "late_share", "First hits later than first contact, by more than a millionth of a step.",
-          [](const Total& t) { return t.tally.late; }, [](const Total& t) { return t.tally.detected(); }, "late_"),
-      share(
-          "false_share", "Hits reported in a step by whose end nothing has touched yet.",
-          [](const Total& t) { return t.tally.false_hits; }, [](const Total& t) { return t.tally.detected(); },
-          "false_"),
-      fields(&Total::tally, {"lateness_max", "gap_min", "gap_max"}));
+  const auto columns =
+      columns_of<Total>(value("spin_deg", "deg", "How far the rod turns in a step.", &Total::spin_deg),
+                        fields(&Total::tally, {"trials", "tunneled"}),
+                        late_share<Total>("First hits later than first contact, by more than a millionth of a step."),
+                        share(
+                            "false_share", "Hits reported in a step by whose end nothing has touched yet.",
+                            [](const Total& t) { return t.tally.false_hits; },
+                            [](const Total& t) { return t.tally.detected(); }, "false_"),
+                        fields(&Total::tally, {"lateness_max", "gap_min", "gap_max"}));
   return in_report(table("linear_sweep",
                          "A linear sweep at the wall, which leaves the spin out, over all cells of a spin.", columns,
                          totals));
@@ -191,11 +189,7 @@ struct ClaimTest {
 template <class Row> void add_claims(const std::vector<Row>& rows, std::vector<ClaimTest>& tests) {
   for (const Row& r : rows) {
     auto found = std::ranges::find(tests, r.method, &ClaimTest::method);
-    if (found == tests.end()) {
-      tests.emplace_back();
-      found = tests.end() - 1;
-      found->method = r.method;
-    }
+    if (found == tests.end()) found = tests.insert(tests.end(), {.method = r.method});
     found->undecided += r.tally.undecided > 0 ? 1 : 0;
     if (r.tally.detected() == 0) continue;
     ++found->cells;
@@ -224,29 +218,20 @@ double nearest(const std::vector<FlightRow>& rows, double RodFlight::*factor, do
   return std::ranges::min_element(rows, {}, distance)->cell.*factor;
 }
 
-std::vector<FlightRow> chosen(const std::vector<FlightRow>& rows, const auto& choice) {
-  std::vector<FlightRow> result;
-  std::ranges::copy_if(rows, std::back_inserter(result), choice);
-  return result;
-}
-
 /// The theory of a method along the step ratio, one curve for each distinct cell but for that, as one series with gaps.
 Series theory_curves(const std::vector<FlightRow>& rows, const std::vector<RodMethod>& methods) {
-  constexpr int points = 200;
-  Series series = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  Series series = {.label = "theory", .mark = Mark::line};
   const auto [least, most] = std::ranges::minmax(rows, {}, [](const FlightRow& r) { return r.cell.step_ratio; });
-  const double from = least.cell.step_ratio, factor = most.cell.step_ratio / from;
   for (const Group<FlightRow>& group : group_by(
            rows, [](const FlightRow& r) { return std::pair(r.method, std::pair(r.cell.spin_deg, r.cell.tilt_deg)); })) {
     const auto method = std::ranges::find(methods, group[0]->method, &RodMethod::name);
-    for (int i = 0; i <= points; ++i) {
+    const auto theory = [&](double ratio) {
       RodFlight c = group[0]->cell;
-      c.step_ratio = from * std::pow(factor, static_cast<double>(i) / points);
-      series.x.push_back(c.step_ratio);
-      series.y.push_back(method->wall_theory(c).value_or(std::numeric_limits<double>::quiet_NaN()));
-    }
-    series.x.push_back(most.cell.step_ratio);
-    series.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      c.step_ratio = ratio;
+      return method->wall_theory(c).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+    add_curve(series, least.cell.step_ratio, most.cell.step_ratio, Axis::log, theory, 200);
+    series.end_line();
   }
   return series;
 }
@@ -277,7 +262,7 @@ Panel tunneled_panel(const std::vector<FlightRow>& rows, const char* by, const s
 
 std::vector<Figure> flight_figures(const std::vector<FlightRow>& rows, const std::vector<RodMethod>& methods) {
   const double tilt = nearest(rows, &RodFlight::tilt_deg, 90), spin = nearest(rows, &RodFlight::spin_deg, 90);
-  const auto tilted = chosen(rows, [=](const FlightRow& r) { return r.cell.tilt_deg == tilt; });
+  const auto tilted = only(rows, [=](const FlightRow& r) { return r.cell.tilt_deg == tilt; });
   std::vector<Figure> figures;
   Figure by_spin = {
       .name = "probability",
@@ -285,16 +270,15 @@ std::vector<Figure> flight_figures(const std::vector<FlightRow>& rows, const std
       .caption = fmt::format("Share of the flights that tunnel where poses are tested, by how far the rod "
                              "turns in a step, with 95 % Wilson intervals, and the theory; the axis of "
                              "spin is tilted by {:g} degrees.",
-                             tilt),
-      .panels = {}};
+                             tilt)};
   for (const RodMethod& method : methods) {
     if (method.name != "end_of_step" && !method.name.starts_with("substeps")) continue;
-    const auto its = chosen(tilted, [&](const FlightRow& r) { return r.method == method.name; });
+    const auto its = only(tilted, [&](const FlightRow& r) { return r.method == method.name; });
     by_spin.panels.push_back(tunneled_panel(its, "spin", method.name + " tunneled [1]", methods));
   }
   if (!by_spin.panels.empty()) figures.push_back(std::move(by_spin));
 
-  const auto spun = chosen(tilted, [=](const FlightRow& r) { return r.cell.spin_deg == spin; });
+  const auto spun = only(tilted, [=](const FlightRow& r) { return r.cell.spin_deg == spin; });
   figures.push_back({.name = "methods",
                      .title = "How often a spinning rod flies through the wall unseen, by method",
                      .caption = fmt::format("Share of the flights that tunnel, with 95 % Wilson intervals, and the "
@@ -302,7 +286,7 @@ std::vector<Figure> flight_figures(const std::vector<FlightRow>& rows, const std
                                             spin, tilt),
                      .panels = {tunneled_panel(spun, "method", "tunneled [1]", methods)}});
 
-  const auto sweeps = chosen(tilted, [](const FlightRow& r) { return r.method == "linear_sweep"; });
+  const auto sweeps = only(tilted, [](const FlightRow& r) { return r.method == "linear_sweep"; });
   if (sweeps.empty()) return figures;
   const auto along = [drawn = drawn_table(sweeps)](const char* column, const char* label) -> Panel {
     return joined(plot(drawn).x("step_ratio", Axis::log, step_axis).y(column, Axis::linear, label).by("spin"));
@@ -322,18 +306,16 @@ Figure pass_figure(const std::vector<PassRow>& rows, const std::vector<RodMethod
   Plot passes = plot(passes_table(rows)).x("post_spin_deg", Axis::linear, "spin a step [deg]").by("method");
   passes.y("probability", Axis::linear, "tunneled [1]");
   Panel panel = passes;
-  Series curves = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  Series curves = {.label = "theory", .mark = Mark::line};
   const auto [least, most] = std::ranges::minmax(rows, {}, [](const PassRow& r) { return r.cell.post_spin_deg; });
-  constexpr int points = 200;
   for (const RodMethod& method : methods) {
-    for (int i = 0; i <= points; ++i) {
+    const auto theory = [&](double spin) {
       BladePass c = rows[0].cell;
-      c.post_spin_deg = std::lerp(least.cell.post_spin_deg, most.cell.post_spin_deg, static_cast<double>(i) / points);
-      curves.x.push_back(c.post_spin_deg);
-      curves.y.push_back(method.post_theory(c).value_or(std::numeric_limits<double>::quiet_NaN()));
-    }
-    curves.x.push_back(most.cell.post_spin_deg);
-    curves.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      c.post_spin_deg = spin;
+      return method.post_theory(c).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+    add_curve(curves, least.cell.post_spin_deg, most.cell.post_spin_deg, Axis::linear, theory, 200);
+    curves.end_line();
   }
   panel.series.push_back(std::move(curves));
   return {

@@ -275,14 +275,6 @@ template <class Held> Held as_held(const AnyShape& shape) {
       shape);
 }
 
-template <class Held> void move_held(Held& shape, const Vec3<double>& by) {
-  std::visit(
-      [&](auto& s) {
-        if constexpr (!std::is_same_v<decltype(s), std::monostate&>) s = moved(s, by);
-      },
-      shape);
-}
-
 template <class Held> void turn_held(Held& shape, const Mat3<double>& by) {
   std::visit(
       [&]<class A>(A& s) {
@@ -320,7 +312,7 @@ template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
       }
     }
     const Vec3<double> offset = offset_at(motion, time, dt);
-    if (offset != Vec3<double>::Zero()) move_held(placed.shape, offset);
+    if (offset != Vec3<double>::Zero()) move_shape(placed.shape, offset);
     placed.displacement = moving_at(motion) * (dt * (1 - time));
   }
 

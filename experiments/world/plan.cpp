@@ -53,8 +53,7 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   require_valid(options);
   checked_and_sorted({bodies.begin(), bodies.end()});
   const Census census = census_of(bodies);
-  const bool full = options.full_plan,
-             swept = options.policy == TimePolicy::clamp || options.policy == TimePolicy::event_driven;
+  const bool full = options.full_plan, swept = sweeps(options.policy);
   Plan plan;
   plan.full = full;
   const auto line = [&](const std::string& what, bool could_go, const std::string& if_gone, const std::string& if_not) {

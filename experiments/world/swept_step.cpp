@@ -283,7 +283,7 @@ void Stepper::swept_step() {
   }
   if (options_.response) return;
   touches_ = found_;
-  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) { return a.time < b.time; });
+  std::ranges::stable_sort(touches_, {}, &Touch::time);
   go_straight_on();
 }
 

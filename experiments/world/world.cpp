@@ -28,16 +28,6 @@ std::string called(const Body& body) {
   return (body.name.empty() ? "body" : body.name) + " (id " + std::to_string(body.id) + ")";
 }
 
-std::string_view name_of(TimePolicy policy) {
-  switch (policy) {
-    case TimePolicy::discrete: return "discrete";
-    case TimePolicy::substeps: return "substeps";
-    case TimePolicy::clamp: return "clamp";
-    case TimePolicy::event_driven: return "event_driven";
-  }
-  return "";
-}
-
 bool is_in_the_world(const AnyShape& shape, const Vec3<double>& displacement) {
   const double path = displacement.cwiseAbs().sum();
   return std::visit(
@@ -111,9 +101,8 @@ void require_valid(const WorldOptions& options) {
 
 std::vector<Body> checked_and_sorted(std::vector<Body> bodies) {
   for (const Body& body : bodies) require_valid(body);
-  std::stable_sort(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.id < b.id; });
-  const auto twins =
-      std::adjacent_find(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.id == b.id; });
+  std::ranges::stable_sort(bodies, {}, &Body::id);
+  const auto twins = std::ranges::adjacent_find(bodies, {}, &Body::id);
   if (twins != bodies.end()) throw WorldError(called(*twins) + " and " + called(*(twins + 1)) + " share one id");
   return bodies;
 }
@@ -172,11 +161,7 @@ void World::Impl::commit(double dt) {
       bodies[i].angular_velocity = spin->velocity;
       if (spin->turned != Mat3<double>::Identity()) bodies[i].shape = turned_true(bodies[i].shape, spin->turned);
     }
-    std::visit(
-        [&](auto& shape) {
-          if constexpr (!std::is_same_v<decltype(shape), std::monostate&>) shape = moved(shape, motion.offset);
-        },
-        bodies[i].shape);
+    move_shape(bodies[i].shape, motion.offset);
   }
   if (dt != last_dt) {
     since = time;
@@ -203,8 +188,7 @@ void World::Impl::tell(double start, double dt) {
 }
 
 std::size_t World::Impl::place_of(std::uint32_t id) const {
-  const auto at = std::lower_bound(bodies.begin(), bodies.end(), id,
-                                   [](const Body& body, std::uint32_t wanted) { return body.id < wanted; });
+  const auto at = std::ranges::lower_bound(bodies, id, {}, &Body::id);
   if (at == bodies.end() || at->id != id) throw WorldError("world: there is no body with id " + std::to_string(id));
   return static_cast<std::size_t>(at - bodies.begin());
 }
@@ -224,8 +208,7 @@ const StepReport& World::step(double dt) {
 
 const std::vector<Body>& World::bodies() const { return impl_->bodies; }
 const Body* World::find(std::uint32_t id) const {
-  const auto at = std::lower_bound(impl_->bodies.begin(), impl_->bodies.end(), id,
-                                   [](const Body& body, std::uint32_t wanted) { return body.id < wanted; });
+  const auto at = std::ranges::lower_bound(impl_->bodies, id, {}, &Body::id);
   return at == impl_->bodies.end() || at->id != id ? nullptr : &*at;
 }
 double World::time() const { return impl_->time; }
@@ -247,11 +230,7 @@ void World::set_velocity(std::uint32_t id, const Vec3<double>& velocity) {
 void World::move(std::uint32_t id, const Vec3<double>& by) {
   Body& body = impl_->bodies[impl_->place_of(id)];
   Body changed = body;
-  std::visit(
-      [&](auto& shape) {
-        if constexpr (!std::is_same_v<decltype(shape), std::monostate&>) shape = moved(shape, by);
-      },
-      changed.shape);
+  move_shape(changed.shape, by);
   require_valid(changed);
   body = std::move(changed);
   impl_->changed_by_hand = true;

@@ -1,6 +1,7 @@
 #pragma once
 /// A world of bodies that moves in steps: options, bodies, what a step reports, its plan.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -28,7 +30,11 @@ enum class TimePolicy {
   clamp,         ///< all of it; a body stops where it first hits, and loses the rest of the step: what engines do
   event_driven,  ///< all of it; after a hit a body goes on at its new velocity, up to `max_events` times
 };
-std::string_view name_of(TimePolicy policy);  ///< as it is spelled in a scene: `event_driven`
+/// As a scene spells them, in the order of TimePolicy.
+inline constexpr std::array<std::string_view, 4> policy_names = {"discrete", "substeps", "clamp", "event_driven"};
+inline std::string_view name_of(TimePolicy policy) { return policy_names[static_cast<std::size_t>(policy)]; }
+/// True of those that look at all of the motion.
+inline bool sweeps(TimePolicy policy) { return policy == TimePolicy::clamp || policy == TimePolicy::event_driven; }
 
 struct WorldOptions {
   Vec3<double> gravity = Vec3<double>::Zero();  ///< [m/s^2]
@@ -54,6 +60,15 @@ struct WorldOptions {
 
 /// A shape that every other of the list can meet, or none.
 using AnyShape = std::variant<std::monostate, Sphere<double>, Aabb<double>, Obb<double>, Capsule<double>>;
+
+/// If it is a shape at all. `Held`: AnyShape, or a variant of fewer.
+template <class Held> void move_shape(Held& shape, const Vec3<double>& by) {
+  std::visit(
+      [&]<class A>(A& held) {
+        if constexpr (!std::is_same_v<A, std::monostate>) held = moved(held, by);
+      },
+      shape);
+}
 
 /// Two bodies meet only if each belongs to a group that the other's mask has: (a.group & b.mask) and (b.group & a.mask).
 struct Body {
