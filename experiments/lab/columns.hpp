@@ -42,7 +42,7 @@ template <class T> constexpr ColumnType column_type() {
   if constexpr (std::same_as<V, bool>) return ColumnType::boolean;
   if constexpr (std::floating_point<V>) return ColumnType::number;
   if constexpr (std::integral<V> && !std::same_as<V, bool>) return ColumnType::integer;
-  if constexpr (std::convertible_to<V, std::string_view>) return ColumnType::text;
+  if constexpr (std::convertible_to<V, std::string_view> || std::is_enum_v<V>) return ColumnType::text;
 }
 
 template <class T> Value to_value(const T& x) {
@@ -54,6 +54,8 @@ template <class T> Value to_value(const T& x) {
     return static_cast<double>(x);
   } else if constexpr (std::integral<T>) {
     return static_cast<std::int64_t>(x);
+  } else if constexpr (std::is_enum_v<T>) {
+    return std::string(name(x));
   } else {
     return std::string(x);
   }
@@ -181,7 +183,7 @@ auto share(std::string name, std::string description, Get count, Whole whole, st
 }
 
 /// The fields of a record, in its order, named ones or all: of all, each whose name no other column of the table has. An
-/// extreme of nothing is an empty cell; lists have no column.
+/// extreme of nothing is an empty cell; lists have no column, nor has an enumeration without a function `name`.
 template <class Get> struct RecordColumns {
   Get get;
   std::vector<std::string_view> names;
@@ -196,8 +198,9 @@ template <class Get> struct RecordColumns {
     for_each_field<T>([&]<class V>(const Field<T, V>& field) {
       if constexpr (Record<V>) {
         add_fields<V>(columns, [read, member = field.member](const Row& row) -> const V& { return read(row).*member; });
-      } else if constexpr (std::is_arithmetic_v<V> || std::same_as<V, std::string> ||
-                           requires(V v) { v.has_value(); }) {
+      } else if constexpr (
+          std::is_arithmetic_v<V> || std::same_as<V, std::string> || requires(V v) { v.has_value(); } ||
+          requires(V v) { std::string_view(name(v)); }) {
         if (!names.empty() && std::ranges::find(names, field.name) == names.end()) return;
         columns.add({{std::string(field.name), detail::column_type<V>(), std::string(field.unit),
                       std::string(field.description)},
@@ -231,22 +234,36 @@ template <class Row, class... Parts> Columns<Row> columns_of(const Parts&... par
   return columns;
 }
 
-/// How many cells a test of residuals judged, their chi-square, and what is allowed of it.
+/// The chi-square of a test of residuals and what is allowed of it, `PREFIX_lower` and `PREFIX_upper`; empty where nothing is judged.
+template <class Get> struct ChiSquareColumns {
+  std::string name, description, prefix;
+  Get get;
+
+  template <class Row> void add_to(Columns<Row>& columns) const {
+    const auto test = [get = get](const Row& row) -> const ResidualTest& { return std::invoke(get, row); };
+    where([test](const Row& row) { return test(row).judged > 0; },
+          columns_of<Row>(value(name, "1", description, [test](const Row& row) { return test(row).chi_square; }),
+                          value(prefix + "lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
+                                [test](const Row& row) { return test(row).allowed()->lower; }),
+                          value(prefix + "upper", "1", "Most allowed.",
+                                [test](const Row& row) { return test(row).allowed()->upper; })))
+        .add_to(columns);
+  }
+};
+template <class Get>
+ChiSquareColumns<Get> chi_square_columns(std::string name, std::string description, Get get, std::string prefix) {
+  return {std::move(name), std::move(description), std::move(prefix), std::move(get)};
+}
+
+/// How many cells it judged, and that.
 template <class Get> struct ResidualColumns {
   std::string judged, chi_square;
   Get get;
 
   template <class Row> void add_to(Columns<Row>& columns) const {
-    const auto test = [get = get](const Row& row) -> const ResidualTest& { return std::invoke(get, row); };
-    value("judged_cells", "1", judged, [test](const Row& row) { return test(row).judged; }).add_to(columns);
-    where(
-        [test](const Row& row) { return test(row).judged > 0; },
-        columns_of<Row>(value("chi_square", "1", chi_square, [test](const Row& row) { return test(row).chi_square; }),
-                        value("chi_square_lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
-                              [test](const Row& row) { return test(row).allowed()->lower; }),
-                        value("chi_square_upper", "1", "Most allowed.",
-                              [test](const Row& row) { return test(row).allowed()->upper; })))
-        .add_to(columns);
+    const auto count = [get = get](const Row& row) { return std::invoke(get, row).judged; };
+    value("judged_cells", "1", judged, count).add_to(columns);
+    chi_square_columns("chi_square", chi_square, get, "chi_square_").add_to(columns);
   }
 };
 template <class Get> ResidualColumns<Get> residual_columns(std::string judged, std::string chi_square, Get get) {

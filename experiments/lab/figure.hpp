@@ -38,7 +38,7 @@ struct Panel {
   std::string y_label;  ///< with unit
   bool log_x = false, log_y = false;
   double height = 1;  ///< [1] share of the figure's height, relative to the other panels
-  std::vector<Series> series;
+  std::vector<Series> series = {};
   std::vector<Tic> x_tics = {}, y_tics = {};  ///< in place of numbers; the axis then ends half a unit beyond its values
   std::vector<Tic> x_groups = {};             ///< names above the panel, of stretches of the x axis
 };

@@ -12,6 +12,7 @@ namespace thinwall {
 namespace {
 
 constexpr int curve_points = 400;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<double> number_in(const Value& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
@@ -79,7 +80,6 @@ Plot& Plot::height(double share) {
 }
 
 Plot& Plot::curve(std::string label, const std::function<double(double)>& f, Mark mark) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return curve(std::move(label), f, nan, nan, mark);
 }
 
@@ -130,6 +130,7 @@ Plot::operator Panel() const {
     if (has_bars(across) || has_bars(measured)) add_bar(measured, *value, series->lower, series->upper);
   }
   for (Series& series : panel.series) {  // bars only where one of its points has an interval
+    if (series.x_lower == series.x && series.x_upper == series.x) series.x_lower = series.x_upper = {};
     if (series.x_lower.empty() && series.lower == series.y && series.upper == series.y)
       series.lower = series.upper = {};
   }
@@ -137,8 +138,14 @@ Plot::operator Panel() const {
   for (const Curve& curve : curves_) {
     const double from = std::isnan(curve.from) ? least : curve.from, to = std::isnan(curve.to) ? most : curve.to;
     if (!(from < to)) continue;
-    Series& series = panel.series.emplace_back(Series{.label = curve.label, .mark = curve.mark});
-    add_curve(series, from, to, panel.log_x ? Axis::log : Axis::linear, curve.f, curve_points);
+    const auto is_its = [&](const Series& s) { return s.label == curve.label && s.mark == curve.mark; };
+    auto series = std::ranges::find_if(panel.series, is_its);
+    if (series == panel.series.end()) {
+      series = panel.series.insert(panel.series.end(), {.label = curve.label, .mark = curve.mark});
+    } else {
+      series->end_line();
+    }
+    add_curve(*series, from, to, panel.log_x ? Axis::log : Axis::linear, curve.f, curve_points);
   }
   return panel;
 }
@@ -153,9 +160,10 @@ std::vector<Figure> only_measured(std::vector<Figure> figures) {
 
 Panel joined(Panel panel) {
   std::vector<Series> both;
-  for (Series& points : panel.series) {
-    both.push_back({.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y});
-    both.push_back(std::move(points));
+  for (Series& series : panel.series) {
+    if (series.mark == Mark::points)
+      both.push_back({.label = series.label, .mark = Mark::line, .x = series.x, .y = series.y});
+    both.push_back(std::move(series));
   }
   panel.series = std::move(both);
   return panel;

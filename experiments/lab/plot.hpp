@@ -12,7 +12,9 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/figure.hpp>
 #include <thinwall/experiments/lab/table.hpp>
 
@@ -40,7 +42,8 @@ class Plot {
   Plot& mark(Mark mark);
   Plot& height(double share);
 
-  /// A line over the range of x that the rows have, or from `from` to `to`; NaN leaves a gap.
+  /// A line over the range of x that the rows have, or from `from` to `to`; NaN leaves a gap, as there is one between curves of
+  /// one label.
   Plot& curve(std::string label, const std::function<double(double)>& f, Mark mark = Mark::line);
   Plot& curve(std::string label, const std::function<double(double)>& f, double from, double to,
               Mark mark = Mark::line);
@@ -69,6 +72,11 @@ inline Plot plot(const Table& table) { return Plot(table); }
 
 /// Without the panels in which nothing was measured, and without the figures that then have none.
 std::vector<Figure> only_measured(std::vector<Figure> figures);
+
+/// Of columns that no table of the result has.
+template <class Row> Plot plot(const Columns<Row>& columns, const std::vector<Row>& rows) {
+  return Plot(table("drawn", "", columns, rows));
+}
 
 /// With a line through the points of each series, below them.
 Panel joined(Panel panel);

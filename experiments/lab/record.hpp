@@ -255,6 +255,13 @@ template <class Row, class IsIt> std::vector<Row> rows_where(const std::vector<R
   return some;
 }
 
+/// All rows of several lists, one list after the other.
+template <class Row> std::vector<Row> flat(const std::vector<std::vector<Row>>& lists) {
+  std::vector<Row> all;
+  for (const std::vector<Row>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 /// What the records of a group add up to.
 template <class Row, Record T> T total_of(const Group<Row>& group, T Row::*record) {
   T sum = group[0]->*record;

@@ -555,12 +555,6 @@ Outcome outcome_of(const StiffResults& results) {
   return outcome;
 }
 
-template <class Row> std::vector<Row> flat(const std::vector<std::vector<Row>>& lists) {
-  std::vector<Row> all;
-  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
-}
-
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   const auto plan = std::make_shared<const StiffPlan>(make_stiff_plan(settings, options));
   const auto steps = static_cast<std::int64_t>(plan->steps.size());

@@ -1,5 +1,8 @@
 /// What follows from a declaration: columns, cells of a design, a terminal's table, a panel, a run.
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -96,6 +99,19 @@ TEST(Columns, are_empty_where_their_condition_does_not_hold) {
   EXPECT_EQ(table.rows[2][0], Value(std::int64_t{0}));
 }
 
+enum class Paint { red, green };
+std::string_view name(Paint paint) { return paint == Paint::red ? "red" : "green"; }
+
+struct Painted {
+  Paint paint;
+  static constexpr auto fields() { return record(kept("paint", &Painted::paint, "", "Of the ball.")); }
+};
+
+TEST(Columns, spell_an_enumeration_by_its_name) {
+  EXPECT_EQ(csv_text(table("painted", "", columns_of<Painted>(fields(std::identity())), {{Paint::green}})),
+            "paint\ngreen\n");
+}
+
 TEST(Factors, make_every_combination_the_last_the_fastest) {
   const auto all = cells("speed = [1, 2]\nwall = ['finite', 'infinite']");
   ASSERT_EQ(all.size(), 4U);
@@ -181,6 +197,25 @@ TEST(Plot, leads_lines_through_another_column_and_leaves_out_panels_of_nothing) 
   EXPECT_EQ(series[3].mark, Mark::line);
   EXPECT_EQ(series[3].x, (std::vector<double>{10, 20}));
   EXPECT_EQ(series[3].y, (std::vector{0.25, 0.5}));
+}
+
+TEST(Plot, has_a_gap_between_curves_of_one_label_and_bars_along_either_axis) {
+  const auto zero = [](double) { return 0.0; };
+  const Panel panel = joined(plot(columns(), rows)
+                                 .x("probability")
+                                 .y("shots")
+                                 .label("all")
+                                 .curve("limit", zero, 1, 2, Mark::dashes)
+                                 .curve("limit", zero, 3, 4, Mark::dashes));
+  ASSERT_EQ(panel.series.size(), 3U);
+  EXPECT_EQ(panel.series[0].mark, Mark::line);
+  const Series &points = panel.series[1], &curves = panel.series[2];
+  EXPECT_EQ(points.x, (std::vector{0, 0.25}));
+  EXPECT_EQ(points.x_upper, (std::vector{0.03699349820698568, 0.34304463548061603}));
+  EXPECT_EQ(points.lower, points.y);
+  EXPECT_EQ(curves.mark, Mark::dashes);
+  EXPECT_EQ(std::ranges::count_if(curves.y, [](double y) { return std::isnan(y); }), 1);
+  EXPECT_EQ(curves.x.back(), 4);
 }
 
 TEST(Tasks, hand_each_list_its_own_results) {
