@@ -1,6 +1,5 @@
 /// The rules of the house, for every experiment of the list, on its small configuration.
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <sstream>
 #include <string>
@@ -10,7 +9,7 @@
 #include <toml++/toml.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/svg.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall_embedded.hpp>
 
@@ -23,10 +22,7 @@ namespace {
 class EveryExperiment : public testing::TestWithParam<std::string_view> {
  protected:
   const Experiment& experiment() const { return *std::ranges::find(experiments(), GetParam(), &Experiment::name); }
-  std::string small() const {
-    const std::filesystem::path folder = std::filesystem::path(THINWALL_SOURCE) / "tests/results/small";
-    return file_text(folder / (std::string(GetParam()) + ".toml"));
-  }
+  std::string small() const { return small_toml(GetParam()); }
   std::unique_ptr<thinwall::Run> configured(const std::string& text,
                                             RunOptions options = {.seed = 1, .trials = {}}) const {
     return run_of(experiment(), text, options);
@@ -69,7 +65,8 @@ TEST_P(EveryExperiment, lets_an_option_choose_the_trials) {
   EXPECT_THROW(configured(small(), {.seed = 1, .trials = 0}), UsageError);
 }
 
-/// Computed in whatever order, by whatever thread: tables without times are the same to the byte. And what they hold is described.
+/// Computed in whatever order, by whatever thread, in whatever time: tables and figures without times are the same to the byte. And
+/// what they hold is described.
 TEST_P(EveryExperiment, does_not_depend_on_the_order_of_its_units) {
   SKIP_IF_IT_NEEDS_PROGRAMS();
   const auto run = configured(small());
@@ -79,11 +76,16 @@ TEST_P(EveryExperiment, does_not_depend_on_the_order_of_its_units) {
   std::ranges::reverse(units);
   std::vector<std::string> results = results_of(units);
   std::ranges::reverse(results);
-  const Outcome backward = run->finish(results, seconds);
+  const Outcome backward = run->finish(results, std::vector<double>(units.size(), 2e-3));
   ASSERT_EQ(forward.tables.size(), backward.tables.size());
   for (std::size_t i = 0; i < forward.tables.size(); ++i) {
     if (forward.tables[i].is_timing) continue;
     EXPECT_EQ(csv_text(forward.tables[i]), csv_text(backward.tables[i])) << forward.tables[i].name;
+  }
+  ASSERT_EQ(forward.figures.size(), backward.figures.size());
+  for (std::size_t i = 0; i < forward.figures.size(); ++i) {
+    if (forward.figures[i].is_timing) continue;
+    EXPECT_EQ(plot_data(forward.figures[i]), plot_data(backward.figures[i])) << forward.figures[i].name;
   }
   expect_described_tables(forward);
   EXPECT_FALSE(forward.answer.empty());

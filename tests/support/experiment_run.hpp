@@ -2,7 +2,9 @@
 /// What the tables of every experiment owe their reader.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,17 +13,25 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
 #include "support/said.hpp"
 
 namespace thinwall {
 
-/// Every row of a table is as long as its columns are many, and every column has a description and,
+/// Every row of a table is as long as its columns are many, no number in it is none, and every column has a description and,
 /// if it is a number, a unit.
 inline void expect_described_tables(const Outcome& outcome) {
+  const auto is_nan = [](const Value& value) {
+    const double* const number = std::get_if<double>(&value);
+    return number != nullptr && std::isnan(*number);
+  };
   for (const Table& t : outcome.tables) {
-    for (const std::vector<Value>& row : t.rows) ASSERT_EQ(row.size(), t.columns.size()) << t.name;
+    for (const std::vector<Value>& row : t.rows) {
+      ASSERT_EQ(row.size(), t.columns.size()) << t.name;
+      EXPECT_EQ(std::ranges::find_if(row, is_nan) - row.begin(), std::ssize(row)) << t.name;
+    }
     for (const Column& column : t.columns) {
       EXPECT_FALSE(column.description.empty()) << t.name << " " << column.name;
       EXPECT_EQ(column.unit.empty(), column.type == ColumnType::text || column.type == ColumnType::boolean)
@@ -43,6 +53,12 @@ inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_vie
 /// What is said against such a text; empty if it is taken.
 inline std::string refusal_of(const Experiment& experiment, std::string_view text) {
   return error_of<UsageError>([&] { run_of(experiment, text); });
+}
+
+/// A configuration of a second or two.
+inline std::string small_toml(std::string_view experiment) {
+  return file_text(std::filesystem::path(THINWALL_SOURCE) / "tests/results/small" /
+                   (std::string(experiment) + ".toml"));
 }
 
 inline std::vector<std::string> results_of(const std::vector<Unit>& units) {
