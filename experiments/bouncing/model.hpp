@@ -20,8 +20,6 @@ struct BounceCell {
   double radius;       ///< [m] > 0
   double step;         ///< [s] > 0
   double restitution;  ///< [1] in [0, 1]
-
-  bool operator==(const BounceCell&) const = default;
 };
 
 const Factors<BounceCell>& bounce_factors();
@@ -54,25 +52,17 @@ struct BounceTally {
                   kept("squares", &T::squares), kept("least", &T::least, "g h / V", "The bounce that loses most."),
                   kept("most", &T::most, "g h / V", "The bounce that gains most."));
   }
-  bool operator==(const BounceTally&) const = default;
 };
 
-/// A way to take a step, as the loops over whole bounces see it.
-struct BouncePolicy {
-  std::string name;
-  bool staggered;  ///< its speeds are half a step early
-  int drift;       ///< [g h / V] mean change a bounce, to first order
-  /// [g h / V] Change of the flight's energy when a ball of `cell` meets the floor `phase` in (0, 1) of a step after it began.
-  double (*error_at)(const BounceCell& cell, double phase);
-  /// One ball that bounces on and on: energy of the flight after each bounce over that of the first flight, until `bounces` or
-  /// until a flight has become shorter than two steps. The run begins `elapsed` in [0, 1) of a step after the drop.
-  std::vector<double> (*energies)(const BounceCell& cell, double elapsed, std::int64_t bounces);
-  /// [m] The gap at the start of such a run, and after each step.
-  std::vector<double> (*heights)(const BounceCell& cell, double elapsed, std::int64_t steps);
-};
+/// [g h / V] Change of the flight's energy when a ball of `cell` meets the floor `phase` in (0, 1) of a step after it began.
+double error_at(const BouncePolicy& policy, const BounceCell& cell, double phase);
 
-std::vector<BouncePolicy> bounce_policies(const std::vector<std::string>& names);  ///< in the order of the list of all
-std::vector<std::string_view> bounce_policy_names();
+/// One ball that bounces on and on: energy of the flight after each bounce over that of the first flight, until `bounces` or
+/// until a flight has become shorter than two steps. The run begins `elapsed` in [0, 1) of a step after the drop.
+std::vector<double> energies(const BouncePolicy& policy, const BounceCell& cell, double elapsed, std::int64_t bounces);
+
+/// [m] The gap at the start of such a run, and after each step.
+std::vector<double> heights(const BouncePolicy& policy, const BounceCell& cell, double elapsed, std::int64_t steps);
 
 /// `trials` bounces at random phases: independent, the same for every policy.
 BounceTally random_bounces(const BouncePolicy& policy, const BounceCell& cell, std::uint64_t seed, std::int64_t trials);
@@ -80,7 +70,7 @@ BounceTally random_bounces(const BouncePolicy& policy, const BounceCell& cell, s
 /// `count` bounces at phases in the middle of `count` equal parts: no chance, and the means of a parabola but for 1 / count^2.
 BounceTally even_bounces(const BouncePolicy& policy, const BounceCell& cell, std::int64_t count);
 
-/// One ball that bounces on and on without loss, whose phases are not random: each follows from the one before. Energy of the flight after a number of bounces over that of the first flight, over all runs that got so far.
+/// One ball that bounces on and on, whose phases are not random: each follows from the one before.
 struct LongRunPoint {
   std::int64_t bounces = 0;
   std::int64_t runs = 0;
@@ -92,7 +82,6 @@ struct LongRunPoint {
                   kept("mean", &P::mean, "1", "Mean energy over the first."),
                   kept("sigma", &P::sigma, "1", "Standard deviation over the runs."));
   }
-  bool operator==(const LongRunPoint&) const = default;
 };
 
 /// After 1, 2, 4, ... bounces, as long as every run lasts. Each run begins at a time of its own within the first step.

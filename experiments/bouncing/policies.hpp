@@ -3,6 +3,7 @@
 /// is done about it. Only heights and vertical speeds differ from zero. Derived in docs/bouncing.md.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -43,18 +44,6 @@ inline void bounce(const BouncingWorld& world, BouncingBall& ball) {
   ++ball.bounces;
 }
 
-/// Semi-implicit Euler's positions lie on an exact parabola, and its velocities are that parabola's half a step earlier. This
-/// is the parabola's own velocity, now. Derived in docs/bouncing.md.
-template <class Policy> double flight_velocity(const BouncingWorld& world, const BouncingBall& ball) {
-  return Policy::staggered ? ball.velocity - world.gravity * world.step / 2 : ball.velocity;
-}
-
-/// [J/kg] Energy of the flight: gravity times the height that the ball will rise to.
-template <class Policy> double flight_energy(const BouncingWorld& world, const BouncingBall& ball) {
-  const double v = flight_velocity<Policy>(world, ball);
-  return v * v / 2 + world.gravity * gap_of(ball);
-}
-
 /// [s] When gap + v t - g t^2 / 2 = 0, for gap >= 0 and g > 0: the root that is not negative. Neither branch subtracts, so
 /// that no digit is lost, whether the ball rises or falls. Zero gap and zero speed: 0.
 inline double landing_time(double gap, double velocity, double gravity) {
@@ -92,8 +81,7 @@ template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBa
   ball.time += world.step;
 }
 
-// The policies. `drift` is the mean change of the flight's energy a bounce at restitution 1 and random phase, to first order, in
-// units of g h / V of the energy.
+// The policies: the ways to take a step.
 
 /// Semi-implicit Euler: first the speed, then the height with the new speed.
 inline void kick_and_drift(const BouncingWorld& world, BouncingBall& ball) {
@@ -102,97 +90,99 @@ inline void kick_and_drift(const BouncingWorld& world, BouncingBall& ball) {
   ball.time += world.step;
 }
 
-/// The game loop's way: move, test the pose, push the ball out and turn its speed.
-struct ProjectAndFlip {
-  static constexpr std::string_view name = "project_flip";
-  static constexpr bool staggered = true;
-  static constexpr int drift = -1;
-  static void step(const BouncingWorld& world, BouncingBall& ball) {
-    kick_and_drift(world, ball);
-    const auto touch = contact(ball.body, world.floor);
-    if (!touch) return;
-    ball.body.center -= touch->normal * touch->penetration;
-    bounce(world, ball);
-  }
-};
+/// The exact arc, as if there were no floor.
+inline void fly_on(const BouncingWorld& world, BouncingBall& ball) {
+  const double kick = world.gravity * world.step;
+  ball.body.center.y() += (ball.velocity - kick / 2) * world.step;
+  ball.velocity -= kick;
+  ball.time += world.step;
+}
+
+/// Tests the pose, pushes the ball out and turns its speed.
+inline void push_out(const BouncingWorld& world, BouncingBall& ball) {
+  const auto touch = contact(ball.body, world.floor);
+  if (!touch) return;
+  ball.body.center -= touch->normal * touch->penetration;
+  bounce(world, ball);
+}
+
+/// The game loop's way.
+inline void project_flip(const BouncingWorld& world, BouncingBall& ball) {
+  kick_and_drift(world, ball);
+  push_out(world, ball);
+}
 
 /// The same without pushing out.
-struct FlipOnly {
-  static constexpr std::string_view name = "flip_only";
-  static constexpr bool staggered = true;
-  static constexpr int drift = -2;
-  static void step(const BouncingWorld& world, BouncingBall& ball) {
-    kick_and_drift(world, ball);
-    if (overlaps(ball.body, world.floor)) bounce(world, ball);
-  }
-};
+inline void flip_only(const BouncingWorld& world, BouncingBall& ball) {
+  kick_and_drift(world, ball);
+  if (overlaps(ball.body, world.floor)) bounce(world, ball);
+}
 
 /// Semi-implicit Euler, whose straight path in a step is split where the library finds first contact. A ball that touches
 /// at the start of a step is carried by the floor: gravity does not push it in.
-struct LinearToi {
-  static constexpr std::string_view name = "linear_toi";
-  static constexpr bool staggered = true;
-  static constexpr int drift = 0;
-  static void step(const BouncingWorld& world, BouncingBall& ball) {
-    const double before = ball.velocity, kick = world.gravity * world.step;
-    double left = world.step;
-    ball.velocity = before - kick;
-    const Vec3<double> path = {0, ball.velocity * left, 0};
-    const Toi<double> toi = time_of_impact(Moving<Sphere<double>>{ball.body, path}, at_rest(world.floor));
-    if (toi.status == ToiStatus::overlapping) {
-      ball.velocity = before < 0 ? before : std::max(0.0, ball.velocity);
-      bounce(world, ball);
-    } else if (toi.status == ToiStatus::hit) {
-      ball.body.center += path * toi.time;
-      left *= 1 - toi.time;
-      bounce(world, ball);
-    }
-    ball.body.center.y() += ball.velocity * left;
-    ball.time += world.step;
-  }
-};
-
-/// The exact arc, and the pose at the end of the step pushed out.
-struct ExactAndProject {
-  static constexpr std::string_view name = "exact_project";
-  static constexpr bool staggered = false;
-  static constexpr int drift = 1;
-  static void step(const BouncingWorld& world, BouncingBall& ball) {
-    const double kick = world.gravity * world.step;
-    ball.body.center.y() += (ball.velocity - kick / 2) * world.step;
-    ball.velocity -= kick;
-    ball.time += world.step;
-    const auto touch = contact(ball.body, world.floor);
-    if (!touch) return;
-    ball.body.center -= touch->normal * touch->penetration;
+inline void linear_toi(const BouncingWorld& world, BouncingBall& ball) {
+  const double before = ball.velocity, kick = world.gravity * world.step;
+  double left = world.step;
+  ball.velocity = before - kick;
+  const Vec3<double> path = {0, ball.velocity * left, 0};
+  const Toi<double> toi = time_of_impact(Moving<Sphere<double>>{ball.body, path}, at_rest(world.floor));
+  if (toi.status == ToiStatus::overlapping) {
+    ball.velocity = before < 0 ? before : std::max(0.0, ball.velocity);
+    bounce(world, ball);
+  } else if (toi.status == ToiStatus::hit) {
+    ball.body.center += path * toi.time;
+    left *= 1 - toi.time;
     bounce(world, ball);
   }
-};
+  ball.body.center.y() += ball.velocity * left;
+  ball.time += world.step;
+}
+
+/// The exact arc, and the pose at the end of the step pushed out.
+inline void exact_project(const BouncingWorld& world, BouncingBall& ball) {
+  fly_on(world, ball);
+  push_out(world, ball);
+}
 
 /// The exact arc, split where it meets the floor: tested at the end of the step, which is enough since an arc is concave and
 /// the floor deeper than a step, and solved if it ends inside.
-struct ParabolaToi {
-  static constexpr std::string_view name = "parabola_toi";
-  static constexpr bool staggered = false;
-  static constexpr int drift = 0;
-  static void step(const BouncingWorld& world, BouncingBall& ball) {
-    const double kick = world.gravity * world.step;
-    Sphere<double> end = ball.body;
-    end.center.y() += (ball.velocity - kick / 2) * world.step;
-    if (overlaps(end, world.floor)) return follow_arc(world, ball, [](double) {});
-    ball.body = end;
-    ball.velocity -= kick;
-    ball.time += world.step;
-  }
+inline void parabola_toi(const BouncingWorld& world, BouncingBall& ball) {
+  BouncingBall end = ball;
+  fly_on(world, end);
+  if (overlaps(end.body, world.floor)) return follow_arc(world, ball, [](double) {});
+  ball = end;
+}
+
+struct BouncePolicy {
+  using Step = void (*)(const BouncingWorld&, BouncingBall&);
+  std::string_view name;
+  bool staggered;  ///< its speeds are half a step early
+  int drift;       ///< [g h / V] mean change of the flight's energy at restitution 1 and random phase, to first order
+  Step step;
+  Step to_the_apex;  ///< steps up to the apex after the next impact: what is timed, so nothing stands between its steps
+
+  bool operator==(const BouncePolicy&) const = default;
 };
 
-/// Calls f(Policy) for each, in the order of the tables.
-template <class F> void for_each_bounce_policy(const F& f) {
-  f(ProjectAndFlip{});
-  f(FlipOnly{});
-  f(LinearToi{});
-  f(ExactAndProject{});
-  f(ParabolaToi{});
+template <BouncePolicy::Step step>
+constexpr BouncePolicy bounce_policy(std::string_view name, bool staggered, int drift) {
+  return {name, staggered, drift, step, [](const BouncingWorld& world, BouncingBall& ball) {
+            for (const std::int64_t before = ball.bounces; ball.bounces == before;) step(world, ball);
+            while (ball.velocity > world.gravity * world.step) step(world, ball);
+          }};
+}
+
+/// In the order of the tables.
+inline constexpr std::array all_bounce_policies = {
+    bounce_policy<project_flip>("project_flip", true, -1), bounce_policy<flip_only>("flip_only", true, -2),
+    bounce_policy<linear_toi>("linear_toi", true, 0), bounce_policy<exact_project>("exact_project", false, 1),
+    bounce_policy<parabola_toi>("parabola_toi", false, 0)};
+
+/// [J/kg] Energy of the flight: gravity times the height that the ball will rise to. Semi-implicit Euler's positions lie on an exact
+/// parabola, and its velocities are that parabola's half a step earlier. Derived in docs/bouncing.md.
+inline double flight_energy(const BouncePolicy& policy, const BouncingWorld& world, const BouncingBall& ball) {
+  const double v = policy.staggered ? ball.velocity - world.gravity * world.step / 2 : ball.velocity;
+  return v * v / 2 + world.gravity * gap_of(ball);
 }
 
 }  // namespace thinwall

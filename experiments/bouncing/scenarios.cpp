@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <type_traits>
 
@@ -13,72 +14,54 @@
 
 namespace thinwall {
 
-std::int64_t fly_between(FlyingBall& ball, std::span<FlyingWall> walls, double seconds) {
+std::int64_t fly(std::span<FlyingBall> balls, std::span<FlyingWall> walls, double seconds) {
   std::int64_t impacts = 0;
-  for (double left = seconds;;) {
-    const FlyingWall* struck = nullptr;
+  for (double left = seconds;; ++impacts) {
+    Vec3<double>*a = nullptr, *b = nullptr;  // the velocities of those that meet first
+    double share = 0;                        // of the change: a's, the rest is b's
     Toi<double> first;
-    for (const FlyingWall& wall : walls) {
-      const auto toi = next_impact(ball, wall);
-      if (!toi || toi->time > left || (struck != nullptr && toi->time >= first.time)) continue;
-      struck = &wall;
+    const auto look = [&](auto& one, auto& other, double share_of_one) {
+      const auto toi = next_impact(one, other);
+      if (!toi || toi->time > left || (a != nullptr && toi->time >= first.time)) return;
       first = *toi;
-    }
-    const double flight = struck != nullptr ? first.time : left;
-    ball.fly(flight);
-    for (FlyingWall& wall : walls) wall.fly(flight);
-    if (struck == nullptr) return impacts;
-    left -= flight;
-    ball.velocity -= first.normal * (2 * (ball.velocity - struck->velocity).dot(first.normal));
-    ++impacts;
-  }
-}
-
-std::int64_t fly_together(std::vector<FlyingBall>& balls, double seconds) {
-  std::int64_t impacts = 0;
-  for (double left = seconds;;) {
-    FlyingBall *a = nullptr, *b = nullptr;
-    Toi<double> first;
+      a = &one.velocity;
+      b = &other.velocity;
+      share = share_of_one;
+    };
     for (std::size_t i = 0; i < balls.size(); ++i) {
-      for (std::size_t j = i + 1; j < balls.size(); ++j) {
-        const auto toi = next_impact(balls[i], balls[j]);
-        if (!toi || toi->time > left || (a != nullptr && toi->time >= first.time)) continue;
-        a = &balls[i];
-        b = &balls[j];
-        first = *toi;
-      }
+      for (FlyingBall& other : balls.subspan(i + 1)) look(balls[i], other, 0.5);
+      for (FlyingWall& wall : walls) look(balls[i], wall, 1);
     }
     const double flight = a != nullptr ? first.time : left;
     for (FlyingBall& ball : balls) ball.fly(flight);
+    for (FlyingWall& wall : walls) wall.fly(flight);
     if (a == nullptr) return impacts;
     left -= flight;
-    const LineSpeeds<double> before = {a->velocity.dot(first.normal), b->velocity.dot(first.normal)};
-    const LineSpeeds<double> after = after_impact(before, 1.0, 1.0, 1.0);
-    a->velocity += first.normal * (after.a - before.a);
-    b->velocity += first.normal * (after.b - before.b);
-    ++impacts;
+    const Vec3<double> change = first.normal * (2 * (*a - *b).dot(first.normal));
+    *a -= share * change;
+    *b += (1 - share) * change;
   }
 }
 
-// One ball on the floor: bounces that pile up, and rest.
-
 namespace {
 
-constexpr int zeno_steps = 40;  // 10 s
-constexpr double rest_restitution = 0.25;
+// One ball on the floor: bounces that pile up, and rest.
 
-struct Zeno {
-  std::vector<double> times;
-  BouncingBall ball;
-};
-
-Zeno run_zeno() {
+/// A ball dropped from 1 m at g = 2 m/s^2 with restitution 1/2 bounces at 1, 2, 2.5, 2.75, ... s, without end before 3 s.
+/// Followed by steps of 1/4 s on the exact arc.
+BounceScenario zeno() {
   const BouncingWorld world = {2, 0.5, 0.25, floor_of_depth(8)};
-  Zeno run = {{}, ball_at(1, 0, 0.5)};
-  for (int i = 0; i < zeno_steps; ++i) {
-    follow_arc(world, run.ball, [&](double time) { run.times.push_back(time); });
-  }
-  return run;
+  BouncingBall ball = ball_at(1, 0, 0.5);
+  std::vector<double> times;
+  for (int step = 0; step < 40; ++step) follow_arc(world, ball, [&](double time) { times.push_back(time); });
+  bool exact = times.size() == 54;
+  for (std::size_t n = 0; n < times.size(); ++n) exact &= times[n] == 3 - std::ldexp(1.0, 1 - static_cast<int>(n));
+  const bool rests = gap_of(ball) == 0 && ball.velocity == 0;
+  return {"bounces that pile up (restitution 1/2)",
+          "at 3 - 2^(2-n) s, exactly; the clock stalls at 3 s with the 54th, then rest",
+          fmt::format("{} bounces, the last at {} s, {}; {} at 10 s", times.size(), times.empty() ? 0 : times.back(),
+                      exact ? "all exact" : "NOT all exact", rests ? "at rest" : "NOT at rest"),
+          exact && rests};
 }
 
 /// [m] How deep a ball is after `steps` that only turns its speed. From rest, its speed after step k is v (1 - (-e)^k) with
@@ -88,61 +71,37 @@ double depth_of_flip_only(const BounceCell& c, double steps) {
   return c.step * (steps * kick - speed * (steps - (1 - std::pow(-e, steps)) / (1 + e)));
 }
 
-}  // namespace
-
-std::vector<double> zeno_times() { return run_zeno().times; }
-
-std::vector<BounceScenario> zeno_scenarios() {
-  const Zeno run = run_zeno();
-  bool exact = run.times.size() == 54;
-  for (std::size_t n = 0; n < run.times.size(); ++n)
-    exact &= run.times[n] == 3 - std::ldexp(1.0, 1 - static_cast<int>(n));
-  const bool rests = gap_of(run.ball) == 0 && run.ball.velocity == 0;
-  return {{"bounces that pile up (restitution 1/2)",
-           "at 3 - 2^(2-n) s, exactly; the clock stalls at 3 s with the 54th, then rest",
-           fmt::format("{} bounces, the last at {} s, {}; {} at 10 s", run.times.size(),
-                       run.times.empty() ? 0 : run.times.back(), exact ? "all exact" : "NOT all exact",
-                       rests ? "at rest" : "NOT at rest"),
-           exact && rests}};
-}
-
-std::vector<BounceScenario> rest_scenarios() {
+BounceScenario rest(const BouncePolicy& policy) {
   constexpr std::int64_t steps = 100000;
-  std::vector<BounceScenario> scenarios;
-  for_each_bounce_policy([&]<class Policy>(Policy) {
-    const bool sinks = Policy::name == FlipOnly::name;
-    const BounceCell cell = {9.81, sinks ? 1024.0 : 1.0, 0.5, 1.0 / 60, rest_restitution};
-    const BouncingWorld world = world_of(cell);
-    BouncingBall ball = ball_at(0, 0, cell.radius);
-    double lowest = 0, highest = 0;
-    for (std::int64_t i = 0; i < steps; ++i) {
-      Policy::step(world, ball);
-      lowest = std::min(lowest, gap_of(ball));
-      highest = std::max(highest, gap_of(ball));
-    }
-    BounceScenario row = {fmt::format("rest on the floor, {}", Policy::name), "no drift over 100 000 steps",
-                          fmt::format("{:.3g} to {:.3g} m", lowest, highest), false};
-    const double moved = std::max(highest, -lowest);
-    if (sinks) {
-      const double depth = depth_of_flip_only(cell, static_cast<double>(steps));
-      row.must = fmt::format("sinks: nothing pushes it out; {:.3f} m in 100 000 steps", depth);
-      row.happened = fmt::format("{:.3f} m", -gap_of(ball));
-      row.passed = std::abs(gap_of(ball) + depth) <= 1e-9 * depth;
-    } else if (Policy::name == LinearToi::name || Policy::name == ParabolaToi::name) {
-      row.must += ", to the bit";
-      row.passed = moved == 0;
-    } else {  // pushed out of a floor, whose coordinates are rounded
-      row.must += " but the rounding of the floor";
-      row.passed = moved <= 0x1p-52 * world.floor.half_extents.y();
-    }
-    scenarios.push_back(row);
-  });
-  return scenarios;
+  const bool sinks = policy.step == flip_only;
+  const BounceCell cell = {9.81, sinks ? 1024.0 : 1.0, 0.5, 1.0 / 60, 0.25};
+  const BouncingWorld world = world_of(cell);
+  BouncingBall ball = ball_at(0, 0, cell.radius);
+  double lowest = 0, highest = 0;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    policy.step(world, ball);
+    lowest = std::min(lowest, gap_of(ball));
+    highest = std::max(highest, gap_of(ball));
+  }
+  BounceScenario row = {fmt::format("rest on the floor, {}", policy.name), "no drift over 100 000 steps",
+                        fmt::format("{:.3g} to {:.3g} m", lowest, highest)};
+  const double moved = std::max(highest, -lowest);
+  if (sinks) {
+    const double depth = depth_of_flip_only(cell, static_cast<double>(steps));
+    row.must = fmt::format("sinks: nothing pushes it out; {:.3f} m in 100 000 steps", depth);
+    row.happened = fmt::format("{:.3f} m", -gap_of(ball));
+    row.passed = std::abs(gap_of(ball) + depth) <= 1e-9 * depth;
+  } else if (policy.step == linear_toi || policy.step == parabola_toi) {
+    row.must += ", to the bit";
+    row.passed = moved == 0;
+  } else {  // pushed out of a floor, whose coordinates are rounded
+    row.must += " but the rounding of the floor";
+    row.passed = moved <= 0x1p-52 * world.floor.half_extents.y();
+  }
+  return row;
 }
 
 // A ball between walls: several at one instant, and a gap that holds a million bounces.
-
-namespace {
 
 /// A wall of 2 m at rest whose face, towards the origin, lies `at` > 0 m along the axis; 16 m wide.
 FlyingWall wall_across(int axis, double at) {
@@ -165,7 +124,7 @@ BounceScenario corner(int count) {
       ball.velocity[axis] = speeds[axis];
       walls.push_back(wall_across(axis, 0.5 + speeds[axis] / 2));
     }
-    const auto impacts = static_cast<double>(fly_between(ball, walls, 1));
+    const auto impacts = static_cast<double>(fly({&ball, 1}, walls, 1));
     const Vec3<double>&p = ball.shape.center, &v = ball.velocity;
     ends.insert({impacts, p.x(), p.y(), p.z(), v.x(), v.y(), v.z()});
   } while (std::next_permutation(order.begin(), order.end()));
@@ -186,7 +145,7 @@ BounceScenario fixed_gap() {
   FlyingBall ball = {{{start, 0, 0}, radius}, {1, 0, 0}};
   std::array<FlyingWall, 2> walls = {wall_across(0, play + radius), wall_across(0, radius)};
   walls[1].shape.center.x() *= -1;
-  const std::int64_t impacts = fly_between(ball, walls, 1);
+  const std::int64_t impacts = fly({&ball, 1}, walls, 1);
   return {"ping-pong in a gap with 2^-20 m of play, 1 s at 1 m/s",
           "2^20 = 1048576 bounces, and at 2^-22 m again, exactly: the path unfolded",
           fmt::format("{} bounces, at 2^{:g} m, speed {:g} m/s", impacts, std::log2(ball.shape.center.x()),
@@ -224,14 +183,18 @@ BounceScenario closing_gap() {
           impacts == 2 * trips && point.velocity.x() == speed && error <= allowed};
 }
 
-}  // namespace
-
-std::vector<BounceScenario> corner_scenarios() { return {corner(2), corner(3)}; }
-std::vector<BounceScenario> gap_scenarios() { return {fixed_gap(), closing_gap()}; }
-
 // Bodies that hit each other head-on: masses far apart, a cradle, and the billiard that counts the digits of pi.
 
-namespace {
+/// Two bodies on one line.
+template <class S> struct LineSpeeds {
+  S a, b;  ///< [m/s]
+};
+
+/// Without loss. The change of each is its own product, so that neither is lost beside the other at any ratio of the masses.
+template <class S> LineSpeeds<S> after_impact(const LineSpeeds<S>& before, S mass_a, S mass_b) {
+  const S closing = S(2) * (before.a - before.b), mass = mass_a + mass_b;
+  return {before.a - closing * (mass_b / mass), before.b + closing * (mass_a / mass)};
+}
 
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;
 
@@ -245,7 +208,7 @@ double rounds_off(double answer, long double expected) {
 BounceScenario head_on(double a, double b) {
   FlyingBall first = {{{-1, 0, 0}, 0.5}, {1, 0, 0}}, second = {{{0.5, 0, 0}, 0.5}, {0, 0, 0}};
   const auto toi = next_impact(first, second);
-  const LineSpeeds<double> after = after_impact({first.velocity.x(), second.velocity.x()}, a, b, 1.0);
+  const LineSpeeds<double> after = after_impact({first.velocity.x(), second.velocity.x()}, a, b);
   const long double la = a, lb = b;
   const long double back = (la - lb) / (la + lb), on = 2 * la / (la + lb);
   // v' = 1 - 2 b / (a + b): three roundings of a number up to 2 beside an answer that may be small; V' has three of its own.
@@ -271,7 +234,7 @@ BounceScenario cradle(int count) {
       balls.push_back({{{i - gap, 0, 0}, 0.5}, {i < count ? 1.0 : 0.0, 0, 0}});
     }
     if (reversed) std::reverse(balls.begin(), balls.end());
-    impacts = fly_together(balls, 1);
+    impacts = fly(balls, {}, 1);
     if (reversed) std::reverse(balls.begin(), balls.end());
     speeds.clear();
     for (int i = 0; i < 5; ++i) {
@@ -289,38 +252,14 @@ BounceScenario cradle(int count) {
           fmt::format("speeds {}, {} impacts", speeds, impacts), passed};
 }
 
-constexpr std::array<std::int64_t, 8> pi_digits = {3, 31, 314, 3141, 31415, 314159, 3141592, 31415926};
+struct BlockCount {
+  std::int64_t impacts;
+  /// [m^2/s] Of the path of (heavy, light) around the corner where all three touch: |x_heavy v_light - x_light v_heavy|. An impact
+  /// only turns its sign, so that it stays what it was, 1. It is what the places say, where the speeds alone decide the count.
+  double moment;
+};
 
-template <class S> BounceScenario digits_of_pi(int digits, const char* scalar) {
-  const BlockCount count = count_block_impacts<S>(digits);
-  const std::int64_t expected = pi_digits[static_cast<std::size_t>(digits)];
-  BounceScenario row = {fmt::format("blocks of masses 1 : 100^{} and a wall, {}", digits, scalar),
-                        fmt::format("{} impacts: the digits of pi", expected), fmt::format("{} impacts", count.impacts),
-                        count.impacts == expected};
-  if (std::is_same_v<S, double>) {
-    // Each impact rounds places of up to 4 m beside speeds of up to 10^digits.
-    const double error = std::abs(count.moment - 1),
-                 allowed = 8 * u * static_cast<double>(expected) * std::pow(10.0, digits);
-    row.must += fmt::format("; the moment of the path, 1, stays within {:.1e}", allowed);
-    row.happened += fmt::format(", moment off by {:.1e}", error);
-    row.passed &= error <= allowed;
-  }
-  return row;
-}
-
-}  // namespace
-
-std::vector<BounceScenario> mass_scenarios(const std::vector<double>& ratios) {
-  std::vector<BounceScenario> scenarios;
-  for (const double ratio : ratios) {
-    scenarios.push_back(head_on(1, ratio));
-    if (ratio != 1) scenarios.push_back(head_on(ratio, 1));
-  }
-  return scenarios;
-}
-
-std::vector<BounceScenario> cradle_scenarios() { return {cradle(1), cradle(2), cradle(3)}; }
-
+/// Impacts of a block that stands 1 m from a wall while one 100^digits times as heavy comes in at 1 m/s.
 /// The blocks never both approach: after an impact of the two, only the light one can approach the wall, and after that one,
 /// only the two each other. So the speeds alone decide whether there is a next impact, and the library when.
 template <class S> BlockCount count_block_impacts(int digits) {
@@ -346,7 +285,7 @@ template <class S> BlockCount count_block_impacts(int digits) {
     if (at_wall) {
       speeds.a = -speeds.a;
     } else {
-      speeds = after_impact(speeds, S(1), mass, S(1));
+      speeds = after_impact(speeds, S(1), mass);
     }
     ++impacts;
     if (toi.time < S(1) / S(8)) horizon = std::max(S(horizon / 4), std::numeric_limits<S>::epsilon());
@@ -354,14 +293,46 @@ template <class S> BlockCount count_block_impacts(int digits) {
   const auto place_light = double{light.shape.center.x()} - 0.5, place_heavy = double{heavy.shape.center.x()} - 1.5;
   return {impacts, std::abs(place_heavy * double{speeds.a} - place_light * double{speeds.b})};
 }
-template BlockCount count_block_impacts<float>(int);
-template BlockCount count_block_impacts<double>(int);
 
-std::vector<BounceScenario> digit_scenarios(int most) {
-  std::vector<BounceScenario> scenarios;
-  for (int digits = 0; digits <= std::min(most, 5); ++digits) scenarios.push_back(digits_of_pi<float>(digits, "float"));
-  for (int digits = 0; digits <= most; ++digits) scenarios.push_back(digits_of_pi<double>(digits, "double"));
-  return scenarios;
+template <class S> BounceScenario digits_of_pi(int digits, const char* scalar) {
+  const BlockCount count = count_block_impacts<S>(digits);
+  const auto expected = static_cast<std::int64_t>(std::numbers::pi * std::pow(10.0, digits));
+  BounceScenario row = {fmt::format("blocks of masses 1 : 100^{} and a wall, {}", digits, scalar),
+                        fmt::format("{} impacts: the digits of pi", expected), fmt::format("{} impacts", count.impacts),
+                        count.impacts == expected};
+  if (std::is_same_v<S, double>) {
+    // Each impact rounds places of up to 4 m beside speeds of up to 10^digits.
+    const double error = std::abs(count.moment - 1),
+                 allowed = 8 * u * static_cast<double>(expected) * std::pow(10.0, digits);
+    row.must += fmt::format("; the moment of the path, 1, stays within {:.1e}", allowed);
+    row.happened += fmt::format(", moment off by {:.1e}", error);
+    row.passed &= error <= allowed;
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<BounceScenario> bounce_scenarios(std::string_view group, const std::vector<double>& mass_ratios,
+                                             int digits) {
+  std::vector<BounceScenario> all;
+  if (group == "zeno") all = {zeno()};
+  if (group == "walls") all = {corner(2), corner(3)};
+  if (group == "gap") all = {fixed_gap(), closing_gap()};
+  if (group == "cradle") all = {cradle(1), cradle(2), cradle(3)};
+  if (group == "rest") {
+    for (const BouncePolicy& policy : all_bounce_policies) all.push_back(rest(policy));
+  } else if (group == "masses") {
+    for (const double ratio : mass_ratios) {
+      all.push_back(head_on(1, ratio));
+      if (ratio != 1) all.push_back(head_on(ratio, 1));
+    }
+  } else if (group == "digits") {
+    for (int more = 0; more <= std::min(digits, 5); ++more) all.push_back(digits_of_pi<float>(more, "float"));
+    for (int more = 0; more <= digits; ++more) all.push_back(digits_of_pi<double>(more, "double"));
+  }
+  for (BounceScenario& scenario : all) scenario.group = group;
+  return all;
 }
 
 }  // namespace thinwall

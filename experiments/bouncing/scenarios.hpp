@@ -1,27 +1,19 @@
 #pragma once
 /// Impacts that come in crowds: at one instant, without end, or in tens of millions. Each has an answer of its own to be held
-/// against; each is a row of the results and a test. But for the ball on the floor, bodies fly straight between impacts, and each
+/// against; each is a row of the results. But for the ball on the floor, bodies fly straight between impacts, and each
 /// impact comes in turn, at the time that the library finds.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/bouncing/model.hpp>
 
 namespace thinwall {
-
-/// Two bodies on one line after an impact: speeds and masses before, restitution in [0, 1].
-/// The change of each is its own product, so that neither is lost beside the other at any ratio of the masses.
-template <class S> struct LineSpeeds {
-  S a, b;  ///< [m/s]
-};
-template <class S> LineSpeeds<S> after_impact(LineSpeeds<S> before, S mass_a, S mass_b, S restitution) {
-  const S closing = (S(1) + restitution) * (before.a - before.b), mass = mass_a + mass_b;
-  return {before.a - closing * (mass_b / mass), before.b + closing * (mass_a / mass)};
-}
 
 /// A ball, or a wall that nothing moves out of its way.
 template <class Shape> struct FlyingBody {
@@ -41,57 +33,32 @@ template <class A, class B> std::optional<Toi<double>> next_impact(const FlyingB
   return toi;
 }
 
-/// Lets a ball bounce between walls for `seconds`, without loss. Impacts at one instant come one after the other, at times of
-/// impact of 0, until it parts from all. Returns how many impacts there were.
-std::int64_t fly_between(FlyingBall& ball, std::span<FlyingWall> walls, double seconds);
-
-/// Lets balls of one mass bounce off each other without loss, in any order of the list. Returns how many impacts there were.
-std::int64_t fly_together(std::vector<FlyingBall>& balls, double seconds);
+/// Lets balls of one mass bounce off each other and off walls for `seconds`, without loss. Impacts at one instant come one after the
+/// other, at times of impact of 0, until all part. Returns how many impacts there were.
+std::int64_t fly(std::span<FlyingBall> balls, std::span<FlyingWall> walls, double seconds);
 
 struct BounceScenario {
   std::string name;      ///< what is done
   std::string must;      ///< what must happen
   std::string happened;  ///< what did
   bool passed = false;
+  std::string group = {};  ///< the kind that it is of
 
   static constexpr auto fields() {
     using S = BounceScenario;
-    return record(kept("scenario", &S::name, "", "What is done."), kept("must", &S::must, "", "What must happen."),
-                  kept("happened", &S::happened, "", "What did."), kept("passed", &S::passed, "", "It is what must."));
+    return record(kept("group", &S::group, "", "Kind of scenario."), kept("scenario", &S::name, "", "What is done."),
+                  kept("must", &S::must, "", "What must happen."), kept("happened", &S::happened, "", "What did."),
+                  kept("passed", &S::passed, "", "It is what must."));
   }
-  bool operator==(const BounceScenario&) const = default;
 };
 
-/// A ball dropped from 1 m at g = 2 m/s^2 with restitution 1/2 bounces at 1, 2, 2.5, 2.75, ... s, without end before 3 s.
-/// Followed by steps of 1/4 s on the exact arc; the times are those of its impacts.
-std::vector<double> zeno_times();
-std::vector<BounceScenario> zeno_scenarios();
+/// Bounces that pile up; a ball that rests on the floor, for each policy; walls hit at one instant; ping-pong in a gap; masses far
+/// apart; a cradle; the billiard that counts the digits of pi. What each must do is derived in docs/bouncing.md.
+inline constexpr std::array<std::string_view, 7> scenario_groups = {"zeno",   "rest",   "walls", "gap",
+                                                                    "masses", "cradle", "digits"};
 
-/// A ball that rests on the floor, for each policy, over 1e5 steps.
-std::vector<BounceScenario> rest_scenarios();
-
-/// A ball flies into a corner of two walls, and of three, and touches them at one instant; in every order of the walls.
-std::vector<BounceScenario> corner_scenarios();
-
-/// A ball between two walls with 2^-20 m of play, for a second at 1 m/s; and a point between a wall and one that closes in.
-std::vector<BounceScenario> gap_scenarios();
-
-/// A ball hits another head-on, `ratio` times as heavy; and the other way round.
-std::vector<BounceScenario> mass_scenarios(const std::vector<double>& ratios);
-
-/// Five touching balls in a row, and one, two or three of them come in.
-std::vector<BounceScenario> cradle_scenarios();
-
-struct BlockCount {
-  std::int64_t impacts;
-  /// [m^2/s] Of the path of (heavy, light) around the corner where all three touch: |x_heavy v_light - x_light v_heavy|. An impact
-  /// only turns its sign, so that it stays what it was, 1. It is what the places say, where the speeds alone decide the count.
-  double moment;
-};
-
-/// Impacts of a block that stands 1 m from a wall while one 100^digits times as heavy comes in at 1 m/s. S: float or double.
-/// Error: right up to 5 digits in float and 7 in double, as measured.
-template <class S> BlockCount count_block_impacts(int digits);
-std::vector<BounceScenario> digit_scenarios(int most);
+/// All of one group: masses `mass_ratios` apart, and up to `digits` <= 7 digits of pi after its first, in float at most 5.
+std::vector<BounceScenario> bounce_scenarios(std::string_view group, const std::vector<double>& mass_ratios,
+                                             int digits);
 
 }  // namespace thinwall

@@ -22,6 +22,9 @@ BounceTheory depth(double delta) { return {1 + delta / 4, 1 + delta / 2, delta /
 constexpr double normal_95 = 1.959963984540054;
 constexpr std::int64_t least_for_mean = 30, least_for_spread = 100;
 
+/// Phases differ by no more than rounding: every bounce is the same.
+bool is_certain(const BounceRow& row) { return row.theory.sigma() <= rounding_of(row.cell); }
+
 void add(BounceTest& test, const BounceRow& row) {
   if (is_certain(row)) {
     const double expected = row.theory.mean(), allowed = rounding_of(row.cell) + 4 * row.theory.sigma();
@@ -44,7 +47,6 @@ void add(BounceTest& test, const BounceRow& row) {
 // Moments of u, uniform on [-1, 1]: 0, 1/3, 0, 1/5.
 double BounceTheory::mean() const { return c0 + c2 / 3; }
 double BounceTheory::sigma() const { return std::sqrt(c1 * c1 / 3 + 4 * c2 * c2 / 45); }
-double BounceTheory::rms() const { return std::hypot(mean(), sigma()); }
 double BounceTheory::kurtosis() const {
   const auto fourth = [&](double x) { return std::pow(at(x) - mean(), 4); };
   const double moment =
@@ -54,25 +56,22 @@ double BounceTheory::kurtosis() const {
 
 BounceTheory bounce_theory(std::string_view policy, double delta, double restitution) {
   const double e = restitution;
-  if (policy == ProjectAndFlip::name) return late_speed(delta, e);
-  if (policy == FlipOnly::name) return late_speed(delta, e) + -1.0 * depth(delta);
-  if (policy == LinearToi::name) return late_speed(delta, e) + e * depth(delta);
-  if (policy == ExactAndProject::name) return e * e * depth(delta);
-  if (policy == ParabolaToi::name) return {};
+  if (policy == "project_flip") return late_speed(delta, e);
+  if (policy == "flip_only") return late_speed(delta, e) + -1.0 * depth(delta);
+  if (policy == "linear_toi") return late_speed(delta, e) + e * depth(delta);
+  if (policy == "exact_project") return e * e * depth(delta);
+  if (policy == "parabola_toi") return {};
   throw std::logic_error("no theory for the policy '" + std::string(policy) + "'");
 }
 
-double random_phase_mean(int drift, double delta, double bounces) {
-  const double speed = 1 + drift * delta * bounces / 2;
+double random_phase_mean(const BouncePolicy& policy, const BounceCell& cell, double bounces) {
+  const double speed = 1 + policy.drift * delta(cell) * bounces / 2;
   return speed > 0 ? speed * speed : 0;
 }
 
-double random_phase_sigma(int drift, double sigma, double delta, double bounces) {
-  return std::sqrt(random_phase_mean(drift, delta, bounces) * bounces) * delta * sigma;
-}
-
-double standard_error(const BounceRow& row) {
-  return row.theory.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
+double random_phase_sigma(const BouncePolicy& policy, const BounceCell& cell, double bounces) {
+  const double sigma = bounce_theory(policy.name, 0, 1).sigma();
+  return std::sqrt(random_phase_mean(policy, cell, bounces) * bounces) * delta(cell) * sigma;
 }
 
 Interval mean_interval(const BounceRow& row) {
@@ -80,32 +79,18 @@ Interval mean_interval(const BounceRow& row) {
   return {row.tally.mean - half, row.tally.mean + half};
 }
 
-bool is_certain(const BounceRow& row) { return row.theory.sigma() <= rounding_of(row.cell); }
-
 std::optional<double> mean_residual(const BounceRow& row) {
   if (is_certain(row)) return std::nullopt;
   const double difference = row.tally.mean - row.theory.mean();
   const double beyond = std::max(0.0, std::abs(difference) - rounding_of(row.cell));
-  return std::copysign(beyond / standard_error(row), difference);
+  const double standard_error = row.theory.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
+  return std::copysign(beyond / standard_error, difference);
 }
 
 std::optional<double> variance_residual(const BounceRow& row) {
   if (is_certain(row) || row.tally.trials < least_for_spread) return std::nullopt;
   const double n = static_cast<double>(row.tally.trials), s = row.tally.sigma() / row.theory.sigma();
   return (s * s - 1) / std::sqrt((row.theory.kurtosis() - (n - 3) / (n - 1)) / n);
-}
-
-std::vector<BounceRow> bounce_rows(const std::vector<BounceCell>& cells, const std::vector<BouncePolicy>& policies,
-                                   const std::vector<BounceTally>& tallies) {
-  std::vector<BounceRow> rows;
-  rows.reserve(tallies.size());
-  for (const BounceCell& cell : cells) {
-    for (const BouncePolicy& policy : policies) {
-      rows.push_back(
-          {cell, policy.name, bounce_theory(policy.name, delta(cell), cell.restitution), tallies[rows.size()]});
-    }
-  }
-  return rows;
 }
 
 std::optional<Interval> BounceTest::covered_allowed() const {
@@ -126,7 +111,5 @@ std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
   }
   return tests;
 }
-
-bool all_passed(const std::vector<BounceTest>& tests) { return std::ranges::all_of(tests, &BounceTest::passed); }
 
 }  // namespace thinwall

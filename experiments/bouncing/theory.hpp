@@ -21,7 +21,6 @@ struct BounceTheory {
   double at(double u) const { return c0 + u * (c1 + u * c2); }
   double mean() const;      ///< [g h / V] over uniform phases
   double sigma() const;     ///< [g h / V] standard deviation over them
-  double rms() const;       ///< [g h / V] root of the mean square
   double kurtosis() const;  ///< [1] fourth moment about the mean over the variance's square; 9/5 if c2 is 0
 };
 
@@ -29,44 +28,37 @@ struct BounceTheory {
 BounceTheory bounce_theory(std::string_view policy, double delta, double restitution);
 
 /// [1] What the mean energy of a long run and its standard deviation would be if every phase were random, to first order: V changes by
-/// drift g h / 2 a bounce, of standard deviation `sigma` [g h / V] of the energy.
-double random_phase_mean(int drift, double delta, double bounces);
-double random_phase_sigma(int drift, double sigma, double delta, double bounces);
+/// drift g h / 2 a bounce, of the standard deviation of the energy.
+double random_phase_mean(const BouncePolicy& policy, const BounceCell& cell, double bounces);
+double random_phase_sigma(const BouncePolicy& policy, const BounceCell& cell, double bounces);
 
 /// A cell, a policy, what was measured and what theory expects.
 struct BounceRow {
   BounceCell cell;
-  std::string policy;
-  BounceTheory theory;
+  BouncePolicy policy;
   BounceTally tally;
+  BounceTheory theory = bounce_theory(policy.name, delta(cell), cell.restitution);
 };
 
-double standard_error(const BounceRow& row);   ///< [g h / V] of the mean, by theory
 Interval mean_interval(const BounceRow& row);  ///< [g h / V] 95 % normal interval around the measured mean
-bool is_certain(const BounceRow& row);         ///< phases differ by no more than rounding: every bounce is the same
-/// Standard errors between the mean and theory, where the two differ by more than rounding; nothing where it is certain.
+/// Standard errors between the mean and theory, where the two differ by more than rounding; nothing where every bounce is the same.
 std::optional<double> mean_residual(const BounceRow& row);
 /// The same of the variance, whose standard error follows from the kurtosis; nothing below 100 trials.
 std::optional<double> variance_residual(const BounceRow& row);
 
-/// `tallies[i]` is of cell i / policies and policy i % policies.
-std::vector<BounceRow> bounce_rows(const std::vector<BounceCell>& cells, const std::vector<BouncePolicy>& policies,
-                                   const std::vector<BounceTally>& tallies);
-
 /// The verdict on one policy. A right theory fails by chance about once in 300 times for each.
 struct BounceTest {
-  std::string policy;
+  BouncePolicy policy;
   std::int64_t certain_cells = 0;  ///< every bounce must give what theory says, to rounding
   std::int64_t certain_wrong = 0;  ///< ... and does not
   std::int64_t covered = 0;        ///< of the judged means, those whose 95 % interval holds the theory
   ResidualTest means = {};         ///< of cells with at least 30 bounces, and phases that matter
   ResidualTest variances = {};     ///< of those with at least 100
   std::int64_t other_cells = 0;    ///< too few bounces to judge
-  std::optional<Interval> covered_allowed()
-      const;  ///< central 99.9 % of Binomial(judged, 0.95); missing if nothing is judged
+  /// Central 99.9 % of Binomial(judged, 0.95); missing if nothing is judged.
+  std::optional<Interval> covered_allowed() const;
   bool passed() const;
 };
 std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows);  ///< by policy
-bool all_passed(const std::vector<BounceTest>& tests);
 
 }  // namespace thinwall
