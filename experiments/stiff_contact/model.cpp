@@ -62,8 +62,6 @@ struct Stepper {
 
 }  // namespace
 
-std::string_view name(Detection detection) { return detection == Detection::discrete ? "discrete" : "toi_split"; }
-
 double reach(const Approach& e) { return e.radius + e.thickness / 2; }
 Spring spring_of(const Approach& e, const PenaltyContact& c) { return spring_of(e.mass, c.stiffness, c.damping_ratio); }
 double seconds(const Approach& e, const PenaltyContact& c) { return c.step / frequency(spring_of(e, c)); }
@@ -99,8 +97,6 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
   }
   return result;
 }
-
-double ContactTally::rms_error() const { return std::sqrt(square_error / static_cast<double>(returned)); }
 
 ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count) {
   const std::array factors = {e.mass,      e.speed,         e.radius, e.thickness,
@@ -213,12 +209,12 @@ std::vector<ContactRow> measured_wall(const StiffPlan& plan, PenaltyContact wall
   return rows;
 }
 
-std::vector<RaceRow> measured_race(const StiffPlan& plan, double ratio) {
+std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio) {
   constexpr double round_ns = 2e5;  // so that few rounds are interrupted
   std::vector<double> phases;
   for (std::int64_t i = 0; i < plan.race_bounces; ++i)
     phases.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(plan.race_bounces));
-  std::vector<RaceRow> rows;
+  std::vector<ContactRow> rows;
   std::vector<TimedLoop<double>> loops;
   for (const Scheme scheme : all_schemes) {
     for (const Detection detection : all_detections) {

@@ -4,6 +4,7 @@
 /// Contact is the library's: `contact` at the poses, `time_of_impact` between them.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -20,7 +21,9 @@ enum class Detection {
   toi_split,  ///< a step that meets the wall is split at the time of impact, and its rest pushes
 };
 inline constexpr std::array all_detections = {Detection::discrete, Detection::toi_split};
-std::string_view name(Detection detection);
+constexpr std::string_view name(Detection detection) {
+  return detection == Detection::discrete ? "discrete" : "toi_split";
+}
 
 /// What flies at what.
 struct Approach {
@@ -42,7 +45,8 @@ struct PenaltyContact {
   bool operator==(const PenaltyContact&) const = default;
   static constexpr auto fields() {
     using C = PenaltyContact;
-    return record(kept("scheme", &C::scheme), kept("detection", &C::detection),
+    return record(kept("scheme", &C::scheme, "", "How a step is computed."),
+                  kept("detection", &C::detection, "", "discrete: at the poses; toi_split: at the time of impact."),
                   kept("stiffness", &C::stiffness, "N/m", "Of the spring."),
                   kept("damping_ratio", &C::damping_ratio, "1", "damping / (2 sqrt(stiffness mass))."),
                   kept("step", &C::step, "1/omega", "Time step, with omega = sqrt(stiffness / mass)."));
@@ -99,7 +103,7 @@ struct ContactTally {
 
   std::int64_t bounces() const { return returned + escaped + unfinished; }
   double mean_speed() const { return speed_sum / static_cast<double>(returned); }
-  double rms_error() const;
+  double rms_error() const { return std::sqrt(square_error / static_cast<double>(returned)); }
   double spread() const { return fastest - slowest; }
 };
 
@@ -138,7 +142,8 @@ struct LimitRow {
 
   static constexpr auto fields() {
     using L = LimitRow;
-    return record(kept("scheme", &L::scheme), kept("stiffness", &L::stiffness, "N/m", "Of the spring."),
+    return record(kept("scheme", &L::scheme, "", "How a step is computed."),
+                  kept("stiffness", &L::stiffness, "N/m", "Of the spring."),
                   kept("damping_ratio", &L::ratio, "1", "damping / (2 sqrt(stiffness mass))."),
                   kept("limit", &L::theory, "1/omega", "By formula; missing where every step is stable."),
                   part(&L::bracket), kept("blow_ups", &L::blow_ups));
@@ -150,28 +155,24 @@ LimitRow measured_spring(const StiffPlan& plan, Scheme scheme, double stiffness,
 struct ContactRow {
   PenaltyContact contact;
   ContactTally tally;
-  static constexpr auto fields() { return record(part(&ContactRow::contact), part(&ContactRow::tally)); }
+  std::vector<double> nanoseconds = {};  ///< a bounce, round by round; of the race alone
+
+  static constexpr auto fields() {
+    using R = ContactRow;
+    return record(part(&R::contact), part(&R::tally), kept("nanoseconds", &R::nanoseconds));
+  }
 };
 /// At each step of the plan in place of the wall's own.
 std::vector<ContactRow> measured_wall(const StiffPlan& plan, PenaltyContact wall);
 
-/// Error against run time.
-struct RaceRow {
-  PenaltyContact contact;
-  ContactTally tally;
-  std::vector<double> nanoseconds;  ///< a bounce, round by round
-  static constexpr auto fields() {
-    return record(part(&RaceRow::contact), part(&RaceRow::tally), kept("nanoseconds", &RaceRow::nanoseconds));
-  }
-};
 /// Every scheme and detection at the greatest stiffness, from rough to fine steps: the same bounces, timed in interleaved rounds.
-std::vector<RaceRow> measured_race(const StiffPlan& plan, double ratio);
+std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio);
 
 struct StiffResults {
   StiffPlan plan;
   std::vector<LimitRow> limits;
   std::vector<ContactRow> bounces;
-  std::vector<RaceRow> racers;
+  std::vector<ContactRow> racers;
 };
 
 }  // namespace thinwall

@@ -28,15 +28,6 @@ Motion implicit_step(const Spring& spring, Pull pull, double step, const Motion&
 
 }  // namespace
 
-std::string_view name(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::explicit_euler: return "explicit_euler";
-    case Scheme::semi_implicit: return "semi_implicit";
-    case Scheme::implicit_euler: return "implicit_euler";
-  }
-  return "";
-}
-
 Spring spring_of(double mass, double stiffness, double ratio) {
   return {mass, stiffness, 2 * ratio * std::sqrt(stiffness) * std::sqrt(mass)};
 }

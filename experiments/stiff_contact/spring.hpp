@@ -12,7 +12,10 @@ namespace thinwall {
 
 enum class Scheme { explicit_euler, semi_implicit, implicit_euler };
 inline constexpr std::array all_schemes = {Scheme::explicit_euler, Scheme::semi_implicit, Scheme::implicit_euler};
-std::string_view name(Scheme scheme);
+constexpr std::string_view name(Scheme scheme) {
+  constexpr std::array<std::string_view, 3> names = {"explicit_euler", "semi_implicit", "implicit_euler"};
+  return names[static_cast<std::size_t>(scheme)];
+}
 
 struct Spring {
   double mass;       ///< [kg] > 0

@@ -13,6 +13,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -23,78 +24,61 @@ namespace thinwall {
 
 namespace {
 
-template <class Row>
-std::vector<Row> chosen(const std::vector<Row>& rows, const std::function<bool(const Row&)>& is_it) {
-  std::vector<Row> result;
-  std::ranges::copy_if(rows, std::back_inserter(result), is_it);
-  return result;
-}
+using Row = ContactRow;
 
 template <class T> bool is_in(const std::vector<T>& all, const T& x) { return std::ranges::find(all, x) != all.end(); }
 
-template <class Row> bool has_returned(const Row& row) { return row.tally.returned > 0; }
-template <class Row> double rms_error(const Row& row) { return row.tally.rms_error(); }
-double spread(const ContactRow& row) { return row.tally.fastest - row.tally.slowest; }
-
-/// [1] Deepest over what continuous time has.
-double relative_depth(const StiffPlan& plan, const ContactRow& row) {
-  const double omega = frequency(spring_of(plan.approach, row.contact));
-  return row.tally.deepest * omega / (plan.approach.speed * deepest(row.contact.damping_ratio));
+bool has_returned(const Row& row) { return row.tally.returned > 0; }
+bool all_returned(const Row& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
+double mean_speed(const Row& row) { return row.tally.mean_speed(); }
+double rms_error(const Row& row) { return row.tally.rms_error(); }
+double spread(const Row& row) { return row.tally.spread(); }
+double ratio_of(const Row& row) { return row.contact.damping_ratio; }
+std::string method_of(const Row& row) {
+  return fmt::format("{} {}", name(row.contact.scheme), name(row.contact.detection));
 }
 
-std::string method_of(const PenaltyContact& c) { return fmt::format("{} {}", name(c.scheme), name(c.detection)); }
+/// [1] Deepest over what continuous time has.
+double relative_depth(const StiffPlan& plan, const Row& row) {
+  const double omega = frequency(spring_of(plan.approach, row.contact));
+  return row.tally.deepest * omega / (plan.approach.speed * deepest(ratio_of(row)));
+}
 
 // Who is cheapest at which error.
 
-double time_of(const RaceRow& row) { return median(row.nanoseconds); }
-
-/// [ns] The 95 % bootstrap interval of the median.
-Interval time_interval(const RaceRow& row) {
-  constexpr RandomStream resampling = {0, 0x7374696666};  // any constant: the interval depends on the times alone
-  return bootstrap_median(row.nanoseconds, resampling);
-}
-
-bool all_returned(const RaceRow& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
+double time_of(const Row& row) { return median(row.nanoseconds); }
+Interval time_interval(const Row& row) { return median_of_rounds(row.nanoseconds).interval; }
 
 /// Of those of one damping ratio, all of whose bounces returned: whom nobody beats in both error and time, from the finest to the
 /// coarsest.
-std::vector<RaceRow> front_of(const std::vector<RaceRow>& racers, double ratio) {
-  auto all =
-      chosen<RaceRow>(racers, [&](const RaceRow& r) { return r.contact.damping_ratio == ratio && all_returned(r); });
-  std::ranges::stable_sort(all, {}, [](const RaceRow& r) { return r.tally.square_error; });
-  std::vector<RaceRow> front;
-  for (const RaceRow& r : all) {
+std::vector<Row> front_of(const std::vector<Row>& racers, double ratio) {
+  auto all = rows_where(racers, [&](const Row& r) { return ratio_of(r) == ratio && all_returned(r); });
+  std::ranges::stable_sort(all, {}, [](const Row& r) { return r.tally.square_error; });
+  std::vector<Row> front;
+  for (const Row& r : all) {
     if (front.empty() || time_of(r) < time_of(front.back())) front.push_back(r);
   }
   return front;
 }
 
 /// Of each damping ratio, scheme and detection the cheapest whose error is at most this, if there is one.
-std::vector<RaceRow> cheapest(const std::vector<RaceRow>& racers, double error) {
-  const auto good = chosen<RaceRow>(racers, [&](const RaceRow& r) { return all_returned(r) && rms_error(r) <= error; });
-  std::vector<RaceRow> best;
-  for (const Group<RaceRow>& group :
-       group_by(good, [](const RaceRow& r) { return std::pair(r.contact.damping_ratio, method_of(r.contact)); }))
-    best.push_back(**std::ranges::min_element(group, {}, [](const RaceRow* r) { return time_of(*r); }));
+std::vector<Row> cheapest(const std::vector<Row>& racers, double error) {
+  const auto good = rows_where(racers, [&](const Row& r) { return all_returned(r) && rms_error(r) <= error; });
+  std::vector<Row> best;
+  for (const Group<Row>& group : group_by(good, [](const Row& r) { return std::pair(ratio_of(r), method_of(r)); }))
+    best.push_back(**std::ranges::min_element(group, {}, [](const Row* r) { return time_of(*r); }));
   return best;
 }
 
 // What the tables show.
 
-template <class Row> Columns<Row> contact_columns() {
-  return columns_of<Row>(text("scheme", "How a step is computed.", [](const Row& r) { return name(r.contact.scheme); }),
-                         text("detection", "discrete: at the poses; toi_split: at the time of impact.",
-                              [](const Row& r) { return name(r.contact.detection); }),
-                         fields(&Row::contact));
+auto error_column() {
+  return where(has_returned,
+               value("speed_error", "1", "Root mean square error of speed out over speed in.", rms_error));
 }
 
-template <class Row> auto error_column() {
-  return where(has_returned<Row>,
-               value("speed_error", "1", "Root mean square error of speed out over speed in.", rms_error<Row>));
-}
-
-template <class Row> auto contact_steps_column() {
-  return where(has_returned<Row>, value("contact_steps", "1", "Mean number of steps that pushed.", [](const Row& r) {
+auto contact_steps_column() {
+  return where(has_returned, value("contact_steps", "1", "Mean number of steps that pushed.", [](const Row& r) {
                  return static_cast<double>(r.tally.contact_steps) / static_cast<double>(r.tally.returned);
                }));
 }
@@ -107,104 +91,88 @@ Table claims_table(const std::vector<StiffClaim>& claims) {
   return in_report(table("self_test", "What theory claims, and how often it was wrong.", columns, claims));
 }
 
-Columns<LimitRow> spring_columns() {
-  return columns_of<LimitRow>(
-      text("scheme", "How a step is computed.", [](const LimitRow& r) { return name(r.scheme); }),
-      fields([](const LimitRow& r) -> const LimitRow& { return r; }));
-}
-
 Table limits_table(const std::vector<LimitRow>& rows) {
-  return table(
-      "limits", "The largest stable step of a spring that holds both ways, measured and by formula.",
-      columns_of<LimitRow>(spring_columns(), value("inside", "", "The limit lies between the two.", holds_theory)),
-      rows);
+  return table("limits", "The largest stable step of a spring that holds both ways, measured and by formula.",
+               columns_of<LimitRow>(fields(std::identity()),
+                                    value("inside", "", "The limit lies between the two.", holds_theory)),
+               rows);
 }
 
-/// Every step of the map: the limits' columns, and what the step does.
 Table stability_table(const StiffPlan& plan, const std::vector<LimitRow>& limits) {
-  Table map = table("stability", "The map: what each step does to a spring that holds both ways.",
-                    spring_columns().without({"limit", "stable", "unstable"}), limits);
-  map.columns.push_back({"step", ColumnType::number, "1/omega", "Time step, with omega = sqrt(stiffness / mass)."});
-  map.columns.push_back(
-      {"verdict", ColumnType::text, "", "Measured: stable, unstable, or undecided (inside the bracket of the limit)."});
-  map.columns.push_back({"blow_up_step", ColumnType::integer, "1",
-                         "Steps after which the state is 2^32 times its start; missing if never."});
-  const auto springs = std::exchange(map.rows, {});
-  for (std::size_t i = 0; i < limits.size(); ++i) {
-    for (std::size_t j = 0; j < plan.steps.size(); ++j) {
-      const std::int64_t blow_up = limits[i].blow_ups[j];
-      auto& row = map.rows.emplace_back(springs[i]);
-      row.insert(row.end(),
-                 {plan.steps[j], std::string(verdict_of(plan, limits[i], j)), blow_up > 0 ? Value(blow_up) : Value()});
-    }
-  }
-  return map;
+  const auto columns = columns_of<MapStep>(
+      fields([](const MapStep& s) -> const LimitRow& { return *s.spring; }, {"scheme", "stiffness", "damping_ratio"}),
+      value("step", "1/omega", "Time step, with omega = sqrt(stiffness / mass).", &MapStep::step),
+      text("verdict", "Measured: stable, unstable, or undecided (inside the bracket of the limit).", &MapStep::verdict),
+      where([](const MapStep& s) { return s.blow_up > 0; },
+            value("blow_up_step", "1", "Steps after which the state is 2^32 times its start; missing if never.",
+                  &MapStep::blow_up)));
+  return table("stability", "The map: what each step does to a spring that holds both ways.", columns,
+               map_of(plan, limits));
 }
 
-Table bounces_table(const StiffPlan& plan, const std::vector<ContactRow>& rows) {
-  using Row = ContactRow;
+Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
   const auto square = [](double ContactTally::*speed) {
     return [speed](const Row& r) { return r.tally.*speed * (r.tally.*speed); };
   };
   const auto of_returned =
-      columns_of<Row>(value("speed_mean", "1", "The mean of it.", [](const Row& r) { return r.tally.mean_speed(); }),
-                      fields(&Row::tally, {"speed_max"}),
+      columns_of<Row>(value("speed_mean", "1", "The mean of it.", mean_speed), fields(&Row::tally, {"speed_max"}),
                       value("energy_min", "1", "The least energy out over energy in.", square(&ContactTally::slowest)),
                       value("energy_max", "1", "The greatest.", square(&ContactTally::fastest)));
   const auto columns = columns_of<Row>(
-      contact_columns<Row>(),
+      fields(&Row::contact),
       value("path", "m", "How far the ball flies in a step.",
             [&](const Row& r) { return step_path(plan.approach, r.contact); }),
       value("bounces", "1", "Asked, each at a phase of its own.", [](const Row& r) { return r.tally.bounces(); }),
       fields(&Row::tally, {"returned", "escaped", "unfinished", "blown_up", "blow_up_step", "speed_min"}),
-      where(has_returned<Row>, of_returned),
+      where(has_returned, of_returned),
       value("speed_exact", "1", "Speed out over speed in, in continuous time.",
-            [](const Row& r) { return restitution(r.contact.damping_ratio); }),
-      error_column<Row>(), contact_steps_column<Row>(), fields(&Row::tally, {"depth_max"}),
-      where(has_returned<Row>, value("depth_ratio", "1", "The same over the depth in continuous time.",
-                                     [&](const Row& r) { return relative_depth(plan, r); })));
+            [](const Row& r) { return restitution(ratio_of(r)); }),
+      error_column(), contact_steps_column(), fields(&Row::tally, {"depth_max"}),
+      where(has_returned, value("depth_ratio", "1", "The same over the depth in continuous time.",
+                                [&](const Row& r) { return relative_depth(plan, r); })));
   return table("bounces", "A wall that only pushes: every cell, over all phases.", columns, rows);
 }
 
 /// Discrete detection beside split steps, at the greatest stiffness, where every bounce came back.
 Table detection_table(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
-  const auto split = [&](const ContactRow& r) -> const ContactRow& { return *twin_of(results.bounces, r); };
-  const auto rows = chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
+  const auto split = [&](const Row& r) -> const Row& { return twin_of(results.bounces, r); };
+  const auto rows = rows_where(results.bounces, [&](const Row& r) {
     return r.contact.detection == Detection::discrete && r.contact.stiffness == plan.stiffest() && is_clean(plan, r) &&
            is_clean(plan, split(r));
   });
   const auto both = [&](const std::string& what, const std::string& description, const auto& read) {
-    return columns_of<ContactRow>(value(what + "_discrete", "1", description + ": at the poses.", read),
-                                  value(what + "_split", "1", "The same with split steps.",
-                                        [read, split](const ContactRow& r) { return read(split(r)); }));
+    return columns_of<Row>(value(what + "_discrete", "1", description + ": at the poses.", read),
+                           value(what + "_split", "1", "The same with split steps.",
+                                 [read, split](const Row& r) { return read(split(r)); }));
   };
-  return table(
-      "detection", "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.",
-      columns_of<ContactRow>(contact_columns<ContactRow>().without({"detection", "stiffness"}),
-                             both("error", "Root mean square error of speed out over speed in", rms_error<ContactRow>),
-                             both("spread", "Greatest less least speed out over speed in", spread),
-                             both("depth", "Deepest over the depth in continuous time",
-                                  [&](const ContactRow& r) { return relative_depth(plan, r); })),
-      rows);
+  return table("detection",
+               "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.",
+               columns_of<Row>(fields(&Row::contact, {"scheme", "damping_ratio", "step"}),
+                               both("error", "Root mean square error of speed out over speed in", rms_error),
+                               both("spread", "Greatest less least speed out over speed in", spread),
+                               both("depth", "Deepest over the depth in continuous time",
+                                    [&](const Row& r) { return relative_depth(plan, r); })),
+               rows);
 }
 
-Table race_table(const std::vector<RaceRow>& racers) {
-  const auto bounces = [](const RaceRow& r) { return r.tally.bounces(); };
+auto racer_columns() { return fields(&Row::contact, {"scheme", "detection", "damping_ratio", "step"}); }
+
+Table race_table(const std::vector<Row>& racers) {
   return table("race", "The error of a bounce against the number of its steps.",
-               columns_of<RaceRow>(contact_columns<RaceRow>().without({"stiffness"}),
-                                   fields(&RaceRow::tally, {"returned"}), value("bounces", "1", "Asked.", bounces),
-                                   error_column<RaceRow>(), contact_steps_column<RaceRow>()),
+               columns_of<Row>(racer_columns(), fields(&Row::tally, {"returned"}),
+                               value("bounces", "1", "Asked.", [](const Row& r) { return r.tally.bounces(); }),
+                               error_column(), contact_steps_column()),
                racers);
 }
 
-Table times_table(const std::vector<RaceRow>& racers) {
-  const auto columns = columns_of<RaceRow>(
-      contact_columns<RaceRow>().without({"stiffness"}), error_column<RaceRow>(),
+Table times_table(const std::vector<Row>& racers) {
+  const auto columns = columns_of<Row>(
+      racer_columns(), error_column(),
       value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.", time_of),
       value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
-            [](const RaceRow& r) { return time_interval(r).lower; }),
-      value("upper_ns", "ns", "Upper end of it.", [](const RaceRow& r) { return time_interval(r).upper; }));
+            [](const Row& r) { return time_interval(r).lower; }),
+      value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_interval(r).upper; }));
   return timing(table("timings", "Time a bounce, on this machine, with every core at work: medians over rounds.",
                       columns, racers));
 }
@@ -226,7 +194,7 @@ Plot plot_of(const std::vector<Point>& points, std::string x_label, std::string 
       value("x", "", "", &Point::x),
       ValueColumn{"y", "", "", &Point::y, has_bars ? "lower" : "", has_bars ? "upper" : ""},
       text("label", "", &Point::label), value("lower", "", "", &Point::lower), value("upper", "", "", &Point::upper));
-  return plot(table("drawn", "", columns, points))
+  return plot(columns, points)
       .x("x", Axis::log, std::move(x_label))
       .y("y", Axis::log, std::move(y_label))
       .by("label")
@@ -241,22 +209,20 @@ Figure stability_figure(const StiffResults& results) {
       .title = "Which steps a spring and damper can take",
       .caption = fmt::format("Points: what the steps of the map do, at {:g} N/m. Bars, thinner than the line: "
                              "the measured limit at every stiffness from {:g} to {:g} N/m.",
-                             plan.stiffness.front(), plan.stiffness.front(), plan.stiffest()),
-      .panels = {}};
+                             plan.stiffness.front(), plan.stiffness.front(), plan.stiffest())};
   if (plan.ratios.back() == 0) return figure;  // which has no place on the axis
+  const std::vector<MapStep> map = map_of(plan, results.limits);
   for (const Scheme scheme : all_schemes) {
     std::vector<Point> points;
+    for (const MapStep& s : map) {
+      const LimitRow& r = *s.spring;
+      if (r.scheme == scheme && r.ratio != 0 && r.stiffness == plan.stiffness.front() && s.verdict != "undecided")
+        points.push_back({r.ratio, s.step, s.verdict == "stable" ? "decays" : "grows"});
+    }
     for (const LimitRow& r : results.limits) {
-      if (r.scheme != scheme || r.ratio == 0) continue;
-      for (std::size_t i = 0; i < plan.steps.size() && r.stiffness == plan.stiffness.front(); ++i) {
-        const std::string_view verdict = verdict_of(plan, r, i);
-        if (verdict != "undecided")
-          points.push_back({r.ratio, plan.steps[i], verdict == "stable" ? "decays" : "grows"});
-      }
-      if (r.theory) {
-        const auto [stable, unstable] = r.bracket;
-        points.push_back({r.ratio, std::sqrt(stable * unstable), "measured limit, every stiffness", stable, unstable});
-      }
+      if (r.scheme != scheme || r.ratio == 0 || !r.theory) continue;
+      const auto [stable, unstable] = r.bracket;
+      points.push_back({r.ratio, std::sqrt(stable * unstable), "measured limit, every stiffness", stable, unstable});
     }
     figure.panels.push_back(plot_of(points, "damping ratio zeta [1]", fmt::format("h omega [1], {}", name(scheme)))
                                 .curve("formula", [scheme](double ratio) {
@@ -267,10 +233,9 @@ Figure stability_figure(const StiffResults& results) {
 }
 
 /// At the greatest stiffness, and at steps at which a bounce is no matter of chance.
-std::vector<ContactRow> clean_rows(const StiffResults& results, double ratio) {
-  return chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
-    const PenaltyContact& c = r.contact;
-    return c.stiffness == results.plan.stiffest() && c.damping_ratio == ratio && c.step <= last_step_of_bounces &&
+std::vector<Row> clean_rows(const StiffResults& results) {
+  return rows_where(results.bounces, [&](const Row& r) {
+    return r.contact.stiffness == results.plan.stiffest() && r.contact.step <= last_step_of_bounces &&
            is_clean(results.plan, r);
   });
 }
@@ -284,25 +249,23 @@ Figure bounce_figure(const StiffResults& results) {
       .title = "What one bounce off a wall that only pushes does to the speed",
       .caption = fmt::format("Contact found at the poses, {:g} N/m. Points: the mean over the phases; bars: from "
                              "the least to the greatest.",
-                             plan.stiffest()),
-      .panels = {}};
+                             plan.stiffest())};
+  std::vector<Row> rows = clean_rows(results);
+  std::ranges::stable_sort(rows, std::greater<>(), ratio_of);  // the least damped on top
+  const auto drawn = [&](double speed) { return std::max(least_drawn, speed); };
   for (const Scheme scheme : all_schemes) {
     std::vector<Point> points;
-    std::vector<double> ratios = plan.bounce_ratios;
-    std::ranges::reverse(ratios);  // the least damped on top
-    for (const double ratio : ratios) {
-      for (const ContactRow& r : clean_rows(results, ratio)) {
-        if (r.contact.scheme != scheme || r.contact.detection != Detection::discrete) continue;
-        points.push_back({r.contact.step, std::max(least_drawn, r.tally.mean_speed()),
-                          fmt::format("damping ratio {:g}", ratio), std::max(least_drawn, r.tally.slowest),
-                          std::max(least_drawn, r.tally.fastest)});
-      }
+    for (const Row& r : rows) {
+      if (r.contact.scheme != scheme || r.contact.detection != Detection::discrete) continue;
+      points.push_back({r.contact.step, drawn(mean_speed(r)), fmt::format("damping ratio {:g}", ratio_of(r)),
+                        drawn(r.tally.slowest), drawn(r.tally.fastest)});
     }
     if (points.empty()) continue;
     Plot panel = plot_of(points, step_label, fmt::format("speed out / in [1], {}", name(scheme)));
-    for (const double ratio : ratios) panel.curve("continuous time", [ratio](double) { return restitution(ratio); });
+    for (const double ratio : plan.bounce_ratios)
+      panel.curve("continuous time", [ratio](double) { return restitution(ratio); });
     for (double Interval::*end : {&Interval::lower, &Interval::upper}) {
-      if (scheme != Scheme::semi_implicit || ratios.back() != 0) continue;
+      if (scheme != Scheme::semi_implicit || plan.bounce_ratios.front() != 0) continue;
       panel.curve(
           "bounds, undamped", [=](double step) { return *bounce_bounds(std::min(step, last_bound)).*end; },
           plan.bounce_steps.front(), last_bound);
@@ -329,15 +292,13 @@ Figure escape_figure(const StiffResults& results) {
       .title = "Who gets through the wall",
       .caption = fmt::format("{:g} m/s, {:g} kg, radius {:g} m, a wall of {:g} m, damping ratio {:g}. Too fast: "
                              "more than {:g} times the incoming speed.",
-                             e.speed, e.mass, e.radius, e.thickness, ratio, e.blow_up),
-      .panels = {}};
+                             e.speed, e.mass, e.radius, e.thickness, ratio, e.blow_up)};
   for (const Scheme scheme : {Scheme::semi_implicit, Scheme::implicit_euler}) {
     for (const Detection detection : all_detections) {
       std::vector<Point> points;
-      for (const ContactRow& r : results.bounces) {
-        const PenaltyContact& c = r.contact;
-        if (c.scheme == scheme && c.detection == detection && c.damping_ratio == ratio)
-          points.push_back({c.step, c.stiffness, fate_of(r.tally)});
+      for (const Row& r : results.bounces) {
+        if (r.contact.scheme == scheme && r.contact.detection == detection && ratio_of(r) == ratio)
+          points.push_back({r.contact.step, r.contact.stiffness, fate_of(r.tally)});
       }
       figure.panels.push_back(
           plot_of(points, step_label,
@@ -363,19 +324,17 @@ Figure detection_figure(const StiffResults& results) {
       .title = "Contact found at the poses, and steps split at the time of impact",
       .caption = fmt::format("Damping ratio {:g}, {:g} N/m. Above what depends on the phase, in the middle the "
                              "root mean square against continuous time, below the greatest depth.",
-                             ratio, plan.stiffest()),
-      .panels = {}};
-  const auto add_panel = [&](const char* label, const std::function<double(const ContactRow&)>& read) {
+                             ratio, plan.stiffest())};
+  const auto add_panel = [&](const char* label, const std::function<double(const Row&)>& read) {
     std::vector<Point> points;
-    for (const ContactRow& r : clean_rows(results, ratio)) {
-      if (read(r) > 0) points.push_back({r.contact.step, read(r), method_of(r.contact)});
+    for (const Row& r : clean_rows(results)) {
+      if (ratio_of(r) == ratio && read(r) > 0) points.push_back({r.contact.step, read(r), method_of(r)});
     }
     if (!points.empty()) figure.panels.push_back(joined(plot_of(points, step_label, label)));
   };
-  add_panel("speed ratio, greatest - least [1]",
-            [&](const ContactRow& r) { return std::max(least_spread, spread(r)); });
-  add_panel("speed ratio, error [1]", rms_error<ContactRow>);
-  add_panel("depth / depth in continuous time [1]", [&](const ContactRow& r) { return relative_depth(plan, r); });
+  add_panel("speed ratio, greatest - least [1]", [&](const Row& r) { return std::max(least_spread, spread(r)); });
+  add_panel("speed ratio, error [1]", rms_error);
+  add_panel("depth / depth in continuous time [1]", [&](const Row& r) { return relative_depth(plan, r); });
   return figure;
 }
 
@@ -386,14 +345,13 @@ Figure race_figure(const StiffResults& results) {
       .caption = fmt::format("From the roughest step to the finest, {:g} N/m, where all bounces come back. Bars, "
                              "mostly hidden by their points: 95 % bootstrap intervals of the median.",
                              results.plan.stiffest()),
-      .panels = {},
       .is_timing = true};
   for (const double ratio : results.plan.bounce_ratios) {
     std::vector<Point> points;
-    for (const RaceRow& r : results.racers) {
-      if (r.contact.damping_ratio != ratio || !all_returned(r) || !(r.tally.square_error > 0)) continue;
+    for (const Row& r : results.racers) {
+      if (ratio_of(r) != ratio || !all_returned(r) || !(r.tally.square_error > 0)) continue;
       const Interval time = time_interval(r);
-      points.push_back({rms_error(r), time_of(r), method_of(r.contact), time.lower, time.upper});
+      points.push_back({rms_error(r), time_of(r), method_of(r), time.lower, time.upper});
     }
     if (points.empty()) continue;
     figure.panels.push_back(joined(plot_of(points, "root mean square error of speed out over speed in [1]",
@@ -409,38 +367,33 @@ std::string percent(std::int64_t part, std::int64_t whole) {
 }
 
 /// Undamped (or least damped), at the greatest stiffness, at the poses: at up to four of the steps below 2, or at the last of them.
-std::vector<ContactRow> told_rows(const StiffResults& results) {
+std::vector<Row> told_rows(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
-  std::vector<double> steps;
-  for (const double wanted : {0.1, 0.3, 1.5, 1.9}) {
-    if (is_in(plan.bounce_steps, wanted)) steps.push_back(wanted);
-  }
+  auto steps = rows_where(std::vector{0.1, 0.3, 1.5, 1.9}, [&](double step) { return is_in(plan.bounce_steps, step); });
   const auto last = std::ranges::lower_bound(plan.bounce_steps, 2.0);
   if (steps.empty() && last != plan.bounce_steps.begin()) steps.push_back(*std::prev(last));
-  return chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
-    const PenaltyContact& c = r.contact;
-    return c.stiffness == plan.stiffest() && c.detection == Detection::discrete &&
-           c.damping_ratio == plan.bounce_ratios.front() && is_in(steps, c.step);
+  return rows_where(results.bounces, [&](const Row& r) {
+    return r.contact.stiffness == plan.stiffest() && r.contact.detection == Detection::discrete &&
+           ratio_of(r) == plan.bounce_ratios.front() && is_in(steps, r.contact.step);
   });
 }
 
 /// Bounces off walls that would hold in continuous time.
 struct Passage {
-  PenaltyContact contact;  ///< one of them
-  ContactTally tally;
+  Row sum;
   double least_path = no_least;  ///< [reaches] the shortest path of a step that let one through
 };
 
 /// By scheme and detection, over the rows of the damping ratios.
 std::vector<Passage> passages(const StiffResults& results, const std::vector<double>& ratios) {
   const Approach& e = results.plan.approach;
-  const auto stiff = chosen<ContactRow>(results.bounces, [&](const ContactRow& r) {
-    return is_stiff_enough(results.plan, r.contact) && is_in(ratios, r.contact.damping_ratio);
+  const auto stiff = rows_where(results.bounces, [&](const Row& r) {
+    return is_stiff_enough(results.plan, r.contact) && is_in(ratios, ratio_of(r));
   });
   std::vector<Passage> all;
-  for (const Group<ContactRow>& group : group_by(stiff, [](const ContactRow& r) { return method_of(r.contact); })) {
-    Passage& p = all.emplace_back(Passage{group[0]->contact, total_of(group, &ContactRow::tally)});
-    for (const ContactRow* r : group) {
+  for (const Group<Row>& group : group_by(stiff, method_of)) {
+    Passage& p = all.emplace_back(Passage{{group[0]->contact, total_of(group, &Row::tally)}});
+    for (const Row* r : group) {
       if (r->tally.escaped > 0) p.least_path = std::min(p.least_path, step_path(e, r->contact) / reach(e));
     }
   }
@@ -454,8 +407,8 @@ std::string stiff_answer(const StiffResults& results) {
       "Euler: that lies inside the measured bracket in {} of {} springs.",
       grouped_text(std::ranges::count_if(results.limits, holds_theory)),
       grouped_text(static_cast<std::int64_t>(results.limits.size())));
-  const auto told = chosen<ContactRow>(told_rows(results),
-                                       [](const ContactRow& r) { return r.contact.scheme == Scheme::semi_implicit; });
+  const auto told =
+      rows_where(told_rows(results), [](const Row& r) { return r.contact.scheme == Scheme::semi_implicit; });
   if (!told.empty() && has_returned(told.back())) {
     text += fmt::format(
         " Stable is not enough for a wall that only pushes: at h omega = {:g} a semi-implicit bounce leaves with {:.2f} to {:.2f} "
@@ -465,8 +418,8 @@ std::string stiff_answer(const StiffResults& results) {
   const double ratio = results.plan.bounce_ratios.front();
   const std::vector<Passage> all = passages(results, {ratio});
   const auto share = [&](std::string_view method) {
-    const auto found = std::ranges::find(all, method, [](const Passage& p) { return method_of(p.contact); });
-    return percent(found->tally.escaped, found->tally.bounces());
+    const auto found = std::ranges::find(all, method, [](const Passage& p) { return method_of(p.sum); });
+    return percent(found->sum.tally.escaped, found->sum.tally.bounces());
   };
   if (!all.empty()) {
     text += fmt::format(
@@ -481,14 +434,16 @@ std::string stiff_answer(const StiffResults& results) {
 
 std::string passages_text(const StiffResults& results) {
   const auto share = [](std::string name, std::int64_t ContactTally::*count) {
-    return text(std::move(name), "", [count](const Passage& p) { return percent(p.tally.*count, p.tally.bounces()); });
+    return text(std::move(name), "",
+                [count](const Passage& p) { return percent(p.sum.tally.*count, p.sum.tally.bounces()); });
   };
-  const auto columns = columns_of<Passage>(
-      contact_columns<Passage>().without({"stiffness", "damping_ratio", "step"}),
-      value("bounces", "1", "", [](const Passage& p) { return p.tally.bounces(); }),
-      share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
-      share("too_fast", &ContactTally::blown_up),
-      where([](const Passage& p) { return p.tally.escaped > 0; }, value("least_path", "1", "", &Passage::least_path)));
+  const auto columns =
+      columns_of<Passage>(fields(&Passage::sum, {"scheme", "detection"}),
+                          value("bounces", "1", "", [](const Passage& p) { return p.sum.tally.bounces(); }),
+                          share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
+                          share("too_fast", &ContactTally::blown_up),
+                          where([](const Passage& p) { return p.sum.tally.escaped > 0; },
+                                value("least_path", "1", "", &Passage::least_path)));
   return terminal(
       table("passages",
             fmt::format("Walls stiff enough for continuous time. Too fast: over {:g} x the speed in. Least path: "
@@ -501,7 +456,7 @@ std::string stiff_summary(const StiffResults& results, const std::vector<StiffCl
   constexpr double one_percent = 0.01;
   const StiffPlan& plan = results.plan;
   const std::vector<double> ratios = {plan.ratios.front(), 0.1, 1, plan.ratios.back()};
-  const auto springs = chosen<LimitRow>(results.limits, [&](const LimitRow& r) {
+  const auto springs = rows_where(results.limits, [&](const LimitRow& r) {
     return r.stiffness == plan.stiffness.front() && is_in(ratios, r.ratio);
   });
   Table race = times_table(cheapest(results.racers, one_percent));
@@ -529,12 +484,12 @@ std::vector<Section> stiff_sections(const StiffResults& results, const std::vect
                          c.judged);
   }
   for (const double ratio : results.plan.bounce_ratios) {
-    std::string front;
-    for (const RaceRow& r : front_of(results.racers, ratio)) {
-      front += fmt::format("{}{} at h omega {:g} (error {:.1e}, {:.0f} ns)", front.empty() ? "" : "; ",
-                           method_of(r.contact), r.contact.step, rms_error(r), time_of(r));
+    std::vector<std::string> front;
+    for (const Row& r : front_of(results.racers, ratio)) {
+      front.push_back(fmt::format("{} at h omega {:g} (error {:.1e}, {:.0f} ns)", method_of(r), r.contact.step,
+                                  rms_error(r), time_of(r)));
     }
-    fronts += fmt::format("Damping ratio {:g}, from the finest: {}.\n\n", ratio, front);
+    fronts += fmt::format("Damping ratio {:g}, from the finest: {}.\n\n", ratio, fmt::join(front, "; "));
   }
   return {{"Self-test", tests}, {"Who is cheapest at which error", fronts}};
 }
@@ -560,8 +515,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const auto steps = static_cast<std::int64_t>(plan->steps.size());
   const std::int64_t bounces = plan->bounces * static_cast<std::int64_t>(plan->bounce_steps.size());
   std::vector<Task<LimitRow>> springs;
-  std::vector<Task<std::vector<ContactRow>>> walls;
-  std::vector<Task<std::vector<RaceRow>>> races;
+  std::vector<Task<std::vector<Row>>> walls, races;
   for (const Scheme scheme : all_schemes) {
     for (const double stiffness : plan->stiffness) {
       for (const double ratio : plan->ratios) {
@@ -573,8 +527,8 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
       for (const double stiffness : plan->stiffness) {
         for (const Detection detection : all_detections) {
           const PenaltyContact wall = {scheme, detection, stiffness, ratio, 0};
-          walls.push_back({fmt::format("bounce {} stiffness {} ratio {}", method_of(wall), stiffness, ratio), bounces,
-                           [=] { return measured_wall(*plan, wall); }});
+          walls.push_back({fmt::format("bounce {} stiffness {} ratio {}", method_of({wall, {}}), stiffness, ratio),
+                           bounces, [=] { return measured_wall(*plan, wall); }});
         }
       }
     }

@@ -55,31 +55,10 @@ double late_share(const StiffPlan& plan, const PenaltyContact& c) {
   return std::max(0.0, 1 - reach(plan.approach) / step_path(plan.approach, c));
 }
 
-/// `holds` says whether it does in a row, or nothing where the claim does not speak of that.
+/// `rows` are those that it speaks of.
 template <class Row, class Holds> StiffClaim claim(std::string text, const std::vector<Row>& rows, const Holds& holds) {
-  StiffClaim claim = {std::move(text)};
-  for (const Row& row : rows) {
-    const std::optional<bool> right = holds(row);
-    if (!right) continue;
-    ++claim.judged;
-    if (!*right) ++claim.wrong;
-  }
-  return claim;
-}
-
-/// Steps of the map outside of the brackets.
-StiffClaim map_claim(const StiffPlan& plan, const std::vector<LimitRow>& rows) {
-  StiffClaim sum = {"a step is stable below the limit and unstable above"};
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    const StiffClaim at_step = claim("", rows, [&](const LimitRow& row) -> std::optional<bool> {
-      const std::string_view verdict = verdict_of(plan, row, i);
-      if (verdict == "undecided") return std::nullopt;
-      return (verdict == "stable") == (!row.theory || plan.steps[i] < *row.theory);
-    });
-    sum.judged += at_step.judged;
-    sum.wrong += at_step.wrong;
-  }
-  return sum;
+  const std::int64_t right = std::ranges::count_if(rows, holds);
+  return {std::move(text), std::ssize(rows), std::ssize(rows) - right};
 }
 
 }  // namespace
@@ -95,10 +74,19 @@ double bracket_width(const LimitRow& row) {
   return bracket.stable > 0 && std::isfinite(bracket.unstable) ? bracket.unstable / bracket.stable - 1 : 0;
 }
 
-std::string_view verdict_of(const StiffPlan& plan, const LimitRow& row, std::size_t i) {
-  const double step = plan.steps[i];
-  if (row.bracket.stable < step && step < row.bracket.unstable) return "undecided";
-  return row.blow_ups[i] > 0 ? "unstable" : "stable";
+std::vector<MapStep> map_of(const StiffPlan& plan, const std::vector<LimitRow>& rows) {
+  std::vector<MapStep> map;
+  for (const LimitRow& row : rows) {
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+      const double step = plan.steps[i];
+      const bool undecided = row.bracket.stable < step && step < row.bracket.unstable;
+      map.push_back({&row, step, row.blow_ups[i],
+                     undecided             ? "undecided"
+                     : row.blow_ups[i] > 0 ? "unstable"
+                                           : "stable"});
+    }
+  }
+  return map;
 }
 
 bool is_clean(const StiffPlan& plan, const ContactRow& row) {
@@ -110,70 +98,68 @@ bool is_stiff_enough(const StiffPlan& plan, const PenaltyContact& c) {
   return depth < reach(plan.approach);
 }
 
-const ContactRow* twin_of(const std::vector<ContactRow>& rows, const ContactRow& row) {
+const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow& row) {
   PenaltyContact other = row.contact;
   other.detection = other.detection == Detection::discrete ? Detection::toi_split : Detection::discrete;
-  const auto found = std::ranges::find(rows, other, &ContactRow::contact);
-  return found == rows.end() ? nullptr : &*found;
+  return *std::ranges::find(rows, other, &ContactRow::contact);
 }
 
 std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
-  using Maybe = std::optional<bool>;
+  using Row = ContactRow;
   const StiffPlan& plan = results.plan;
-  const std::vector<ContactRow>& bounces = results.bounces;
-  const auto undamped = [&](const ContactRow& row, Scheme scheme) {
-    return row.contact.scheme == scheme && row.contact.damping_ratio == 0 && is_clean(plan, row);
+  const auto decided =
+      rows_where(map_of(plan, results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
+  const auto undamped =
+      rows_where(results.bounces, [&](const Row& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
+  const auto undamped_by = [&](Scheme scheme) {
+    return rows_where(undamped, [scheme](const Row& r) { return r.contact.scheme == scheme; });
   };
+  const auto discrete = [](const Row& r) { return r.contact.detection == Detection::discrete; };
+  const auto slack = [&](const Row& r) { return slack_of(plan, r.contact); };
   return {
-      claim("the limit lies in the measured bracket", results.limits,
-            [](const LimitRow& row) -> Maybe { return holds_theory(row); }),
+      claim("the limit lies in the measured bracket", results.limits, holds_theory),
       claim("the bracket is at most 0.1 % wide", results.limits,
-            [](const LimitRow& row) -> Maybe { return bracket_width(row) <= wide; }),
-      map_claim(plan, results.limits),
-      claim("semi-implicit, undamped: the speed ratio keeps its bounds", bounces,
-            [&](const ContactRow& row) -> Maybe {
-              const auto range = bounce_bounds(row.contact.step);
-              if (!range || !undamped(row, Scheme::semi_implicit)) return {};
-              const double slack = slack_of(plan, row.contact);
-              return row.tally.slowest >= range->lower - slack && row.tally.fastest <= range->upper + slack;
+            [](const LimitRow& row) { return bracket_width(row) <= wide; }),
+      claim("a step is stable below the limit and unstable above", decided,
+            [](const MapStep& s) {
+              return (s.verdict == "stable") == (!s.spring->theory || s.step < *s.spring->theory);
             }),
-      claim("explicit, undamped: never slower after than before", bounces,
-            [&](const ContactRow& row) -> Maybe {
-              if (!undamped(row, Scheme::explicit_euler)) return {};
-              return row.tally.slowest >= 1 - slack_of(plan, row.contact);
+      claim("semi-implicit, undamped: the speed ratio keeps its bounds",
+            rows_where(undamped_by(Scheme::semi_implicit),
+                       [](const Row& r) { return bounce_bounds(r.contact.step).has_value(); }),
+            [&](const Row& r) {
+              const Interval range = *bounce_bounds(r.contact.step);
+              return r.tally.slowest >= range.lower - slack(r) && r.tally.fastest <= range.upper + slack(r);
             }),
-      claim("implicit, undamped: never faster after than before", bounces,
-            [&](const ContactRow& row) -> Maybe {
-              if (!undamped(row, Scheme::implicit_euler)) return {};
-              return row.tally.fastest <= 1 + slack_of(plan, row.contact);
-            }),
+      claim("explicit, undamped: never slower after than before", undamped_by(Scheme::explicit_euler),
+            [&](const Row& r) { return r.tally.slowest >= 1 - slack(r); }),
+      claim("implicit, undamped: never faster after than before", undamped_by(Scheme::implicit_euler),
+            [&](const Row& r) { return r.tally.fastest <= 1 + slack(r); }),
       // A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
-      claim("explicit and semi-implicit, undamped: splitting the step changes no bounce", bounces,
-            [&](const ContactRow& row) -> Maybe {
-              const bool is_told = undamped(row, Scheme::explicit_euler) || undamped(row, Scheme::semi_implicit);
-              if (!is_told || row.contact.detection != Detection::discrete) return {};
-              const ContactRow& split = *twin_of(bounces, row);
-              const double slack = slack_of(plan, row.contact) * std::max(1.0, row.tally.fastest);
-              return is_clean(plan, split) && std::abs(row.tally.slowest - split.tally.slowest) <= slack &&
-                     std::abs(row.tally.fastest - split.tally.fastest) <= slack;
+      claim(
+          "explicit and semi-implicit, undamped: splitting the step changes no bounce",
+          rows_where(undamped, [&](const Row& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
+          [&](const Row& r) {
+            const Row& split = twin_of(results.bounces, r);
+            const double most = slack(r) * std::max(1.0, r.tally.fastest);
+            return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
+                   std::abs(r.tally.fastest - split.tally.fastest) <= most;
+          }),
+      claim("discrete: as many escape as are first seen past the middle, or more",
+            rows_where(results.bounces, discrete),
+            [&](const Row& r) {
+              const double late = static_cast<double>(r.tally.bounces()) * late_share(plan, r.contact);
+              return static_cast<double>(r.tally.escaped) >= std::floor(late) - 1;
             }),
-      claim("discrete: as many escape as are first seen past the middle, or more", bounces,
-            [&](const ContactRow& row) -> Maybe {
-              if (row.contact.detection != Detection::discrete) return {};
-              const double late = static_cast<double>(row.tally.bounces()) * late_share(plan, row.contact);
-              return static_cast<double>(row.tally.escaped) >= std::floor(late) - 1;
-            }),
-      claim("implicit, split, stiff enough for continuous time: none escapes", bounces,
-            [&](const ContactRow& row) -> Maybe {
-              const PenaltyContact& c = row.contact;
-              const double depth = plan.approach.speed / frequency(spring_of(plan.approach, c));
-              const bool holds = depth < reach(plan.approach);
-              if (c.scheme != Scheme::implicit_euler || c.detection == Detection::discrete || !holds) return {};
-              return row.tally.escaped == 0;
-            })};
+      claim("implicit, split, stiff enough for continuous time: none escapes",
+            rows_where(results.bounces,
+                       [&](const Row& r) {
+                         const double depth = plan.approach.speed / frequency(spring_of(plan.approach, r.contact));
+                         return r.contact.scheme == Scheme::implicit_euler && !discrete(r) &&
+                                depth < reach(plan.approach);
+                       }),
+            [](const Row& r) { return r.tally.escaped == 0; })};
 }
-
-bool all_passed(const std::vector<StiffClaim>& claims) { return std::ranges::all_of(claims, &StiffClaim::passed); }
 
 }  // namespace thinwall

@@ -32,8 +32,16 @@ bool holds_theory(const LimitRow& row);
 /// [1] How wide the bracket is, over its stable end; 0 if it has not two ends.
 double bracket_width(const LimitRow& row);
 
-/// What was measured at step `i` of the map: "stable", "unstable", or inside the bracket "undecided".
-std::string_view verdict_of(const StiffPlan& plan, const LimitRow& row, std::size_t i);
+/// A step of the map.
+struct MapStep {
+  const LimitRow* spring;
+  double step;               ///< [1/omega]
+  std::int64_t blow_up;      ///< after how many steps it blew up; 0: it did not
+  std::string_view verdict;  ///< as measured: "stable", "unstable", or inside the bracket "undecided"
+};
+
+/// Every step of every spring. `rows` must outlive it.
+std::vector<MapStep> map_of(const StiffPlan& plan, const std::vector<LimitRow>& rows);
 
 /// Every bounce came back, and none got past the middle of the wall.
 bool is_clean(const StiffPlan& plan, const ContactRow& row);
@@ -41,8 +49,8 @@ bool is_clean(const StiffPlan& plan, const ContactRow& row);
 /// In continuous time the wall holds the ball.
 bool is_stiff_enough(const StiffPlan& plan, const PenaltyContact& c);
 
-/// The one of the same wall and step with the other detection, or nothing.
-const ContactRow* twin_of(const std::vector<ContactRow>& rows, const ContactRow& row);
+/// The one of the same wall and step with the other detection, which must be there.
+const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow& row);
 
 /// What theory claims, over all rows that it speaks of.
 struct StiffClaim {
@@ -51,6 +59,5 @@ struct StiffClaim {
   bool passed() const { return wrong == 0; }
 };
 std::vector<StiffClaim> stiff_claims(const StiffResults& results);
-bool all_passed(const std::vector<StiffClaim>& claims);
 
 }  // namespace thinwall

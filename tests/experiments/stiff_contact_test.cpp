@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/stiff_contact/theory.hpp>
 
 #include "support/experiment_run.hpp"
@@ -173,17 +174,16 @@ TEST(StiffGrowth, powers_are_what_stepping_gives) {
   }
 }
 
-TEST(StiffGrowth, below_the_limit_a_state_decays) {
-  const Spring spring = spring_of(1, 1e8, 0.1);
-  EXPECT_EQ(fate(Scheme::semi_implicit, spring, 1.8 / frequency(spring)), Fate::decays);
-  EXPECT_EQ(fate(Scheme::semi_implicit, spring, 1.82 / frequency(spring)), Fate::grows);
-  const Spring undamped = spring_of(1, 1e8, 0);
-  EXPECT_EQ(fate(Scheme::semi_implicit, undamped, 1.99 / frequency(undamped)), Fate::holds);
-  EXPECT_EQ(fate(Scheme::semi_implicit, undamped, 2.01 / frequency(undamped)), Fate::grows);
-}
-
-/// At h omega = 1 and zeta = 1/2 two semi-implicit steps make nothing of anything.
-TEST(StiffGrowth, a_step_whose_square_is_zero_decays) {
+TEST(StiffGrowth, a_state_decays_below_the_limit_and_grows_above) {
+  const auto fate_at = [](double step, double zeta) {
+    const Spring spring = spring_of(1, 1e8, zeta);
+    return fate(Scheme::semi_implicit, spring, step / frequency(spring));
+  };
+  EXPECT_EQ(fate_at(1.8, 0.1), Fate::decays);
+  EXPECT_EQ(fate_at(1.82, 0.1), Fate::grows);
+  EXPECT_EQ(fate_at(1.99, 0), Fate::holds);
+  EXPECT_EQ(fate_at(2.01, 0), Fate::grows);
+  // At h omega = 1 and zeta = 1/2 two semi-implicit steps make nothing of anything.
   EXPECT_EQ(fate(Scheme::semi_implicit, spring_of(1, 1, 0.5), 1), Fate::decays);
 }
 
@@ -205,6 +205,12 @@ constexpr Approach usual = {.mass = 1, .speed = 10, .radius = 0.05, .thickness =
 PenaltyContact contact_by(Scheme scheme, Detection detection, double step, double zeta = 0, double stiffness = 1e10) {
   return {scheme, detection, stiffness, zeta, step};
 }
+PenaltyContact discrete(Scheme scheme, double step, double zeta = 0) {
+  return contact_by(scheme, Detection::discrete, step, zeta);
+}
+PenaltyContact split(Scheme scheme, double step, double zeta = 0) {
+  return contact_by(scheme, Detection::toi_split, step, zeta);
+}
 
 struct SpeedRange {
   double least = 1e300, most = 0;
@@ -222,37 +228,38 @@ SpeedRange speeds(const PenaltyContact& contact, int phases) {
 }
 
 TEST(StiffBounce, case_54_linear_stability_is_not_enough) {
-  const SpeedRange fine = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 0.3), 2000);
-  EXPECT_NEAR(fine.least, 0.989, 5e-4);
-  EXPECT_NEAR(fine.most, 1.011, 5e-4);
-  const SpeedRange rough = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 1.5), 2000);
-  EXPECT_NEAR(rough.least, 0.80, 5e-3);
-  EXPECT_NEAR(rough.most, 1.25, 5e-3);
-  const SpeedRange last = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 1.9), 2000);
-  EXPECT_NEAR(last.least, 0.38, 5e-3);
-  EXPECT_NEAR(last.most, 2.61, 5e-3);  // z^2 - 1: the ball is a whole path deep, and one step throws it out
+  struct Case {
+    double step, least, most, allowed;
+  };
+  for (const Case& c : {Case{0.3, 0.989, 1.011, 5e-4}, Case{1.5, 0.80, 1.25, 5e-3},
+                        Case{1.9, 0.38, 2.61, 5e-3}}) {  // z^2 - 1: a whole path deep, one step throws the ball out
+    const SpeedRange range = speeds(discrete(Scheme::semi_implicit, c.step), 2000);
+    EXPECT_NEAR(range.least, c.least, c.allowed) << c.step;
+    EXPECT_NEAR(range.most, c.most, c.allowed) << c.step;
+  }
 }
 
 TEST(StiffBounce, the_bounds_hold_and_are_nearly_reached) {
   for (const double step : {0.1, 0.3, 0.77, 1.3, 1.7, 1.99}) {
     const Interval bounds = *bounce_bounds(step);
-    const SpeedRange range = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, step), 500);
+    const SpeedRange range = speeds(discrete(Scheme::semi_implicit, step), 500);
     EXPECT_GE(range.least, bounds.lower - 1e-9) << step;
     EXPECT_LE(range.most, bounds.upper + 1e-9) << step;
+    if (step == 0.1) {
+      EXPECT_NEAR((1 - range.least) / (1 - bounds.lower), 1, 0.05);
+    }
   }
-  const SpeedRange fine = speeds(contact_by(Scheme::semi_implicit, Detection::discrete, 0.1), 500);
-  EXPECT_NEAR((1 - fine.least) / (1 - bounce_bounds(0.1)->lower), 1, 0.05);
 }
 
 /// Explicit steps gain about pi z / 2, implicit ones lose it, semi-implicit ones neither.
 TEST(StiffBounce, errors_shrink_with_the_step_as_the_schemes_order_says) {
   const auto error = [](Scheme scheme, double step) {
-    return bounce_all(usual, contact_by(scheme, Detection::discrete, step), 1, 50).mean_speed() - 1;
+    return bounce_all(usual, discrete(scheme, step), 1, 50).mean_speed() - 1;
   };
   EXPECT_NEAR(error(Scheme::explicit_euler, 0.01), 0.01 * std::acos(-1) / 2, 3e-4);
   EXPECT_NEAR(error(Scheme::implicit_euler, 0.01), -0.01 * std::acos(-1) / 2, 3e-4);
   const auto rms = [](double step) {
-    return bounce_all(usual, contact_by(Scheme::semi_implicit, Detection::discrete, step), 1, 200).rms_error();
+    return bounce_all(usual, discrete(Scheme::semi_implicit, step), 1, 200).rms_error();
   };
   EXPECT_LT(rms(0.02), 1e-4);
   EXPECT_NEAR(std::log2(rms(0.03) / rms(0.015)), 2, 1);
@@ -276,10 +283,10 @@ TEST(StiffBounce, splitting_an_undamped_explicit_or_semi_implicit_step_changes_n
   for (const Scheme scheme : {Scheme::explicit_euler, Scheme::semi_implicit}) {
     for (const double step : {0.1, 0.77, 1.9, 5.0}) {
       for (const double phase : {0.1, 0.5, 0.93}) {
-        const Bounce whole = bounce(usual, contact_by(scheme, Detection::discrete, step), phase);
-        const Bounce split = bounce(usual, contact_by(scheme, Detection::toi_split, step), phase);
-        EXPECT_NEAR(split.speed / whole.speed, 1, 1e-9) << name(scheme) << " " << step;
-        EXPECT_EQ(split.contact_steps, whole.contact_steps + 1);
+        const Bounce at_poses = bounce(usual, discrete(scheme, step), phase);
+        const Bounce at_impact = bounce(usual, split(scheme, step), phase);
+        EXPECT_NEAR(at_impact.speed / at_poses.speed, 1, 1e-9) << name(scheme) << " " << step;
+        EXPECT_EQ(at_impact.contact_steps, at_poses.contact_steps + 1);
       }
     }
   }
@@ -288,9 +295,9 @@ TEST(StiffBounce, splitting_an_undamped_explicit_or_semi_implicit_step_changes_n
 /// ... and what splitting is good for: less depends on the phase, and the ball goes less deep.
 TEST(StiffBounce, splitting_a_damped_step_takes_away_most_of_the_phase) {
   for (const Scheme scheme : all_schemes) {
-    const SpeedRange whole = speeds(contact_by(scheme, Detection::discrete, 0.1, 0.5), 100);
-    const SpeedRange split = speeds(contact_by(scheme, Detection::toi_split, 0.1, 0.5), 100);
-    EXPECT_LT(split.most - split.least, (whole.most - whole.least) / 10) << name(scheme);
+    const SpeedRange at_poses = speeds(discrete(scheme, 0.1, 0.5), 100);
+    const SpeedRange at_impact = speeds(split(scheme, 0.1, 0.5), 100);
+    EXPECT_LT(at_impact.most - at_impact.least, (at_poses.most - at_poses.least) / 10) << name(scheme);
   }
 }
 
@@ -299,12 +306,10 @@ TEST(StiffBounce, long_steps_tunnel_unless_the_rest_of_a_split_step_is_implicit)
   const double step = 100 * reach(usual) / usual.speed * 1e5;
   for (const double phase : {0.1, 0.5, 0.93}) {
     for (const Scheme scheme : all_schemes) {
-      EXPECT_EQ(bounce(usual, contact_by(scheme, Detection::discrete, step), phase).ending, Ending::escaped);
+      EXPECT_EQ(bounce(usual, discrete(scheme, step), phase).ending, Ending::escaped);
     }
-    EXPECT_EQ(bounce(usual, contact_by(Scheme::semi_implicit, Detection::toi_split, step), phase).ending,
-              Ending::escaped);
-    EXPECT_EQ(bounce(usual, contact_by(Scheme::implicit_euler, Detection::toi_split, step), phase).ending,
-              Ending::returned);
+    EXPECT_EQ(bounce(usual, split(Scheme::semi_implicit, step), phase).ending, Ending::escaped);
+    EXPECT_EQ(bounce(usual, split(Scheme::implicit_euler, step), phase).ending, Ending::returned);
   }
 }
 
@@ -315,10 +320,10 @@ TEST(StiffBounce, a_soft_wall_lets_the_ball_through_at_any_step) {
 }
 
 TEST(StiffBounce, blow_up_is_reported_at_the_step_where_it_happens) {
-  const Bounce fast = bounce(usual, contact_by(Scheme::semi_implicit, Detection::discrete, 100), 0.5);
+  const Bounce fast = bounce(usual, discrete(Scheme::semi_implicit, 100), 0.5);
   EXPECT_EQ(fast.blow_up_step, 2);  // the first step enters, the second throws it out
   EXPECT_GT(fast.speed, 1000);
-  EXPECT_EQ(bounce(usual, contact_by(Scheme::semi_implicit, Detection::discrete, 1), 0.5).blow_up_step, 0);
+  EXPECT_EQ(bounce(usual, discrete(Scheme::semi_implicit, 1), 0.5).blow_up_step, 0);
 }
 
 /// Thrown back from the far side and the near side in turn, faster each time, until numbers end.
@@ -343,7 +348,7 @@ TEST(StiffBounce, never_gives_a_number_that_is_none) {
 
 /// At 2 zeta h omega = 1 the damper stops a ball that just touches: the second step finds nothing to do.
 TEST(StiffBounce, a_ball_that_rests_at_the_wall_ends_the_run) {
-  const Bounce b = bounce(usual, contact_by(Scheme::semi_implicit, Detection::discrete, 1, 0.5), 0);
+  const Bounce b = bounce(usual, discrete(Scheme::semi_implicit, 1, 0.5), 0);
   EXPECT_EQ(b.ending, Ending::unfinished);
   EXPECT_EQ(b.speed, 0);
   EXPECT_EQ(b.contact_steps, 2);
@@ -351,38 +356,24 @@ TEST(StiffBounce, a_ball_that_rests_at_the_wall_ends_the_run) {
 
 TEST(StiffBounce, walls_and_balls_may_be_thin) {
   for (const Approach thin : {Approach{1, 10, 0, 0.02, 10}, Approach{1, 10, 0.05, 0, 10}}) {
-    EXPECT_EQ(bounce(thin, contact_by(Scheme::semi_implicit, Detection::discrete, 0.3), 0.5).ending, Ending::returned);
-    EXPECT_EQ(bounce(thin, contact_by(Scheme::implicit_euler, Detection::toi_split, 1e4), 0.5).ending,
-              Ending::returned);
+    EXPECT_EQ(bounce(thin, discrete(Scheme::semi_implicit, 0.3), 0.5).ending, Ending::returned);
+    EXPECT_EQ(bounce(thin, split(Scheme::implicit_euler, 1e4), 0.5).ending, Ending::returned);
   }
 }
 
 // ---- The stiff contact's settings and answers, and whether a wrong theory would be noticed.
 
-/// Small enough for a debug build, and still with every kind of cell: soft and stiff, undamped, damped and overdamped.
-constexpr std::string_view few_contacts = R"(
-  bounces = 100
-  stiffness = [100, 1e6, 1e10]
-  damping_ratio = [0, 1e-5, 0.1, 1, 1e5]
-  step = [1.5e-5, 0.15, 1.5, 15]
-  bounce_damping = [0, 0.1]
-  bounce_step = [0.3, 1.5, 1.9, 5, 1000]
-  race_step = [0.8, 0.1]
-  race_bounces = 4
-  rounds = 3
-)";
+Outcome stiff_outcome(std::string_view text) { return outcome_of(*run_of(stiff_contact_experiment(), text)); }
 
-Outcome stiff_outcome(std::string_view text = few_contacts) {
-  return outcome_of(*run_of(stiff_contact_experiment(), text));
+/// Of the small configuration, run once for all tests that only look.
+const Outcome& small_stiff_outcome() {
+  static const Outcome outcome = stiff_outcome(small_toml("stiff_contact"));
+  return outcome;
 }
 
-StiffResults measured() {
-  const Experiment experiment = stiff_contact_experiment();
-  StiffResults all = {
-      make_stiff_plan(Settings(few_contacts, "test.toml", experiment.default_toml), {.seed = 1, .trials = {}}),
-      {},
-      {},
-      {}};
+StiffResults measured_small() {
+  const Settings settings(small_toml("stiff_contact"), "test.toml", stiff_contact_experiment().default_toml);
+  StiffResults all = {make_stiff_plan(settings, {.seed = 1, .trials = {}}), {}, {}, {}};
   for (const Scheme scheme : all_schemes) {
     for (const double stiffness : all.plan.stiffness) {
       for (const double ratio : all.plan.ratios)
@@ -408,15 +399,23 @@ bool passes_with_limit(StiffResults m, Scheme scheme, const std::function<double
 }
 
 TEST(StiffContact, agrees_with_theory) {
-  const Outcome outcome = stiff_outcome();
+  const Outcome& outcome = small_stiff_outcome();
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   for (const std::vector<Value>& row : table_of(outcome, "self_test").rows) {
     EXPECT_GT(std::get<std::int64_t>(row[1]), 0) << std::get<std::string>(row[0]);  // no claim is empty
   }
+  for (const Table& t : outcome.tables) EXPECT_EQ(t.is_timing, t.name == "timings");
+  ASSERT_EQ(outcome.figures.size(), 5U);
+  EXPECT_EQ(outcome.figures[0].name, "stability");
+  EXPECT_EQ(outcome.figures[0].panels.size(), 3U);
+  for (const Figure& figure : outcome.figures) {
+    EXPECT_EQ(figure.is_timing, figure.name == "race");
+    for (const Panel& panel : figure.panels) EXPECT_FALSE(panel.series.empty()) << figure.name;
+  }
 }
 
 TEST(StiffContact, fails_a_wrong_limit) {
-  const StiffResults m = measured();
+  const StiffResults m = measured_small();
   EXPECT_TRUE(passes(m));
   const auto as_it_is = [](double, double limit) { return limit; };
   EXPECT_TRUE(passes_with_limit(m, Scheme::semi_implicit, as_it_is));
@@ -432,7 +431,7 @@ TEST(StiffContact, fails_a_wrong_limit) {
 }
 
 TEST(StiffContact, fails_a_wrong_bounce) {
-  const StiffResults m = measured();
+  const StiffResults m = measured_small();
   const auto passes_with = [&](const std::function<void(ContactRow&)>& change) {
     StiffResults changed = m;
     for (ContactRow& row : changed.bounces) change(row);
@@ -455,74 +454,32 @@ TEST(StiffContact, fails_a_wrong_bounce) {
 }
 
 TEST(StiffContact, says_what_is_stable_and_what_a_bounce_does) {
-  const std::string answer = stiff_outcome().answer;
+  const std::string& answer = small_stiff_outcome().answer;
   for (const char* part : {"in 45 of 45 springs", "at h omega = 1.9 a semi-implicit bounce leaves with 0.3", "to 2.",
                            "because at first touch a spring does not push yet", "and 0.0 %."}) {
     EXPECT_NE(answer.find(part), std::string::npos) << part << "\n" << answer;
   }
 }
 
-TEST(StiffContact, no_table_has_a_nan) {
-  for (const Table& t : stiff_outcome().tables) {
-    for (const std::vector<Value>& row : t.rows) {
-      for (const Value& value : row) {
-        if (const double* number = std::get_if<double>(&value)) {
-          EXPECT_TRUE(std::isfinite(*number)) << t.name;
-        }
-      }
-    }
-  }
-}
-
 TEST(StiffContact, an_unstable_step_is_reported_with_the_step_where_it_blew_up) {
-  const Table map = table_of(stiff_outcome(), "stability");
+  const Table& map = table_of(small_stiff_outcome(), "stability");
   std::size_t unstable = 0;
   for (std::size_t row = 0; row < map.rows.size(); ++row) {
-    const bool blown = std::get<std::string>(value_of(map, row, "verdict")) == "unstable";
-    unstable += blown ? 1U : 0U;
-    if (blown) {
-      EXPECT_GT(std::get<std::int64_t>(value_of(map, row, "blow_up_step")), 0);
-    }
+    if (value_of(map, row, "verdict") != Value("unstable")) continue;
+    ++unstable;
+    EXPECT_GT(std::get<std::int64_t>(value_of(map, row, "blow_up_step")), 0);
   }
   EXPECT_GT(unstable, 20U);
   EXPECT_LT(unstable, map.rows.size());
 }
 
-/// What the manifest hashes is the same in every run; what is not, says so.
-TEST(StiffContact, only_what_holds_times_differs_from_run_to_run) {
-  const Outcome first = stiff_outcome(), second = stiff_outcome();
-  ASSERT_EQ(first.tables.size(), second.tables.size());
-  std::size_t timings = 0;
-  for (std::size_t i = 0; i < first.tables.size(); ++i) {
-    timings += first.tables[i].is_timing ? 1U : 0U;
-    if (!first.tables[i].is_timing) {
-      EXPECT_EQ(first.tables[i].rows, second.tables[i].rows) << first.tables[i].name;
-    }
-  }
-  EXPECT_EQ(timings, 1U);
-}
-
 TEST(StiffContact, a_cell_keeps_its_bounces_whatever_else_is_asked) {
-  const Table all = table_of(stiff_outcome(), "bounces");
-  const Table one =
-      table_of(stiff_outcome("bounces = 100\nstiffness = [1e6]\ndamping_ratio = [0.1]\nstep = [1.5]\n"
-                             "bounce_damping = [0.1]\nbounce_step = [1.9]\nrace_step = [0.8]\nrounds = 1"),
-               "bounces");
-  ASSERT_EQ(one.rows.size(), 6U);
-  for (const std::vector<Value>& row : one.rows) {
-    EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
-  }
-}
-
-TEST(StiffContact, the_first_picture_is_the_stability_map) {
-  const Outcome outcome = stiff_outcome();
-  ASSERT_EQ(outcome.figures.size(), 5U);
-  EXPECT_EQ(outcome.figures[0].name, "stability");
-  EXPECT_EQ(outcome.figures[0].panels.size(), 3U);
-  for (const Figure& figure : outcome.figures) {
-    EXPECT_EQ(figure.is_timing, figure.name == "race");
-    for (const Panel& panel : figure.panels) EXPECT_FALSE(panel.series.empty()) << figure.name;
-  }
+  const Table& all = table_of(small_stiff_outcome(), "bounces");
+  const Outcome one = stiff_outcome(
+      "bounces = 100\nstiffness = [1e6]\ndamping_ratio = [0.1]\nstep = [1.5]\n"
+      "bounce_damping = [0.1]\nbounce_step = [1.9]\nrace_step = [0.8]\nrounds = 1");
+  ASSERT_EQ(table_of(one, "bounces").rows.size(), 6U);
+  for (const std::vector<Value>& row : table_of(one, "bounces").rows) EXPECT_EQ(std::ranges::count(all.rows, row), 1);
 }
 
 TEST(StiffContact, answers_for_the_smallest_of_settings) {
@@ -534,36 +491,33 @@ TEST(StiffContact, answers_for_the_smallest_of_settings) {
 }
 
 TEST(StiffContact, refuses_what_cannot_be_asked) {
-  const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      run_of(stiff_contact_experiment(), text);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "";
+  struct Refusal {
+    std::string text, reason;
   };
-  for (const std::string key : {"stiffness", "damping_ratio", "step", "bounce_damping", "bounce_step", "race_step"}) {
-    for (const char* value : {"[-1]", "[inf]", "[nan]", "[]", "[1, 1]", "1", "['a']", "[1e300]"}) {
-      const std::string complaint = refusal(key + " = " + value);
-      EXPECT_NE(complaint.find("key '" + key + "'"), std::string::npos) << key << " " << value << ": " << complaint;
-      EXPECT_EQ(complaint.find('\n'), std::string::npos);
-    }
+  std::vector<Refusal> refusals = {
+      {"mass = 0", "key 'mass'"},
+      {"stiffness = [1, 0]", "key 'stiffness'"},
+      {"damping_ratio = [1e-6]", "0, or 1e-05 to 100000"},
+      {"step = [0]", "key 'step'"},
+      {"speed = 0", "key 'speed'"},
+      {"radius = 0\nthickness = 0", "key 'thickness'"},
+      {"blow_up = 1", "key 'blow_up'"},
+      {"bounce_step = [0]", "key 'bounce_step'"},
+      {"race_step = [0]", "key 'race_step'"},
+      {"race_step = [2.5]", "key 'race_step'"},
+      {"bounces = 0", "key 'bounces'"},
+      {"rounds = 0", "key 'rounds'"},
+      {"race_bounces = 0", "key 'race_bounces'"},
+      {"mass = 1e-12\nstiffness = [1e18]", "2^-30 of radius"},
+  };
+  for (const std::string key : {"stiffness", "damping_ratio", "step", "bounce_damping", "bounce_step", "race_step"})
+    for (const char* value : {"[-1]", "[1e300]"}) refusals.push_back({key + " = " + value, "key '" + key + "'"});
+  for (const std::string key : {"mass", "speed", "radius", "thickness", "blow_up"})
+    for (const char* value : {"-1", "1e300"}) refusals.push_back({key + " = " + value, "key '" + key + "'"});
+  for (const auto& [text, reason] : refusals) {
+    const std::string refusal = refusal_of(stiff_contact_experiment(), text);
+    EXPECT_NE(refusal.find(reason), std::string::npos) << text << ": " << refusal;
   }
-  for (const std::string key : {"mass", "speed", "radius", "thickness", "blow_up"}) {
-    for (const char* value : {"-1", "inf", "nan", "[1]", "1e300"}) {
-      EXPECT_NE(refusal(key + " = " + value).find("key '" + key + "'"), std::string::npos) << key << " " << value;
-    }
-  }
-  for (const char* text :
-       {"mass = 0", "stiffness = [0]", "stiffness = [1, 0]", "step = [0]", "bounce_step = [0]", "race_step = [0]",
-        "race_step = [2.5]", "speed = 0", "blow_up = 1", "bounces = 0", "rounds = 0", "race_bounces = 0",
-        "damping_ratio = [1e-6]", "stifness = [1]", "radius = 0\nthickness = 0", "mass = 1e-12\nstiffness = [1e18]"}) {
-    EXPECT_NE(refusal(text), "") << text;
-  }
-  EXPECT_NE(refusal("stiffness = [0]").find("key 'stiffness'"), std::string::npos);
-  EXPECT_NE(refusal("stifness = [1]").find("did you mean 'stiffness'?"), std::string::npos);
-  EXPECT_NE(refusal("damping_ratio = [1e-6]").find("0, or 1e-05 to 100000"), std::string::npos);
-  EXPECT_NE(refusal("radius = 0\nthickness = 0").find("key 'thickness'"), std::string::npos);
 }
 
 }  // namespace
