@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
@@ -49,6 +50,12 @@ inline Mat3<double> random_axes(QueryNumbers& u) {
   axes.col(1) = safe_unit(cross<double>(axes.col(0), u.direction()));
   axes.col(2) = cross<double>(axes.col(0), axes.col(1));
   return axes;
+}
+
+/// From `least` to 1 along each axis.
+inline Vec3<double> random_half_extents(QueryNumbers& u, double least) {
+  const double x = u.between(least, 1), y = u.between(least, 1), z = u.between(least, 1);
+  return {x, y, z};
 }
 
 template <class A> struct ShapeDraw;
@@ -98,6 +105,35 @@ template <> struct ShapeDraw<Triangle<double>> {
   }
 };
 
+/// Between the last that touches, from 0 on, and the first that does not, up to `farthest`, `halvings` times halved.
+template <class Touches> double last_that_touches(const Touches& touches, double farthest, int halvings) {
+  double hit = 0, miss = farthest;
+  for (int i = 0; i < halvings; ++i) (touches((hit + miss) / 2) ? hit : miss) = (hit + miss) / 2;
+  return hit;
+}
+
+/// A straight pass of A beside B, which rests about the origin.
+template <class A, class B> struct StraightPass {
+  static constexpr double before = -2, length = 4;  // of `reach`: from where to where nothing touches before and after
+
+  A a;
+  B b;
+  Vec3<double> along;  ///< [1] unit, A's direction
+  Vec3<double> aside;  ///< [length] across it, from B's center to A's line
+  double reach;        ///< [length] farther apart than this, centers have no contact
+
+  /// Where A's center is at first, with `share` of `aside`.
+  Vec3<double> start(double share) const { return aside * share + along * (before * reach); }
+  /// [length] Of a first contact, along the line from the place nearest to B's center.
+  template <class S> std::optional<double> place_of(const Toi<S>& toi) const {
+    if (toi.status == ToiStatus::apart) return {};
+    return (length * toi.time + before) * reach;
+  }
+  std::optional<double> contact(double share) const {
+    return place_of(time_of_impact(Moving<A>{moved(a, start(share)), along * (length * reach)}, at_rest(b)));
+  }
+};
+
 template <class A, class B> struct MovingPair {
   Moving<A> a;
   Moving<B> b;
@@ -126,13 +162,13 @@ template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double 
   };
   double share = 1;
   if (u.one_in(2.5)) {  // grazing: between the last hit and the first miss, to a distance of 1e-1 to 1e-15 of the reach
-    double hit = 0, miss = 4;
-    for (int i = 0; i < 50; ++i) {
-      const MovingPair<A, B> tried = aimed((hit + miss) / 2);
-      (time_of_impact(tried.a, tried.b).status == ToiStatus::apart ? miss : hit) = (hit + miss) / 2;
-    }
+    const auto touches = [&](double tried) {
+      const MovingPair<A, B> query = aimed(tried);
+      return time_of_impact(query.a, query.b).status != ToiStatus::apart;
+    };
+    const double threshold = last_that_touches(touches, 4, 50);
     const double side = u.one_in(2) ? 1 : -1;
-    share = hit * (1 + side * u.decades(-15, -1));
+    share = threshold * (1 + side * u.decades(-15, -1));
   }
   MovingPair<A, B> query = aimed(share);
   if (u.one_in(5)) {

@@ -34,15 +34,6 @@ double ErrorHistogram::quantile(double share) const {
 
 namespace {
 
-/// The kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
-template <Shape A, Shape B> Toi<typename A::Scalar> kernel_impact(const Moving<A>& a, const Moving<B>& b) {
-  if constexpr (A::rank < B::rank) {
-    return flipped(impact(ClosedForm<typename A::Scalar>{}, b, a));
-  } else {
-    return impact(ClosedForm<typename A::Scalar>{}, a, b);
-  }
-}
-
 /// By how much the input would have to change, in u, to make a wrong verdict right.
 template <class R, class S>
 double wrongness(const oracle::Problem<R>& problem, const Toi<S>& toi, const oracle::Impact<R>& truth,
@@ -114,7 +105,8 @@ AccuracyTally ask_pair(Inquiry inquiry, std::uint64_t seed, std::int64_t first, 
     } else {
       const auto a = cast<float>(query.a);
       const auto b = cast<float>(query.b);
-      judge_answer(a, b, inquiry == Inquiry::in_float ? time_of_impact(a, b) : kernel_impact(a, b), tally);
+      judge_answer(a, b, inquiry == Inquiry::in_float ? time_of_impact(a, b) : kernel_impact(ClosedForm<float>{}, a, b),
+                   tally);
     }
   }
   return tally;

@@ -27,6 +27,16 @@ inline bool agree(ToiStatus status, oracle::Verdict verdict) {
   }
 }
 
+/// A method's kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
+template <class Method, Shape A, Shape B>
+Toi<typename A::Scalar> kernel_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  if constexpr (A::rank < B::rank) {
+    return flipped(impact(method, b, a));
+  } else {
+    return impact(method, a, b);
+  }
+}
+
 // ---- The pairs whose accuracy is measured, the ways to ask, and what a block of queries adds up to.
 
 /// Errors by size: 64 bins a factor of two, from 2^-16 to 2^16 units.

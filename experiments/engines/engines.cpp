@@ -299,15 +299,6 @@ std::string with_interval(const Row& row) {
   return fmt::format("{} {:.3g} % [{:.3g}, {:.3g}]", label_of(row), value, interval.lower, interval.upper);
 }
 
-std::string listed(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 < parts.size() ? ", " : " and ";
-    text += parts[i];
-  }
-  return text;
-}
-
 /// All modes and walls get the same shots: those of one are all there are.
 std::string own_zero(const Rows& rows) {
   const Rows exact = only(rows, [](const Row& r) { return r.setup->mode.exact; });

@@ -28,36 +28,40 @@ using Row = ExtremeRow;
 using Tally = ExtremeTally;
 
 std::string_view precision_name(std::size_t precision) { return all_precisions()[precision].name; }
-std::string title_of(std::size_t precision) { return std::string(all_precisions()[precision].title); }
 std::string_view pairs_name(PairSet pairs) { return pairs == PairSet::rounded ? "with a ball" : "two boxes"; }
 
-/// A method in a precision, on pairs with a ball or on two boxes: how far it gets along each arm.
-struct Rung {
-  std::string_view method;
-  std::size_t precision;
-  PairSet pairs;
-  double nanoseconds = 0;        ///< a query: the median over pairs and places
-  std::vector<Survival> arms{};  ///< in the order of all_arms()
-  bool breaks_at_once = false;
-};
+/// "long double", "50 digits".
+std::string title_of(std::size_t precision) {
+  std::string title(precision_name(precision));
+  std::ranges::replace(title, '_', ' ');
+  return title;
+}
 
-bool is_asked(const Survival& s) { return s.survived || s.broken; }
+/// How far a method gets along each arm, on pairs with a ball or on two boxes.
+struct Rung : Contender {
+  double nanoseconds;          ///< a query: the median over pairs and places
+  std::vector<Survival> arms;  ///< in the order of all_arms()
+
+  /// On most arms, at their first value, where little or nothing is extreme.
+  bool breaks_at_once() const {
+    const auto at_once = [](const Survival& s) { return s.broken && !s.survived; };
+    return 2 * std::ranges::count_if(arms, at_once) > std::ranges::count_if(arms, &Survival::is_asked);
+  }
+};
 
 std::vector<Rung> rungs_of(const std::vector<Row>& rows) {
   std::vector<Rung> rungs;
   for (const std::string_view method : extreme_method_names()) {
     for (const std::size_t p : precisions_of(rows)) {
       for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
+        const Contender contender = {method, p, pairs};
         std::vector<double> times;
         for (const Row& row : rows) {
-          if (row.tally.queries > 0 && matches(row, {.method = method, .precision = p, .pairs = pairs}))
-            times.push_back(row.tally.nanoseconds);
+          if (contender.has(row)) times.push_back(row.tally.nanoseconds);
         }
         if (times.empty()) continue;
-        Rung& rung = rungs.emplace_back(Rung{.method = method, .precision = p, .pairs = pairs});
-        rung.nanoseconds = median(times);
-        for (const Arm& arm : all_arms()) rung.arms.push_back(survival(rows, arm, method, p, pairs));
-        rung.breaks_at_once = breaks_at_once(rows, method, p, pairs);
+        Rung& rung = rungs.emplace_back(Rung{contender, median(times), {}});
+        for (const Arm& arm : all_arms()) rung.arms.push_back(survival(rows, arm, contender));
       }
     }
   }
@@ -136,7 +140,7 @@ Table breaks_table(const std::vector<Row>& rows, const std::vector<Rung>& rungs)
     for (const std::size_t p : precisions_of(rows)) {
       for (const Rung& rung : rungs) {
         const Survival& s = rung.arms[i];
-        if (rung.precision == p && is_asked(s)) breaks.push_back({&all_arms()[i], &rung, s});
+        if (rung.precision == p && s.is_asked()) breaks.push_back({&all_arms()[i], &rung, s});
       }
     }
   }
@@ -198,8 +202,11 @@ struct HeatBin {
 };
 using Bins = std::vector<HeatBin>;
 
-/// The bin of what all rows of a cell add up to; nothing leaves it white.
-using BinOf = std::function<std::optional<std::size_t>(const Tally&)>;
+/// What is seen of all that the rows of a cell add up to: a bin, or nothing, which leaves it white.
+struct Look {
+  Bins bins;
+  std::function<std::optional<std::size_t>(const Tally&)> bin_of;
+};
 
 struct HeatRow {
   std::string label;
@@ -214,65 +221,58 @@ const Bins share_bins = {{"none", "#e6eef6"},
                          {"more", "#7f0000"}};
 const Bins error_bins = {{"up to 1", "#e6eef6"},   {"up to 4", "#b4d6ee"},   {"up to 100", "#eaa838"},
                          {"up to 1e4", "#dc741a"}, {"up to 1e8", "#b43f0a"}, {"more than 1e8", "#571c06"}};
-const Bins silence_bins = {{"all answered", "#e6eef6"},
-                           {"gave up, up to 10 %", "#9e9ac8"},
-                           {"gave up, more", "#54278f"},
-                           {"NaN or invalid, up to 10 %", "#f5c48a"},
-                           {"NaN or invalid, more", "#d95f02"}};
-
 /// The first bin whose upper limit is not below x; the last has none.
 std::size_t bin_of(double x, const std::vector<double>& limits) {
   return static_cast<std::size_t>(std::ranges::lower_bound(limits, x) - limits.begin());
 }
-BinOf share_bin(std::int64_t Tally::*part) {
-  return [part](const Tally& t) -> std::optional<std::size_t> {
-    if (t.queries == 0) return {};
-    return bin_of(static_cast<double>(t.*part) / static_cast<double>(t.queries), {0, 0.01, 0.1, 0.5});
-  };
+Look share_look(std::int64_t Tally::*part) {
+  return {share_bins, [part](const Tally& t) -> std::optional<std::size_t> {
+            if (t.queries == 0) return {};
+            return bin_of(static_cast<double>(t.*part) / static_cast<double>(t.queries), {0, 0.01, 0.1, 0.5});
+          }};
 }
-BinOf error_bin(double Tally::*error) {
-  return [error](const Tally& t) -> std::optional<std::size_t> {
-    if (t.timed == 0) return {};
-    return bin_of(t.*error, {1, 4, 100, 1e4, 1e8});
-  };
+Look error_look(double Tally::*error) {
+  return {error_bins, [error](const Tally& t) -> std::optional<std::size_t> {
+            if (t.timed == 0) return {};
+            return bin_of(t.*error, {1, 4, 100, 1e4, 1e8});
+          }};
 }
-std::optional<std::size_t> silence_bin(const Tally& t) {
-  if (t.queries == 0) return {};
-  if (t.invalid > 0) return 10 * t.invalid > t.queries ? 4 : 3;
-  if (t.gave_up > 0) return 10 * t.gave_up > t.queries ? 2 : 1;
-  return 0;
+const Look silence_look = {{{"all answered", "#e6eef6"},
+                            {"gave up, up to 10 %", "#9e9ac8"},
+                            {"gave up, more", "#54278f"},
+                            {"NaN or invalid, up to 10 %", "#f5c48a"},
+                            {"NaN or invalid, more", "#d95f02"}},
+                           [](const Tally& t) -> std::optional<std::size_t> {
+                             if (t.queries == 0) return {};
+                             if (t.invalid > 0) return 10 * t.invalid > t.queries ? 4 : 3;
+                             if (t.gave_up > 0) return 10 * t.gave_up > t.queries ? 2 : 1;
+                             return 0;
+                           }};
+
+/// The leading digits, `times`, and the power of ten; the number itself in [least, most).
+std::string power_text(double x, std::string_view times, double least, double most) {
+  if (least <= x && x < most) return rounded_text(x, 2);
+  const double power = std::floor(std::log10(x) + 1e-9);
+  return fmt::format("{}{}{:.0f}", rounded_text(x / std::pow(10, power), 2), times, power);
 }
 
-/// 1e4, 1e-15, but 1, 10 and 0.1.
-std::string tic_text(double x) {
-  if (x > 0.05 && x < 50) return rounded_text(x, 2);
-  const double power = std::floor(std::log10(x) + 1e-9), leading = x / std::pow(10, power);
-  return fmt::format("{}e{:.0f}", rounded_text(leading, 2), power);
-}
-
-/// The column of each place: one apart, two where another axis begins.
-std::vector<double> heat_columns(const std::vector<Place>& places) {
-  std::vector<double> columns;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool begins = i > 0 && places[i].axis != places[i - 1].axis;
-    columns.push_back(i == 0 ? 1 : columns.back() + (begins ? 2 : 1));
-  }
-  return columns;
-}
-
+/// The columns of an axis are one apart, and two from those of the next.
 Panel heat_panel(const std::string& title, const std::vector<Row>& rows, const std::vector<HeatRow>& heat_rows,
-                 const Bins& bins, bool names_axes, const BinOf& bin_of_sum) {
+                 const Look& look, bool names_axes) {
   constexpr double row_height = 22.0 / 360;  // [1] of a panel of height 1
   const std::vector<Place> places = places_of(rows);
-  const std::vector<double> columns = heat_columns(places);
-  Panel panel;
-  panel.x_label = "value on the axis named above, all others as usual [1]";
-  panel.y_label = title;
-  panel.height = row_height * (static_cast<double>(heat_rows.size()) + 0.4);
-  for (const HeatBin& bin : bins) {
-    panel.series.push_back(
-        {.label = bin.label, .mark = Mark::cells, .x = {}, .y = {}, .lower = {}, .upper = {}, .color = bin.color});
+  Panel panel = {.x_label = "value on the axis named above, all others as usual [1]",
+                 .y_label = title,
+                 .height = row_height * (static_cast<double>(heat_rows.size()) + 0.4)};
+  double column = 0;
+  for (const Group<Place>& axis : group_by(places, &Place::axis)) {
+    const double middle = column + static_cast<double>(axis.size() + 1) / 2;
+    if (names_axes) panel.x_groups.push_back({middle, std::string(info(axis[0]->axis).title)});
+    for (const Place* place : axis) panel.x_tics.push_back({++column, power_text(place->value, "e", 0.05, 50)});
+    ++column;
   }
+  for (const HeatBin& bin : look.bins)
+    panel.series.push_back({.label = bin.label, .mark = Mark::cells, .color = bin.color});
   for (std::size_t i = 0; i < heat_rows.size(); ++i) {
     const double y = static_cast<double>(heat_rows.size() - i);
     panel.y_tics.push_back({y, heat_rows[i].label});
@@ -282,61 +282,48 @@ Panel heat_panel(const std::string& title, const std::vector<Row>& rows, const s
         sums[static_cast<std::size_t>(std::ranges::find(places, row.place) - places.begin())] += row.tally;
     }
     for (std::size_t j = 0; j < places.size(); ++j) {
-      const std::optional<std::size_t> bin = bin_of_sum(sums[j]);
+      const std::optional<std::size_t> bin = look.bin_of(sums[j]);
       if (!bin) continue;
-      panel.series[*bin].x.push_back(columns[j]);
+      panel.series[*bin].x.push_back(panel.x_tics[j].at);
       panel.series[*bin].y.push_back(y);
     }
-  }
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    panel.x_tics.push_back({columns[j], tic_text(places[j].value)});
-    const bool begins = j == 0 || places[j].axis != places[j - 1].axis;
-    if (!names_axes || !begins) continue;
-    const auto of_axis = std::ranges::count(places, places[j].axis, &Place::axis);
-    panel.x_groups.push_back(
-        {columns[j] + static_cast<double>(of_axis - 1) / 2, std::string(info(places[j].axis).title)});
   }
   return panel;
 }
 
-/// A panel a precision, a row a method.
-Figure by_method(const std::vector<Row>& rows, PairSet pairs, std::string name, std::string title, std::string caption,
-                 const Bins& bins, const BinOf& bin) {
-  Figure figure{std::move(name), std::move(title), std::move(caption), {}};
+/// A panel a precision, with those of its rows that are asked.
+template <class RowsIn> std::vector<Panel> heat_panels(const std::vector<Row>& rows, const Look& look, RowsIn rows_in) {
+  std::vector<Panel> panels;
   for (const std::size_t p : precisions_of(rows)) {
-    std::vector<HeatRow> heat_rows;
-    for (const std::string_view method : methods_of(rows, p, pairs)) {
-      heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""), [=](const Row& row) {
-                             return matches(row, {.method = method, .precision = p, .pairs = pairs});
-                           }});
-    }
-    if (!heat_rows.empty())
-      figure.panels.push_back(heat_panel(title_of(p), rows, heat_rows, bins, figure.panels.empty(), bin));
+    std::vector<HeatRow> heat_rows = rows_in(p);
+    std::erase_if(heat_rows, [&](const HeatRow& row) { return std::ranges::none_of(rows, row.has); });
+    if (!heat_rows.empty()) panels.push_back(heat_panel(title_of(p), rows, heat_rows, look, panels.empty()));
   }
-  return figure;
+  return panels;
 }
 
-/// The closed form on every pair: a panel a precision, a row a pair.
-Figure by_pair(const std::vector<Row>& rows) {
-  Figure figure{
-      "closed_form_pairs",
-      "The closed form on every pair: largest forward error [u kappa t]",
-      "A row is a pair of shapes. White: no hit to time, or a value that does not concern the pair, or that the "
-      "precision cannot hold.",
-      {}};
-  for (const std::size_t p : precisions_of(rows)) {
+/// A row a method.
+auto methods_on(PairSet pairs) {
+  return [pairs](std::size_t precision) {
     std::vector<HeatRow> heat_rows;
-    for (const ExtremePair& pair : extreme_pairs()) {
-      const auto has = [p, &pair](const Row& row) {
-        return row.pair == &pair && row.precision == p && row.tally.method == "closed_form";
-      };
-      if (std::ranges::any_of(rows, has)) heat_rows.push_back({std::string(pair.name), has});
+    for (const std::string_view method : extreme_method_names()) {
+      const Contender contender = {method, precision, pairs};
+      heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""),
+                           [contender](const Row& row) { return contender.has(row); }});
     }
-    if (heat_rows.empty()) continue;
-    figure.panels.push_back(
-        heat_panel(title_of(p), rows, heat_rows, error_bins, figure.panels.empty(), error_bin(&Tally::forward_max)));
+    return heat_rows;
+  };
+}
+
+/// A row a pair, for the closed form.
+std::vector<HeatRow> every_pair(std::size_t precision) {
+  std::vector<HeatRow> heat_rows;
+  for (const ExtremePair& pair : extreme_pairs()) {
+    heat_rows.push_back({std::string(pair.name), [precision, &pair](const Row& row) {
+                           return row.pair == &pair && Contender{"closed_form", precision, PairSet::all}.has(row);
+                         }});
   }
-  return figure;
+  return heat_rows;
 }
 
 /// What rounding the input changes, whatever the method: a row a precision.
@@ -349,43 +336,35 @@ Figure changed_by_rounding(const std::vector<Row>& rows) {
       "Verdicts that rounding the input alone changes",
       "Share of the queries, drawn in doubles, whose true answer is another one once they are rounded to the precision. "
       "No method is at fault: every method is judged by the answer to the rounded query.",
-      {heat_panel("precision", rows, heat_rows, share_bins, true, share_bin(&Tally::changed))}};
+      {heat_panel("precision", rows, heat_rows, share_look(&Tally::changed), true)}};
 }
 
 /// The foil's loss between two balls, with u (d/R)^2 / 2.
 Figure loss_figure(const std::vector<Row>& rows) {
-  struct Loss {
-    const Row* row;
-    double distance, unit;
-  };
-  std::vector<Loss> losses;
-  for (const Row& row : rows) {
-    const double d = row.place.value;
-    const bool is_drawn = row.pair->name == "sphere_sphere" && row.place.axis == ExtremeAxis::distance && d >= 10 &&
-                          row.tally.timed > 0 && (row.tally.method == "textbook" || row.tally.method == "closed_form");
-    if (is_drawn) losses.push_back({&row, d, all_precisions()[row.precision].unit * d * d / 2});
-  }
-  const auto columns = columns_of<Loss>(
-      text("series", "",
-           [](const Loss& l) { return fmt::format("{} {}", l.row->tally.method, title_of(l.row->precision)); }),
-      value("distance", "", "", &Loss::distance), value("loss", "", "", [](const Loss& l) {
-        const double rms = l.row->tally.loss_rms;
-        return rms > 0 ? std::optional(rms * l.unit) : std::nullopt;
-      }));
-  Panel panel = plot(table("drawn", "", columns, losses))
-                    .x("distance", Axis::log, "distance / R [1]")
-                    .y("loss", Axis::log, "error along the normal / R [1]")
-                    .by("series");
-  const bool is_empty = panel.series.empty();
+  Panel panel = {
+      .x_label = "distance / R [1]", .y_label = "error along the normal / R [1]", .log_x = true, .log_y = true};
+  std::vector<Series> theory;
   for (const std::size_t p : precisions_of(rows)) {
-    Series theory = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
-    for (const Loss& l : losses) {
-      if (l.row->precision != p || l.row->tally.method != "textbook") continue;
-      theory.x.push_back(l.distance);
-      theory.y.push_back(l.unit);
+    Series line = {.label = "theory", .mark = Mark::line};
+    for (const std::string_view method : {"textbook", "closed_form"}) {
+      Series points = {.label = fmt::format("{} {}", method, title_of(p))};
+      for (const Row* row : two_balls(rows, method, p)) {
+        const double d = row->place.value, unit = all_precisions()[p].unit * d * d / 2;
+        if (d < 10 || row->tally.timed == 0) continue;
+        if (method == "textbook") {
+          line.x.push_back(d);
+          line.y.push_back(unit);
+        }
+        if (row->tally.loss_rms == 0) continue;
+        points.x.push_back(d);
+        points.y.push_back(row->tally.loss_rms * unit);
+      }
+      if (!points.x.empty()) panel.series.push_back(points);
     }
-    panel.series.push_back(theory);
+    theory.push_back(line);
   }
+  const bool is_empty = panel.series.empty();
+  panel.series.insert(panel.series.end(), theory.begin(), theory.end());
   return {
       "textbook_loss", "What the textbook's quadratic loses between two balls",
       "Root mean square of the error of the place of contact along the normal, over the radius, where it finds one. The "
@@ -402,22 +381,25 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows) {
                     boxes = " Two boxes, which have no radius to give them a normal where they touch." + columns;
   const std::string wrong = "Share of the queries whose verdict is wrong by more than 4 u of its input.",
                     contract = "The contract of the closed form is 4.", timed = " White, too: no hit to time.";
-  const BinOf verdict = share_bin(&Tally::far_wrong), forward = error_bin(&Tally::forward_max);
+  const Look verdict = share_look(&Tally::far_wrong), forward = error_look(&Tally::forward_max),
+             backward = error_look(&Tally::backward_max);
+  const auto with_a_ball = methods_on(PairSet::rounded), two_boxes = methods_on(PairSet::boxes);
   std::vector<Figure> figures = {
-      by_method(rows, PairSet::rounded, "verdicts", "Wrong verdicts, by more than 4 u", wrong + balls, share_bins,
-                verdict),
-      by_method(rows, PairSet::rounded, "forward", "Largest forward error of the time of a hit [u kappa t]",
-                contract + balls + timed, error_bins, forward),
-      by_method(rows, PairSet::rounded, "backward", "Largest backward error of a hit [u]", contract + balls + timed,
-                error_bins, error_bin(&Tally::backward_max)),
-      by_method(rows, PairSet::four, "no_answer", "NaN, invalid, and gave up",
-                "Of all four pairs. Where both occur, the NaN is shown." + columns, silence_bins, silence_bin),
-      by_method(rows, PairSet::boxes, "verdicts_boxes", "Two boxes: wrong verdicts, by more than 4 u", wrong + boxes,
-                share_bins, verdict),
-      by_method(rows, PairSet::boxes, "forward_boxes",
-                "Two boxes: largest forward error of the time of a hit [u kappa t]", contract + boxes + timed,
-                error_bins, forward),
-      by_pair(rows)};
+      {"verdicts", "Wrong verdicts, by more than 4 u", wrong + balls, heat_panels(rows, verdict, with_a_ball)},
+      {"forward", "Largest forward error of the time of a hit [u kappa t]", contract + balls + timed,
+       heat_panels(rows, forward, with_a_ball)},
+      {"backward", "Largest backward error of a hit [u]", contract + balls + timed,
+       heat_panels(rows, backward, with_a_ball)},
+      {"no_answer", "NaN, invalid, and gave up", "Of all four pairs. Where both occur, the NaN is shown." + columns,
+       heat_panels(rows, silence_look, methods_on(PairSet::four))},
+      {"verdicts_boxes", "Two boxes: wrong verdicts, by more than 4 u", wrong + boxes,
+       heat_panels(rows, verdict, two_boxes)},
+      {"forward_boxes", "Two boxes: largest forward error of the time of a hit [u kappa t]", contract + boxes + timed,
+       heat_panels(rows, forward, two_boxes)},
+      {"closed_form_pairs", "The closed form on every pair: largest forward error [u kappa t]",
+       "A row is a pair of shapes. White: no hit to time, or a value that does not concern the pair, or that the "
+       "precision cannot hold.",
+       heat_panels(rows, forward, every_pair)}};
   if (!rows.empty()) figures.push_back(changed_by_rounding(rows));
   figures.push_back(loss_figure(rows));
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
@@ -428,49 +410,37 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows) {
 
 /// 0.1, 30, 10^8, 3 x 10^-7.
 std::string spoken(double x) {
-  if (x >= 0.1 && x < 1000) return rounded_text(x, 2);
-  const double power = std::floor(std::log10(x) + 1e-9);
-  const std::string leading = rounded_text(x / std::pow(10, power), 2);
-  return fmt::format("{}10^{:.0f}", leading == "1" ? "" : leading + " x ", power);
+  const std::string text = power_text(x, " x 10^", 0.1, 1000);
+  return text.starts_with("1 x ") ? text.substr(4) : text;
 }
 
 std::string in_precision(std::size_t precision) {
   return fmt::format("{} {}", all_precisions()[precision].is_wide ? "at" : "in", title_of(precision));
 }
 
-/// "a, b and c".
-std::string listed(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
-  return text;
-}
-
 std::string closed_form_answer(const std::vector<Row>& rows, const std::vector<LadderTest>& tests) {
-  double forward = 0;
-  bool asked = false;
+  std::optional<double> forward;
   for (const LadderTest& t : tests) {
-    if (t.what != "closed_form_forward") continue;
-    forward = std::max(forward, t.measured);
-    asked = true;
+    if (t.what == "closed_form_forward") forward = std::max(forward.value_or(0), t.measured);
   }
-  if (!asked) return "";
+  if (!forward) return "";
   std::vector<std::string> breaks;
   bool is_on_ladder = false;
   for (const std::size_t p : precisions_of(rows)) {
     std::vector<std::string> places;
     for (const Arm& arm : all_arms()) {
-      const Survival s = survival(rows, arm, "closed_form", p);
-      is_on_ladder |= is_asked(s);
-      if (s.broken)
-        places.push_back(fmt::format("{} {}{}", info(arm.axis).name, spoken(*s.broken), info(arm.axis).unit));
+      const Survival s = survival(rows, arm, {"closed_form", p});
+      is_on_ladder |= s.is_asked();
+      const AxisInfo& axis = info(arm.axis);
+      const char* unit = axis.allowed.unit == "R" ? " R" : "";
+      if (s.broken) places.push_back(fmt::format("{} {}{}", axis.name, spoken(*s.broken), unit));
     }
     if (!places.empty()) breaks.push_back(fmt::format("{} at {}", in_precision(p), listed(places)));
   }
   return fmt::format(
       "Where contact lasts long enough for a time to name it, the closed form is off by at most {:.2f} times what rounding "
       "its input changes{}. ",
-      forward,
+      *forward,
       !is_on_ladder    ? ""
       : breaks.empty() ? ", and it breaks nowhere"
                        : ", and it breaks " + fmt::format("{}", fmt::join(breaks, ", ")));
@@ -480,21 +450,13 @@ std::string closed_form_answer(const std::vector<Row>& rows, const std::vector<L
 std::string foil_answer(const std::vector<Row>& rows) {
   std::vector<std::string> parts;
   for (const std::size_t p : precisions_of(rows)) {
-    std::optional<double> first;
-    bool asked = false;
-    for (const Row& row : rows) {
-      if (!matches(row, {.method = "textbook", .precision = p}) || row.pair->name != "sphere_sphere" ||
-          row.place.axis != ExtremeAxis::distance || row.tally.queries == 0) {
-        continue;
-      }
-      asked = true;
-      if (row.tally.far_wrong > 0) first = std::min(first.value_or(row.place.value), row.place.value);
-    }
-    if (asked) {
-      parts.push_back(
-          (first ? fmt::format("from {} R {}", spoken(*first), parts.empty() ? "apart " : "") : "at no distance ") +
-          in_precision(p));
-    }
+    const std::vector<const Row*> asked = two_balls(rows, "textbook", p);
+    if (asked.empty()) continue;
+    const auto first = std::ranges::find_if(asked, [](const Row* row) { return row->tally.far_wrong > 0; });
+    parts.push_back(first == asked.end()
+                        ? "at no distance "
+                        : fmt::format("from {} R {}", spoken((*first)->place.value), parts.empty() ? "apart " : ""));
+    parts.back() += in_precision(p);
   }
   return parts.empty() ? "" : fmt::format("The textbook's formula gets two balls wrong {}. ", listed(parts));
 }
@@ -508,9 +470,11 @@ std::string others_answer(const std::vector<Row>& rows, const std::vector<Rung>&
   std::vector<std::string> others, clauses;
   for (const Rung& rung : rungs) {
     if (rung.precision != p || rung.pairs != PairSet::rounded || rung.method == "closed_form") continue;
-    ways = std::max<std::int64_t>(ways, std::ranges::count_if(rung.arms, is_asked));
-    at_once += rung.breaks_at_once ? 1 : 0;
-    if (rung.breaks_at_once) continue;
+    ways = std::max<std::int64_t>(ways, std::ranges::count_if(rung.arms, &Survival::is_asked));
+    if (rung.breaks_at_once()) {
+      ++at_once;
+      continue;
+    }
     const auto broken = std::ranges::count_if(rung.arms, [](const Survival& s) { return s.broken.has_value(); });
     others.push_back(fmt::format("{} {}on {}", rung.method, others.empty() ? "breaks " : "",
                                  broken > 0 ? std::to_string(broken) : "none"));
@@ -537,7 +501,7 @@ std::string ladder_text(const std::vector<Rung>& rungs, std::size_t precision, P
   std::vector<std::string_view> at_once;
   for (const Rung& rung : rungs) {
     if (rung.precision != precision || rung.pairs != pairs) continue;
-    if (rung.breaks_at_once) {
+    if (rung.breaks_at_once()) {
       at_once.push_back(rung.method);
     } else {
       shown.push_back(rung);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 
@@ -34,29 +35,21 @@ struct Extreme {
 /// An axis: its name as a key of the settings, and what it is. 1 is the value that is no extreme.
 struct AxisInfo {
   std::string_view name, title;  ///< "distance", "distance / R"
-  std::string_view unit;         ///< " R", or nothing
+  double Extreme::*factor;
+  Range allowed;
 };
 const AxisInfo& info(ExtremeAxis axis);
-std::span<const AxisInfo> all_axes();  ///< in the order of ExtremeAxis
 
 /// One value of one axis.
 struct Place {
   ExtremeAxis axis = ExtremeAxis::scale;
   double value = 1;
-  bool operator==(const Place&) const = default;
+  auto operator<=>(const Place&) const = default;
 };
-std::string key(const Place& place);  ///< "scale 1e-150"
 Extreme extreme_at(const Place& place);
 
 /// Every value of every axis that the settings choose, axis by axis, from the least to the greatest. Throws UsageError.
 std::vector<Place> make_places(const Settings& settings);
-
-/// The share of the path until contact for which the contact lasts, at least: below some u of the precision no time can say
-/// that there is one.
-double contact_share(const Place& place);
-
-/// How far the path is from the last that touches, over R: below some u rounding decides, and time is not linear in it.
-double grazing_share(const Place& place);
 
 /// An axis from its usual value outward, to one side: along these a method survives, and then breaks.
 struct Arm {
@@ -71,7 +64,7 @@ std::vector<double> values_along(const Arm& arm, const std::vector<Place>& place
 
 /// A precision, its name in the settings and its round-off.
 struct Precision {
-  std::string_view name, title;
+  std::string_view name;
   double unit;           ///< [1] u
   bool is_wide = false;  ///< in software
 };
@@ -122,9 +115,10 @@ using AskExtreme = std::vector<ExtremeTally> (*)(const ExtremeInquiry& inquiry);
 struct ExtremePair {
   std::string_view name;
   bool rounded;                                 ///< at least one shape has a radius
-  bool every_method;                            ///< or the closed form alone, in float and double
   bool has_box;                                 ///< that can be thin
   std::array<AskExtreme, precision_count> ask;  ///< null: not in that precision
+
+  bool every_method() const { return ask.back() != nullptr; }  ///< or the closed form alone, in float and double
 };
 std::span<const ExtremePair> extreme_pairs();
 
@@ -147,20 +141,21 @@ enum class PairSet {
   all,      ///< the closed form's, too
 };
 
-/// Whom and where: an empty name or a missing place is any.
-struct RowFilter {
-  std::string_view method{};
-  std::size_t precision = 0;
-  const Place* place = nullptr;
+/// A method in a precision, on some of the pairs.
+struct Contender {
+  std::string_view method;
+  std::size_t precision;  ///< index into all_precisions()
   PairSet pairs = PairSet::four;
-};
-bool matches(const ExtremeRow& row, const RowFilter& filter);
 
-/// The precisions and methods that occur, in the order of their lists.
-std::vector<std::size_t> precisions_of(const std::vector<ExtremeRow>& rows);
-std::vector<std::string_view> methods_of(const std::vector<ExtremeRow>& rows, std::size_t precision,
-                                         PairSet pairs = PairSet::four);
-std::vector<Place> places_of(const std::vector<ExtremeRow>& rows);  ///< axis by axis, ascending
+  bool has(const ExtremeRow& row) const;  ///< and it was asked
+};
+
+std::vector<std::size_t> precisions_of(const std::vector<ExtremeRow>& rows);  ///< that occur
+std::vector<Place> places_of(const std::vector<ExtremeRow>& rows);            ///< axis by axis, ascending
+
+/// What was asked of two balls along the distance, from near to far: there the textbook loses by theory.
+std::vector<const ExtremeRow*> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method,
+                                         std::size_t precision);
 
 /// Why a method is broken, the worst first.
 enum class Flaw {
@@ -181,11 +176,9 @@ struct Survival {
   std::optional<double> broken;    ///< that first value
   Flaw flaw = Flaw::verdict;       ///< the worst there
   std::string_view pair{};         ///< whose
-};
-Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, std::string_view method, std::size_t precision,
-                  PairSet pairs = PairSet::four);
 
-/// True if it breaks on most arms at their first value, where little or nothing is extreme.
-bool breaks_at_once(const std::vector<ExtremeRow>& rows, std::string_view method, std::size_t precision, PairSet pairs);
+  bool is_asked() const { return survived || broken; }
+};
+Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const Contender& whose);
 
 }  // namespace thinwall

@@ -4,93 +4,84 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace thinwall {
 
 namespace {
 
-constexpr std::string_view closed_form = "closed_form", foil = "textbook", balls = "sphere_sphere",
-                           forward = "closed_form_forward";
+constexpr std::string_view closed_form = "closed_form", foil = "textbook", forward = "closed_form_forward";
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::string where(const ExtremeRow& row) { return std::string(row.pair->name) + ", " + key(row.place); }
+double unit_of(std::size_t precision) { return all_precisions()[precision].unit; }
 
-/// The contract: at most 4, wherever a contact lasts.
+/// The share of the path until contact for which the contact lasts, at least: below some u of the precision no time can say
+/// that there is one.
+double contact_share(const Place& place) {
+  if (place.axis == ExtremeAxis::distance) return 1 / place.value;
+  if (place.axis == ExtremeAxis::thickness) return place.value / extreme_at(place).distance;
+  return 1;
+}
+
+/// How far the path is from the last that touches, over R: below some u rounding decides, and time is not linear in it.
+double grazing_share(const Place& place) { return place.axis == ExtremeAxis::grazing ? place.value : 1; }
+
+/// Counts the cell, and keeps it if it is the worst.
+void note(LadderTest& test, const ExtremeRow& row, double measured) {
+  ++test.cells;
+  if (measured <= test.measured) return;
+  test.measured = measured;
+  test.where = fmt::format("{}, {} {}", row.pair->name, info(row.place.axis).name, rounded_text(row.place.value, 6));
+}
+
+/// The contract, wherever a contact lasts.
 template <class Measure>
 void add_contract(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& rows, std::size_t precision,
-                  std::string what, double most, const Measure& measure) {
-  LadderTest test{.what = std::move(what), .precision = precision, .most = most};
+                  std::string_view what, double most, const Measure& measure) {
+  LadderTest test{.what = std::string(what), .precision = precision, .most = most};
+  const double least = least_contact * unit_of(precision);
   for (const ExtremeRow& row : rows) {
-    if (!matches(row, {.method = closed_form, .precision = precision, .pairs = PairSet::all})) continue;
-    if (row.tally.queries == 0 || contact_share(row.place) < least_contact * all_precisions()[precision].unit) continue;
-    if (test.what == forward && grazing_share(row.place) < least_contact * all_precisions()[precision].unit) continue;
-    ++test.cells;
-    const double x = measure(row.tally);
-    if (x <= test.measured) continue;
-    test.measured = x;
-    test.where = where(row);
+    if (!Contender{closed_form, precision, PairSet::all}.has(row) || contact_share(row.place) < least) continue;
+    if (what == forward && grazing_share(row.place) < least) continue;
+    note(test, row, measure(row.tally));
   }
   if (test.cells > 0) tests.push_back(test);
 }
 
-/// The cells of two balls along the distance.
-std::vector<const ExtremeRow*> foil_rows(const std::vector<ExtremeRow>& rows, std::size_t precision) {
-  std::vector<const ExtremeRow*> found;
-  for (const ExtremeRow& row : rows) {
-    if (matches(row, {.method = foil, .precision = precision}) && row.pair->name == balls &&
-        row.place.axis == ExtremeAxis::distance && row.tally.queries > 0) {
-      found.push_back(&row);
-    }
-  }
-  std::sort(found.begin(), found.end(), [](auto* a, auto* b) { return a->place.value < b->place.value; });
-  return found;
-}
-
 void add_loss(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& rows, std::size_t precision,
               const LossTheory& theory) {
-  const double u = all_precisions()[precision].unit;
   LadderTest bound{.what = "textbook_loss", .precision = precision, .most = theory.most};
   LadderTest spread{.what = "textbook_loss_spread", .precision = precision, .least = 1, .most = theory.spread};
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const ExtremeRow* row : foil_rows(rows, precision)) {
+  double least = infinity;
+  for (const ExtremeRow* row : two_balls(rows, foil, precision)) {
     const double d = row->place.value;
-    if (d < 10 || u * d * d > 1e-3 || row->tally.timed < 4) continue;  // first order, and enough of it
-    ++bound.cells;
-    const double scaled = std::pow(d, 2 - theory.exponent);
-    if (row->tally.loss_max * scaled > bound.measured) {
-      bound.measured = row->tally.loss_max * scaled;
-      bound.where = where(*row);
-    }
-    least = std::min(least, row->tally.loss_rms * scaled);
-    if (row->tally.loss_rms * scaled > most) {
-      most = row->tally.loss_rms * scaled;
-      spread.where = where(*row);
-    }
+    if (d < 10 || unit_of(precision) * d * d > 1e-3 || row->tally.timed < 4) continue;  // first order, and enough of it
+    const double scaled = std::pow(d, 2 - theory.exponent), rms = row->tally.loss_rms * scaled;
+    note(bound, *row, row->tally.loss_max * scaled);
+    note(spread, *row, rms);
+    least = std::min(least, rms);
   }
-  if (bound.cells == 0) return;
-  spread.cells = bound.cells;
-  spread.measured = most / least;
-  tests.push_back(bound);
+  spread.measured /= least;
+  if (bound.cells > 0) tests.push_back(bound);
   if (spread.cells > 1) tests.push_back(spread);
 }
 
 /// The first distance at which one verdict in ten is wrong, over 1 / sqrt(u). Infinite where there is none.
 void add_threshold(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& rows, std::size_t precision) {
-  const double threshold = 1 / std::sqrt(all_precisions()[precision].unit);
-  const std::vector<const ExtremeRow*> along = foil_rows(rows, precision);
+  const double threshold = 1 / std::sqrt(unit_of(precision));
+  const std::vector<const ExtremeRow*> along = two_balls(rows, foil, precision);
   if (along.empty() || along.front()->place.value > threshold / 10) return;
-  if (std::any_of(along.begin(), along.end(), [](const ExtremeRow* row) { return row->tally.queries < 5; })) return;
+  if (std::ranges::any_of(along, [](const ExtremeRow* row) { return row->tally.queries < 5; })) return;
   const bool reached = along.back()->place.value >= 10 * threshold;
-  LadderTest test{.what = "textbook_verdicts",
-                  .precision = precision,
-                  .cells = static_cast<std::int64_t>(along.size()),
-                  .measured = std::numeric_limits<double>::infinity(),
-                  .least = 0.1,
-                  .most = reached ? 10 : std::numeric_limits<double>::infinity()};
-  for (const ExtremeRow* row : along) {
-    if (10 * row->tally.far_wrong < row->tally.queries) continue;
-    test.measured = row->place.value / threshold;
-    test.where = where(*row);
-    break;
+  LadderTest test{.what = "textbook_verdicts", .precision = precision, .least = 0.1, .most = reached ? 10 : infinity};
+  const auto goes_wrong = [](const ExtremeRow* row) { return 10 * row->tally.far_wrong >= row->tally.queries; };
+  const auto first = std::ranges::find_if(along, goes_wrong);
+  if (first == along.end()) {
+    test.measured = infinity;
+  } else {
+    note(test, **first, (*first)->place.value / threshold);
   }
+  test.cells = static_cast<std::int64_t>(along.size());
   tests.push_back(test);
 }
 
@@ -99,7 +90,7 @@ void add_threshold(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>
 std::vector<LadderTest> ladder_tests(const std::vector<ExtremeRow>& rows, const LossTheory& theory) {
   std::vector<LadderTest> tests;
   for (const std::size_t p : precisions_of(rows)) {
-    add_contract(tests, rows, p, std::string(forward), 4, [](const ExtremeTally& t) { return t.forward_max; });
+    add_contract(tests, rows, p, forward, 4, [](const ExtremeTally& t) { return t.forward_max; });
     add_contract(tests, rows, p, "closed_form_backward", 4, [](const ExtremeTally& t) { return t.backward_max; });
     add_contract(tests, rows, p, "closed_form_verdicts", break_verdict,
                  [](const ExtremeTally& t) { return t.worst_wrong; });

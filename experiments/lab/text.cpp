@@ -48,6 +48,13 @@ std::string plural_text(std::int64_t count, std::string_view noun) {
   return grouped_text(count).append(" ").append(noun).append(count == 1 ? "" : "s");
 }
 
+std::string listed(std::span<const std::string> parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
+  return text;
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 9.95) return rounded_text(seconds, seconds < 1 ? 1 : 2) + " s";
   const auto whole = static_cast<std::int64_t>(std::llround(seconds));

@@ -28,6 +28,9 @@ std::string grouped_text(std::int64_t value);
 /// `1 trial`, `12,000 trials`.
 std::string plural_text(std::int64_t count, std::string_view noun);
 
+/// `a`, `a and b`, `a, b and c`.
+std::string listed(std::span<const std::string> parts);
+
 /// As a person says it: `0.4 s`, `12 s`, `3 min 20 s`, `2 h 5 min`.
 std::string duration_text(double seconds);
 
