@@ -1,7 +1,7 @@
 #include <thinwall/experiments/work_precision/model.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 #include <thinwall/swept/methods/closed_form.hpp>
 #include <thinwall/swept/methods/conservative_advancement.hpp>
@@ -11,24 +11,18 @@ namespace thinwall {
 
 namespace {
 
-constexpr RandomStream resampling = {0, 0x776f726b};  // any constant: the interval depends on the times alone
-
 bool is_fine(const Racer& racer, std::string_view scalar) {
   return finishes(racer) && racer.time.p99 <= fine_error(scalar);
 }
 
 }  // namespace
 
-Estimate nanoseconds(const Racer& racer) {
-  return {median(racer.nanoseconds), bootstrap_median(racer.nanoseconds, resampling)};
-}
+Measured nanoseconds(const Racer& racer) { return median_of_rounds(racer.nanoseconds); }
 
-Estimate slowdown(const Racer& racer, const Racer& other) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < racer.nanoseconds.size(); ++i) {
-    ratios.push_back(racer.nanoseconds[i] / other.nanoseconds[i]);
-  }
-  return {median(ratios), bootstrap_median(ratios, resampling)};
+Measured slowdown(const Racer& racer, const Racer& other) {
+  std::vector<double> ratios(racer.nanoseconds.size());
+  std::ranges::transform(racer.nanoseconds, other.nanoseconds, ratios.begin(), std::divides());
+  return median_of_rounds(ratios);
 }
 
 double fine_error(std::string_view scalar) { return scalar == "float" ? 1e-6 : 1e-12; }
@@ -49,23 +43,16 @@ std::vector<const Racer*> pareto_front(const Heat& heat) {
 }
 
 std::vector<const Racer*> one_a_method(const Heat& heat) {
-  std::vector<const Racer*> chosen;
-  const auto better = [&](const Racer& a, const Racer& b) {
-    const bool a_fine = is_fine(a, heat.scalar), b_fine = is_fine(b, heat.scalar);
+  const auto better = [&](const Racer* a, const Racer* b) {
+    const bool a_fine = is_fine(*a, heat.scalar), b_fine = is_fine(*b, heat.scalar);
     if (a_fine != b_fine) return a_fine;
     if (a_fine) return false;  // the first is the roughest
-    if (finishes(a) != finishes(b)) return finishes(a);
-    return finishes(a) ? a.time.p99 < b.time.p99 : a.missed + a.gave_up < b.missed + b.gave_up;
+    if (finishes(*a) != finishes(*b)) return finishes(*a);
+    return finishes(*a) ? a->time.p99 < b->time.p99 : a->missed + a->gave_up < b->missed + b->gave_up;
   };
-  for (const Racer& racer : heat.racers) {
-    const auto rival =
-        std::find_if(chosen.begin(), chosen.end(), [&](const Racer* r) { return r->method == racer.method; });
-    if (rival == chosen.end()) {
-      chosen.push_back(&racer);
-    } else if (better(racer, **rival)) {
-      *rival = &racer;
-    }
-  }
+  std::vector<const Racer*> chosen;
+  for (const Group<Racer>& settings : group_by(heat.racers, &Racer::method))
+    chosen.push_back(*std::ranges::min_element(settings, better));
   return chosen;
 }
 
@@ -81,10 +68,8 @@ std::optional<double> false_share(const std::vector<Heat>& heats, const Heat& he
 }
 
 const Racer* closed_form_of(const Heat& heat) {
-  for (const Racer& racer : heat.racers) {
-    if (racer.method == ClosedForm<double>::name) return &racer;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(heat.racers, ClosedForm<double>::name, &Racer::method);
+  return found == heat.racers.end() ? nullptr : &*found;
 }
 
 std::vector<const Racer*> fine_and_faster(const Heat& heat) {

@@ -10,22 +10,18 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
 
-/// What the methods' options take, from rough to fine.
-struct Ladder {
-  std::vector<double> tolerances;   ///< [1] epsilon of double to 1; those that float cannot resolve are left out for it
-  std::vector<std::int64_t> poses;  ///< [1] >= 1, of methods with a number of poses
-};
-
 struct RaceOptions {
   std::vector<std::string> methods;  ///< by name, of the method list
-  Ladder ladder;
-  std::int64_t queries = 0;  ///< >= 1, of each set, class and scalar
-  std::int64_t rounds = 0;   ///< >= 1
+  /// From rough to fine: [1] epsilon of double to 1; those that float cannot resolve are left out for it.
+  std::vector<double> tolerances;
+  std::vector<std::int64_t> poses;  ///< [1] >= 1, ascending, of methods with a number of poses
+  std::int64_t queries = 0;         ///< >= 1, of each set, class and scalar
+  std::int64_t rounds = 0;          ///< >= 1
   std::uint64_t seed = 0;
 };
 
@@ -44,12 +40,12 @@ struct Racer {
   std::string setting{};           ///< "tolerance 1e-06"; empty for a method without an option
   std::optional<double> option{};  ///< its value
   std::int64_t queries = 0, touching = 0, missed = 0, false_hits = 0, gave_up = 0;
-  ErrorSpread time{};      ///< [1] of a step
-  ErrorSpread length{};    ///< [m] the same along the relative path
-  double latest = 0;       ///< [1] of a step, <= 0 if never late
-  double earliest = 0;     ///< [1] of a step, >= 0 if never early
-  double forward = 0;      ///< [u kappa t] largest error, in units of what the closed form may err by
-  double evaluations = 0;  ///< [1] a query, on average
+  ErrorSpread time{};          ///< [1] of a step
+  ErrorSpread length{};        ///< [m] the same along the relative path
+  double latest = no_most;     ///< [1] of a step, <= 0 if never late
+  double earliest = no_least;  ///< [1] of a step, >= 0 if never early
+  double forward = 0;          ///< [u kappa t] largest error, in units of what the closed form may err by
+  double evaluations = 0;      ///< [1] a query, on average
   std::int64_t most_evaluations = 0;
   std::vector<double> nanoseconds{};  ///< a query, one of each round; the rounds of all racers are interleaved
 
@@ -58,18 +54,21 @@ struct Racer {
 
   static constexpr auto fields() {
     using T = Racer;
-    return record(kept("method", &T::method), kept("setting", &T::setting),
-                  kept("option", &T::option, "1", "Its tolerance or number of poses; missing where it has none."),
-                  kept("queries", &T::queries, "1", "Queries put."),
-                  kept("touching", &T::touching, "1", "Of those, that touch during the step, by the oracle."),
-                  kept("missed", &T::missed, "1", "Touching, and said to be apart."),
-                  kept("false_hits", &T::false_hits, "1", "Not touching, and said to hit."),
-                  kept("gave_up", &T::gave_up, "1", "Not decided."), part(&T::time), part(&T::length),
-                  kept("latest", &T::latest), kept("earliest", &T::earliest), kept("forward", &T::forward),
-                  kept("evaluations", &T::evaluations, "1",
-                       "Separations, overlap tests, rays or closed forms a query, on average."),
-                  kept("most_evaluations", &T::most_evaluations, "1", "The most that a query took."),
-                  kept("nanoseconds", &T::nanoseconds));
+    return record(
+        kept("method", &T::method), kept("setting", &T::setting),
+        kept("option", &T::option, "1", "Its tolerance or number of poses; missing where it has none."),
+        kept("queries", &T::queries, "1", "Queries put."),
+        kept("touching", &T::touching, "1", "Of those, that touch during the step, by the oracle."),
+        kept("missed", &T::missed, "1", "Touching, and said to be apart."),
+        kept("false_hits", &T::false_hits, "1", "Not touching, and said to hit."),
+        kept("gave_up", &T::gave_up, "1", "Not decided."), part(&T::time), part(&T::length),
+        most("latest", &T::latest, "step", "Answer that is latest after first contact; negative: all are before."),
+        least("earliest", &T::earliest, "step", "Answer that is earliest; positive: all are after."),
+        kept("forward", &T::forward),
+        kept("evaluations", &T::evaluations, "1",
+             "Separations, overlap tests, rays or closed forms a query, on average."),
+        kept("most_evaluations", &T::most_evaluations, "1", "The most that a query took."),
+        kept("nanoseconds", &T::nanoseconds));
   }
 };
 
@@ -103,14 +102,8 @@ struct Heat {
   std::vector<Racer> racers;
 };
 
-/// A median over the rounds, with its 95 % bootstrap interval.
-struct Estimate {
-  double median;
-  Interval interval;
-};
-
-Estimate nanoseconds(const Racer& racer);                   ///< [ns] a query
-Estimate slowdown(const Racer& racer, const Racer& other);  ///< [1] times as long as the other, round by round
+Measured nanoseconds(const Racer& racer);                   ///< [ns] a query: the median over the rounds
+Measured slowdown(const Racer& racer, const Racer& other);  ///< [1] times as long as the other, round by round
 
 /// [1] of a step: a method whose 99th percentile error is no more finds the time about as well as the scalar can say it.
 double fine_error(std::string_view scalar);

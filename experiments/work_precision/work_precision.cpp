@@ -11,7 +11,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
-#include <thinwall/experiments/lab/figure.hpp>
+#include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -28,10 +28,10 @@ namespace {
 struct Row {
   const Heat* heat;
   const Racer* racer;
-  Estimate time;  ///< [ns] a query
-  bool is_on_front = false;
-  std::optional<double> false_share{};
-  std::optional<Estimate> slowdown{};  ///< against the closed form, if that takes part
+  Measured time;  ///< [ns] a query
+  bool is_on_front, stands_for_method;
+  std::optional<double> false_share;
+  std::optional<Measured> slowdown;  ///< against the closed form, if that takes part
 };
 const Racer& racer_of(const Row& row) { return *row.racer; }
 
@@ -47,25 +47,17 @@ std::vector<std::string_view> all_methods() {
 }
 
 /// Every racer of every heat.
-std::vector<Row> all_rows(const std::vector<Heat>& heats) {
+std::vector<Row> rows_of(const std::vector<Heat>& heats) {
+  const auto is_in = [](const std::vector<const Racer*>& racers, const Racer& racer) {
+    return std::ranges::find(racers, &racer) != racers.end();
+  };
   std::vector<Row> rows;
   for (const Heat& heat : heats) {
-    const std::vector<const Racer*> front = pareto_front(heat);
-    for (const Racer& racer : heat.racers)
-      rows.push_back({&heat, &racer, nanoseconds(racer), std::ranges::find(front, &racer) != front.end()});
-  }
-  return rows;
-}
-
-/// Of every race on hits one racer a method: what fine answers cost, against the closed form.
-std::vector<Row> trailing_rows(const std::vector<Heat>& heats) {
-  std::vector<Row> rows;
-  for (const Heat& heat : heats) {
-    if (heat.kind != QueryClass::hit) continue;
+    const std::vector<const Racer*> front = pareto_front(heat), chosen = one_a_method(heat);
     const Racer* exact = closed_form_of(heat);
-    for (const Racer* r : one_a_method(heat)) {
-      rows.push_back({&heat, r, nanoseconds(*r), false, false_share(heats, heat, *r),
-                      exact != nullptr ? std::optional(slowdown(*r, *exact)) : std::nullopt});
+    for (const Racer& r : heat.racers) {
+      rows.push_back({&heat, &r, nanoseconds(r), is_in(front, r), is_in(chosen, r), false_share(heats, heat, r),
+                      exact != nullptr ? std::optional(slowdown(r, *exact)) : std::nullopt});
     }
   }
   return rows;
@@ -74,15 +66,15 @@ std::vector<Row> trailing_rows(const std::vector<Heat>& heats) {
 // What the tables show.
 
 /// An error: missing where nothing touches, or where so many are missed that it is infinite.
-template <class Get> auto finite(std::string name, std::string unit, std::string description, Get get) {
-  return value(std::move(name), std::move(unit), std::move(description), [get](const Row& r) -> std::optional<double> {
-    const double x = get(*r.racer);
+auto error(std::string name, std::string unit, std::string description, ErrorSpread Racer::*errors,
+           double ErrorSpread::*part) {
+  return value(std::move(name), std::move(unit), std::move(description), [=](const Row& r) -> std::optional<double> {
+    const double x = r.racer->*errors.*part;
     return r.racer->touching > 0 && std::isfinite(x) ? std::optional(x) : std::nullopt;
   });
 }
 auto median_error() {
-  return finite("error_median", "step", "Median error of the time of impact.",
-                [](const Racer& r) { return r.time.median; });
+  return error("error_median", "step", "Median error of the time of impact.", &Racer::time, &ErrorSpread::median);
 }
 
 Columns<Row> key_columns() {
@@ -97,17 +89,12 @@ Columns<Row> key_columns() {
 Table errors_table(const std::vector<Row>& rows) {
   const auto columns = columns_of<Row>(
       key_columns(), fields(racer_of, {"queries", "touching", "missed", "false_hits", "gave_up"}), median_error(),
-      finite("error_p99", "step", "99th percentile of the same.", [](const Racer& r) { return r.time.p99; }),
-      finite("error_max", "step", "Largest of the same.", [](const Racer& r) { return r.time.max; }),
-      finite("length_median", "m", "Median error along the relative path.",
-             [](const Racer& r) { return r.length.median; }),
-      finite("length_p99", "m", "99th percentile of the same.", [](const Racer& r) { return r.length.p99; }),
-      finite("length_max", "m", "Largest of the same.", [](const Racer& r) { return r.length.max; }),
-      finite("latest", "step", "Answer that is latest after first contact; negative: all are before.",
-             [](const Racer& r) { return r.latest; }),
-      finite("earliest", "step", "Answer that is earliest; positive: all are after.",
-             [](const Racer& r) { return r.earliest; }),
-      fields(racer_of, {"evaluations", "most_evaluations"}));
+      error("error_p99", "step", "99th percentile of the same.", &Racer::time, &ErrorSpread::p99),
+      error("error_max", "step", "Largest of the same.", &Racer::time, &ErrorSpread::max),
+      error("length_median", "m", "Median error along the relative path.", &Racer::length, &ErrorSpread::median),
+      error("length_p99", "m", "99th percentile of the same.", &Racer::length, &ErrorSpread::p99),
+      error("length_max", "m", "Largest of the same.", &Racer::length, &ErrorSpread::max),
+      fields(racer_of, {"latest", "earliest", "evaluations", "most_evaluations"}));
   return table(
       "errors",
       "Verdicts and errors of the time of impact against the oracle at 50 digits, and evaluations, for every method "
@@ -116,37 +103,29 @@ Table errors_table(const std::vector<Row>& rows) {
 }
 
 Table times_table(const std::vector<Row>& rows) {
-  const auto columns = columns_of<Row>(
-      key_columns(),
-      ValueColumn{"nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.median; },
-                  "lower", "upper"},
-      value("lower", "ns", "Lower end of its interval.", [](const Row& r) { return r.time.interval.lower; }),
-      value("upper", "ns", "Upper end of its interval.", [](const Row& r) { return r.time.interval.upper; }),
-      value("rounds", "1", "Rounds timed.", [](const Row& r) { return r.racer->nanoseconds.size(); }),
-      value("on_front", "", "Nobody is both finer and faster.", &Row::is_on_front));
+  const auto columns =
+      columns_of<Row>(key_columns(), measured("nanoseconds", "ns", "A query; median over the rounds.", &Row::time),
+                      value("rounds", "1", "Rounds timed.", [](const Row& r) { return r.racer->nanoseconds.size(); }),
+                      value("on_front", "", "Nobody is both finer and faster.", &Row::is_on_front));
   return timing(table(
       "timings", "Time a query on this machine: the median over interleaved rounds, with its 95 % bootstrap interval.",
       columns, rows));
 }
 
-Table trailing_table(const std::vector<Row>& rows) {
-  const auto has_ratio = [](const Row& r) { return r.slowdown.has_value(); };
+/// Of every race on hits one racer a method: what fine answers cost, against the closed form.
+Table trailing_table(std::vector<Row> rows) {
+  std::erase_if(rows, [](const Row& row) { return row.heat->kind != QueryClass::hit || !row.stands_for_method; });
   const auto columns = columns_of<Row>(
       key_columns(),
       value("missed", "1", "Contacts that it does not see.", [](const Row& r) { return r.racer->missed; }),
       value("false_share", "1", "Share of the misses, asked apart, that it calls a hit.", &Row::false_share),
       median_error(),
-      finite("error_p99", "step", "99th percentile of the same; missing: it misses more than 1 %.",
-             [](const Racer& r) { return r.time.p99; }),
+      error("error_p99", "step", "99th percentile of the same; missing: it misses more than 1 %.", &Racer::time,
+            &ErrorSpread::p99),
       value("evaluations", "1", "A query, on average.", [](const Row& r) { return r.racer->evaluations; }),
-      value("nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.median; }),
-      where(has_ratio, columns_of<Row>(ValueColumn{"times_closed_form", "1",
-                                                   "Its time over that of the closed form, round by round; median.",
-                                                   [](const Row& r) { return r.slowdown->median; }, "lower", "upper"},
-                                       value("lower", "1", "Lower end of the 95 % bootstrap interval of the same.",
-                                             [](const Row& r) { return r.slowdown->interval.lower; }),
-                                       value("upper", "1", "Upper end of the same.",
-                                             [](const Row& r) { return r.slowdown->interval.upper; }))));
+      value("nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.value; }),
+      measured("times_closed_form", "1", "Its time over that of the closed form, round by round; median.",
+               &Row::slowdown));
   return in_report(timing(
       table("trailing",
             "Each method at its roughest setting with a 99th percentile error of at most 1e-12 of a step (1e-6 in "
@@ -161,43 +140,35 @@ constexpr double least_error = 0x1p-60;  // drawn in place of an error that is l
 
 double shown(double error) { return std::isfinite(error) ? std::max(error, least_error) : nan; }
 
-/// Points of one method, from rough to fine, and the line that joins them.
-void add_method(const Heat& heat, std::string_view method, bool by_time, std::vector<Series>& panel) {
-  Series points = {.label = std::string(method), .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
+/// Points of one method, from rough to fine.
+Series points_of(const Heat& heat, std::string_view method, bool by_time) {
+  Series points = {.label = std::string(method)};
   for (const Racer& r : heat.racers) {
     if (r.method != method || !std::isfinite(r.time.median)) continue;
-    const Estimate time = by_time ? nanoseconds(r) : Estimate{r.evaluations, {r.evaluations, r.evaluations}};
+    const Measured cost = by_time ? nanoseconds(r) : Measured{r.evaluations, {r.evaluations, r.evaluations}};
     points.x.push_back(shown(r.time.median));
     points.x_lower.push_back(shown(r.time.median));
     points.x_upper.push_back(shown(std::isfinite(r.time.p99) ? r.time.p99 : 1));
-    points.y.push_back(time.median);
-    points.lower.push_back(time.interval.lower);
-    points.upper.push_back(time.interval.upper);
+    points.y.push_back(cost.value);
+    points.lower.push_back(cost.interval.lower);
+    points.upper.push_back(cost.interval.upper);
   }
-  if (points.x.empty()) return;
-  Series line = {.label = points.label, .mark = Mark::line, .x = points.x, .y = points.y, .lower = {}, .upper = {}};
-  panel.push_back(std::move(line));
-  panel.push_back(std::move(points));
+  return points;
 }
 
 /// Corners at the 99th percentile errors of those nobody beats: below and left of it there is nobody.
 Series front_line(const Heat& heat) {
-  Series line = {.label = "Pareto front", .mark = Mark::dashes, .x = {}, .y = {}, .lower = {}, .upper = {}};
-  double above = nan;
-  for (const Racer* r : pareto_front(heat)) {
-    const double x = shown(r->time.p99), y = median(r->nanoseconds);
-    if (!line.x.empty()) {
-      line.x.push_back(x);
-      line.y.push_back(above);
-    }
+  Series line = {.label = "Pareto front", .mark = Mark::dashes};
+  const auto draw_to = [&](double x, double y) {
     line.x.push_back(x);
     line.y.push_back(y);
-    above = y;
+  };
+  for (const Racer* r : pareto_front(heat)) {
+    const double x = shown(r->time.p99);
+    if (!line.x.empty()) draw_to(x, line.y.back());
+    draw_to(x, median(r->nanoseconds));
   }
-  if (!line.x.empty()) {
-    line.x.push_back(1);
-    line.y.push_back(above);
-  }
+  if (!line.x.empty()) draw_to(1, line.y.back());
   return line;
 }
 
@@ -211,19 +182,20 @@ struct Shown {
 
 /// One panel for each set.
 std::vector<Panel> panels_of(const std::vector<Heat>& heats, const Shown& what) {
-  const bool by_time = what.by_time;
   std::vector<Panel> panels;
   for (const Heat& heat : heats) {
     if (heat.kind != what.kind || heat.scalar != what.scalar || heat.set->turns != what.turns) continue;
-    Panel panel;
-    panel.x_label = "error of the time of impact [step]: median, with a bar to the 99th percentile";
-    panel.y_label = fmt::format("{}, {}", heat.set->name, by_time ? "ns a query" : "evaluations");
-    panel.log_x = panel.log_y = true;
-    panel.height = 0.9;
-    if (by_time) panel.series.push_back(front_line(heat));
-    for (const std::string_view method : all_methods()) add_method(heat, method, by_time, panel.series);
-    const auto has_points = [](const Series& s) { return s.mark == Mark::points; };
-    if (std::any_of(panel.series.begin(), panel.series.end(), has_points)) panels.push_back(std::move(panel));
+    Panel panel = {.x_label = "error of the time of impact [step]: median, with a bar to the 99th percentile",
+                   .y_label = fmt::format("{}, {}", heat.set->name, what.by_time ? "ns a query" : "evaluations"),
+                   .log_x = true,
+                   .log_y = true,
+                   .height = 0.9};
+    for (const std::string_view method : all_methods()) panel.series.push_back(points_of(heat, method, what.by_time));
+    std::erase_if(panel.series, [](const Series& points) { return points.x.empty(); });
+    if (panel.series.empty()) continue;
+    panel = joined(std::move(panel));
+    if (what.by_time) panel.series.insert(panel.series.begin(), front_line(heat));
+    panels.push_back(std::move(panel));
   }
   return panels;
 }
@@ -279,26 +251,24 @@ std::string front_text(const Heat& heat) {
                                  error_text(front[0]->time.p99));
   text += front.size() == 1 ? std::string("the cheapest at every error that a method reaches without a miss")
                             : std::string("the cheapest");
-  const Estimate time = nanoseconds(*front[0]);
-  text += fmt::format(", at {:.0f} ns a query ({})", time.median, between("{:.0f}", time.interval));
+  const Measured time = nanoseconds(*front[0]);
+  text += fmt::format(", at {:.0f} ns a query ({})", time.value, between("{:.0f}", time.interval));
   for (std::size_t i = 1; i < front.size(); ++i) {
-    const Estimate gain = slowdown(*front[i], *front[i - 1]);
-    text += fmt::format("; where {} is good enough the curves cross and {} is, in {:.2f} of that ({})",
-                        error_text(front[i]->time.p99), full_name(*front[i]), gain.median,
-                        between("{:.2f}", gain.interval));
+    const Measured gain = slowdown(*front[i], *front[i - 1]);
+    text +=
+        fmt::format("; where {} is good enough the curves cross and {} is, in {:.2f} of that ({})",
+                    error_text(front[i]->time.p99), full_name(*front[i]), gain.value, between("{:.2f}", gain.interval));
   }
   return text + ". ";
 }
 
 /// Who does not see every contact, each at its finest.
 std::string missing_text(const Heat& heat) {
-  std::string miss;
+  std::vector<std::string> miss;
   for (const Racer* r : one_a_method(heat)) {
-    if (finishes(*r)) continue;
-    miss +=
-        fmt::format("{}{} ({} of {})", miss.empty() ? "" : ", ", full_name(*r), r->missed + r->gave_up, r->touching);
+    if (!finishes(*r)) miss.push_back(fmt::format("{} ({} of {})", full_name(*r), r->missed + r->gave_up, r->touching));
   }
-  return miss.empty() ? miss : "Contacts are missed by " + miss + ". ";
+  return miss.empty() ? "" : fmt::format("Contacts are missed by {}. ", fmt::join(miss, ", "));
 }
 
 /// By how much the others trail the closed form.
@@ -306,23 +276,24 @@ std::string trailing_text(const Heat& heat) {
   const Racer* exact = closed_form_of(heat);
   if (exact == nullptr) return heat.set->turns ? missing_text(heat) : "";
   const double fine = fine_error(heat.scalar);
-  std::string reach, coarse;
+  std::vector<std::string> reach, coarse;
   for (const Racer* r : one_a_method(heat)) {
     if (r == exact || !finishes(*r)) continue;
-    const Estimate ratio = slowdown(*r, *exact);
-    const std::string name = full_name(*r);
+    const Measured ratio = slowdown(*r, *exact);
     if (r->time.p99 <= fine) {
-      reach += fmt::format("{}{} {:.1f} times as long ({})", reach.empty() ? "" : ", ", name, ratio.median,
-                           between("{:.1f}", ratio.interval));
+      reach.push_back(
+          fmt::format("{} {:.1f} times as long ({})", full_name(*r), ratio.value, between("{:.1f}", ratio.interval)));
     } else {
-      coarse += fmt::format("{}{} ends at {}, for {:.1f} times the time", coarse.empty() ? "" : ", ", name,
-                            error_text(r->time.p99), ratio.median);
+      coarse.push_back(
+          fmt::format("{} ends at {}, for {:.1f} times the time", full_name(*r), error_text(r->time.p99), ratio.value));
     }
   }
   std::string text;
-  if (!reach.empty())
-    text += fmt::format("For an error of at most {:g}, against the closed form's time, it takes {}. ", fine, reach);
-  if (!coarse.empty()) text += "Of those that never get there, " + coarse + ". ";
+  if (!reach.empty()) {
+    text += fmt::format("For an error of at most {:g}, against the closed form's time, it takes {}. ", fine,
+                        fmt::join(reach, ", "));
+  }
+  if (!coarse.empty()) text += fmt::format("Of those that never get there, {}. ", fmt::join(coarse, ", "));
   text += missing_text(heat);
   const std::vector<const Racer*> faster = fine_and_faster(heat);
   for (const Racer* r : faster) text += full_name(*r) + " is as fine and faster than the closed form. ";
@@ -331,13 +302,45 @@ std::string trailing_text(const Heat& heat) {
   return text;
 }
 
+/// Of what turns: what the front door of it reaches, at which price, and what leaving the spin out costs.
+std::string turning_answer(const std::vector<Heat>& heats) {
+  std::int64_t races = 0, missed = 0, touching = 0;
+  std::vector<double> errors, times;
+  for (const Heat& heat : heats) {
+    if (heat.kind != QueryClass::hit || !heat.set->turns || heat.scalar != "double") continue;
+    for (const Racer* r : one_a_method(heat)) {
+      if (r->method == LinearSweep<double>::name) {
+        missed += r->missed;
+        touching += r->touching;
+      }
+      if (r->method != ConservativeAdvancement<double>::name) continue;
+      ++races;
+      if (!finishes(*r)) continue;
+      errors.push_back(r->time.p99);
+      times.push_back(nanoseconds(*r).value / 1000);
+    }
+  }
+  std::string text;
+  if (!times.empty()) {
+    text += fmt::format(
+        " Of shapes that turn, conservative advancement misses nothing in {} of {} races: it comes to {:.0e} of a step in "
+        "{:.2g} to {:.2g} us a query.",
+        times.size(), races, std::ranges::max(errors), std::ranges::min(times), std::ranges::max(times));
+  }
+  if (touching > 0) {
+    text += fmt::format(" A sweep that leaves the turn out misses {:.1f} % of the contacts.",
+                        100 * static_cast<double>(missed) / static_cast<double>(touching));
+  }
+  return text;
+}
+
 /// The races on hits in double, or in float if there are no others.
-std::string summary_of(const std::vector<Heat>& heats, const std::vector<Row>& trailing) {
+std::string summary_of(const std::vector<Heat>& heats, const std::vector<Row>& all) {
   const bool any_double = std::ranges::find(heats, "double", &Heat::scalar) != heats.end();
   std::string text;
   for (const Heat& heat : heats) {
     if (heat.kind != QueryClass::hit || (heat.scalar == "double") != any_double) continue;
-    std::vector<Row> rows = trailing;
+    std::vector<Row> rows = all;
     std::erase_if(rows, [&](const Row& row) { return row.heat != &heat; });
     Table table = trailing_table(rows);
     table.description = fmt::format("{}: hits in {}.", heat.set->name, heat.scalar);
@@ -375,14 +378,14 @@ std::string self_test_words(const std::vector<Heat>& heats) {
 }
 
 Outcome outcome_of(const std::vector<Heat>& heats) {
-  const std::vector<Row> rows = all_rows(heats), trailing = trailing_rows(heats);
+  const std::vector<Row> rows = rows_of(heats);
   std::string cheapest;
   for (const Heat& heat : heats) {
     if (heat.kind == QueryClass::hit) cheapest += heat_text(heat) + "\n\n";
   }
   return {.answer = work_precision_answer(heats),
-          .summary = summary_of(heats, trailing) + "\n" + wrapped("Self-test: " + self_test_words(heats)),
-          .tables = {trailing_table(trailing), errors_table(rows), times_table(rows)},
+          .summary = summary_of(heats, rows) + "\n" + wrapped("Self-test: " + self_test_words(heats)),
+          .tables = {trailing_table(rows), errors_table(rows), times_table(rows)},
           .figures = figures_of(heats),
           .sections = {{"Who is cheapest at which error", cheapest}, {"Self-test", self_test_words(heats)}},
           .self_test_passed = std::ranges::all_of(heats, keeps_contract)};
@@ -421,15 +424,15 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
 
   RaceOptions race;
   race.methods = methods.names;
-  race.ladder.tolerances = settings.numbers("tolerance", {.lower = std::numeric_limits<double>::epsilon(), .upper = 1});
-  std::sort(race.ladder.tolerances.begin(), race.ladder.tolerances.end(), std::greater<>());
-  race.ladder.poses = settings.integers("substeps", 1, 1 << 20);
-  std::sort(race.ladder.poses.begin(), race.ladder.poses.end());
+  race.tolerances = settings.numbers("tolerance", {.lower = std::numeric_limits<double>::epsilon(), .upper = 1});
+  std::ranges::sort(race.tolerances, std::greater());
+  race.poses = settings.integers("substeps", 1, 1 << 20);
+  std::ranges::sort(race.poses);
   race.queries = settings.trials("queries", 1, 1 << 24, options.trials);
   race.rounds = settings.integer("rounds", 1, 1 << 20);
   race.seed = options.seed;
   if (std::ranges::find(scalars, "float") != scalars.end() &&
-      race.ladder.tolerances.front() < double{std::numeric_limits<float>::epsilon()}) {
+      race.tolerances.front() < double{std::numeric_limits<float>::epsilon()}) {
     settings.complain("tolerance", fmt::format("for scalar \"float\" at least one of {:g} to 1, which it can resolve",
                                                std::numeric_limits<float>::epsilon()));
   }
@@ -465,49 +468,10 @@ std::string heat_text(const Heat& heat) {
   return fmt::format("Of {}, hits in {}: ", heat.set->title, heat.scalar) + front_text(heat) + trailing_text(heat);
 }
 
-namespace {
-
-/// Of what turns: what the front door of it reaches, at which price, and what leaving the spin out costs.
-std::string turning_answer(const std::vector<Heat>& heats) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::int64_t races = 0, sound = 0, missed = 0, touching = 0;
-  double error = 0, least = infinity, most = 0;
-  for (const Heat& heat : heats) {
-    if (heat.kind != QueryClass::hit || !heat.set->turns || heat.scalar != "double") continue;
-    for (const Racer* r : one_a_method(heat)) {
-      if (r->method == LinearSweep<double>::name) {
-        missed += r->missed;
-        touching += r->touching;
-      }
-      if (r->method != ConservativeAdvancement<double>::name) continue;
-      ++races;
-      if (!finishes(*r)) continue;
-      ++sound;
-      error = std::max(error, r->time.p99);
-      least = std::min(least, nanoseconds(*r).median);
-      most = std::max(most, nanoseconds(*r).median);
-    }
-  }
-  std::string text;
-  if (sound > 0) {
-    text += fmt::format(
-        " Of shapes that turn, conservative advancement misses nothing in {} of {} races: it comes to {:.0e} of a step in "
-        "{:.2g} to {:.2g} us a query.",
-        sound, races, error, least / 1000, most / 1000);
-  }
-  if (touching > 0) {
-    text += fmt::format(" A sweep that leaves the turn out misses {:.1f} % of the contacts.",
-                        100 * static_cast<double>(missed) / static_cast<double>(touching));
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string work_precision_answer(const std::vector<Heat>& heats) {
   std::int64_t races = 0, races_won = 0;
   std::string faster;
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  std::vector<double> ratios;
   for (const Heat& heat : heats) {
     const Racer* exact = closed_form_of(heat);
     if (heat.kind != QueryClass::hit || exact == nullptr) continue;
@@ -518,8 +482,7 @@ std::string work_precision_answer(const std::vector<Heat>& heats) {
       faster += fmt::format(" {} is faster on {} in {}.", full_name(*r), heat.set->name, heat.scalar);
     for (const Racer* r : one_a_method(heat)) {
       if (r == exact || !finishes(*r) || r->time.p99 > fine_error(heat.scalar)) continue;
-      least = std::min(least, slowdown(*r, *exact).median);
-      most = std::max(most, slowdown(*r, *exact).median);
+      ratios.push_back(slowdown(*r, *exact).value);
     }
   }
   const std::string turning = turning_answer(heats);
@@ -528,9 +491,9 @@ std::string work_precision_answer(const std::vector<Heat>& heats) {
   std::string text = fmt::format(
       "In {} of {} races on hits no method is as fine as 1e-12 of a step (1e-6 in float) and faster than the closed form.{}",
       races_won, races, faster);
-  if (most > 0) {
-    text += fmt::format(" The other methods that get there take {:.1f} to {:.0f} times its time at equal error.", least,
-                        most);
+  if (!ratios.empty()) {
+    text += fmt::format(" The other methods that get there take {:.1f} to {:.0f} times its time at equal error.",
+                        std::ranges::min(ratios), std::ranges::max(ratios));
   }
   return text + turning;
 }

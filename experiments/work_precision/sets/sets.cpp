@@ -26,17 +26,17 @@ concept HasTolerance = requires(const Method& method) { method.tolerance; };
 template <class Method>
 concept HasPoses = requires(const Method& method) { method.n; };
 
-template <class Method, class S> std::vector<Rung<Method>> rungs(const Ladder& ladder) {
+template <class Method, class S> std::vector<Rung<Method>> rungs(const RaceOptions& options) {
   std::vector<Rung<Method>> all;
   if constexpr (HasTolerance<Method>) {
-    for (const double tolerance : ladder.tolerances) {
+    for (const double tolerance : options.tolerances) {
       if (!is_tolerance(static_cast<S>(tolerance))) continue;
       Method method;
       method.tolerance = static_cast<S>(tolerance);
       all.push_back({method, fmt::format("tolerance {:g}", tolerance), tolerance});
     }
   } else if constexpr (HasPoses<Method>) {
-    for (const std::int64_t n : ladder.poses) {
+    for (const std::int64_t n : options.poses) {
       Method method;
       method.n = static_cast<int>(n);
       all.push_back({method, fmt::format("n {}", n), static_cast<double>(n)});
@@ -52,63 +52,44 @@ ErrorSpread spread_of(std::span<const double> errors) {
   return {quantile(errors, 0.5), quantile(errors, 0.99), quantile(errors, 1)};
 }
 
-/// Fills in all of `racer` but its name and times.
+/// All of a racer but its times.
 template <class Method, class A, class B>
-void judge_racer(const Method& method, std::span<const TimedQuery<A, B>> queries, Racer& racer) {
+Racer judged_racer(const Rung<Method>& rung, std::span<const TimedQuery<A, B>> queries) {
   using S = typename decltype(A::shape)::Scalar;
   constexpr double unit = static_cast<double>(std::numeric_limits<S>::epsilon()) / 2;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> times, lengths;
   std::int64_t evaluations = 0;
-  racer.latest = -infinity;
-  racer.earliest = infinity;
+  Racer racer = {.method = std::string(Method::name), .setting = rung.label, .option = rung.option};
   for (const TimedQuery<A, B>& q : queries) {
-    const Toi<S> toi = time_of_impact(method, q.a, q.b);
+    const Toi<S> toi = time_of_impact(rung.method, q.a, q.b);
     ++racer.queries;
     evaluations += toi.evaluations;
     racer.most_evaluations = std::max(racer.most_evaluations, std::int64_t{toi.evaluations});
     const bool says_hit = toi.status == ToiStatus::hit || toi.status == ToiStatus::overlapping;
     const bool says_apart = toi.status == ToiStatus::apart;
-    racer.touching += q.touches ? 1 : 0;
+    racer.touching += q.touches() ? 1 : 0;
     racer.gave_up += says_hit || says_apart ? 0 : 1;
-    racer.false_hits += says_hit && !q.touches ? 1 : 0;
-    racer.missed += says_apart && q.touches ? 1 : 0;
-    if (!q.touches) continue;
-    const double late = says_hit ? static_cast<double>(static_cast<long double>(toi.time) - q.time) : infinity;
+    racer.false_hits += says_hit && !q.touches() ? 1 : 0;
+    racer.missed += says_apart && q.touches() ? 1 : 0;
+    if (!q.touches()) continue;
+    const double late = says_hit ? static_cast<double>(static_cast<long double>(toi.time) - q.truth.time) : infinity;
     times.push_back(std::abs(late));
-    lengths.push_back(std::abs(late) * q.path);
+    lengths.push_back(std::abs(late) * q.truth.path);
     if (!says_hit) continue;
     racer.latest = std::max(racer.latest, late);
     racer.earliest = std::min(racer.earliest, late);
-    racer.forward = std::max(racer.forward, std::abs(late) / (unit * q.conditioning));
+    racer.forward = std::max(racer.forward, std::abs(late) / (unit * q.truth.conditioning));
   }
   racer.time = spread_of(times);
   racer.length = spread_of(lengths);
   racer.evaluations = static_cast<double>(evaluations) / static_cast<double>(std::max<std::int64_t>(1, racer.queries));
+  return racer;
 }
 
-/// A racer and the loop that is timed.
-template <class Query> struct Entrant {
-  Racer racer;
-  std::function<void(std::span<const Query>)> run;
-};
-
-template <class Method, class A, class B>
-Entrant<TimedQuery<A, B>> entrant_of(const Rung<Method>& rung, std::span<const TimedQuery<A, B>> queries) {
-  Entrant<TimedQuery<A, B>> entrant;
-  entrant.racer.method = std::string(Method::name);
-  entrant.racer.setting = rung.label;
-  entrant.racer.option = rung.option;
-  judge_racer(rung.method, queries, entrant.racer);
-  entrant.run = [method = rung.method](std::span<const TimedQuery<A, B>> some) {
-    for (const TimedQuery<A, B>& q : some) keep(time_of_impact(method, q.a, q.b));
-  };
-  return entrant;
-}
-
-template <class Set, class S> using MethodsOf = std::conditional_t<Set::turns, TurningMethods<S>, Methods<S>>;
+template <class Set, class S> using MethodsOf = std::conditional_t<is_turning<Set>, TurningMethods<S>, Methods<S>>;
 template <class Set, class Method> constexpr bool takes_part() {
-  if constexpr (Set::turns) {
+  if constexpr (is_turning<Set>) {
     return serves_turning<Method, typename Set::A, typename Set::B>;
   } else {
     return serves<Method, typename Set::A, typename Set::B>;
@@ -124,23 +105,22 @@ template <class Set, class S> std::vector<Racer> race(QueryClass kind, const Rac
     queries.push_back(timed_query<Set, S>(stream, static_cast<std::uint64_t>(i), kind));
   }
   const std::span<const Query> all(queries);
-  std::vector<Entrant<Query>> entrants;
+  std::vector<Racer> racers;
+  std::vector<TimedLoop<Query>> loops;
   for_each_type(MethodsOf<Set, S>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (takes_part<Set, Method>()) {
-      const auto& names = options.methods;
-      if (std::find(names.begin(), names.end(), Method::name) == names.end()) return;
-      for (const auto& rung : rungs<Method, S>(options.ladder)) entrants.push_back(entrant_of(rung, all));
+      if (std::ranges::find(options.methods, Method::name) == options.methods.end()) return;
+      for (const Rung<Method>& rung : rungs<Method, S>(options)) {
+        racers.push_back(judged_racer(rung, all));
+        loops.push_back({[method = rung.method](std::span<const Query> some) {
+          for (const Query& q : some) keep(time_of_impact(method, q.a, q.b));
+        }});
+      }
     }
   });
-  std::vector<TimedLoop<Query>> loops;
-  for (const Entrant<Query>& entrant : entrants) loops.push_back({entrant.run});
   constexpr double round_ns = 4e6;
   run_rounds(loops, all, options.rounds, round_ns, stream);
-  std::vector<Racer> racers;
-  for (std::size_t i = 0; i < entrants.size(); ++i) {
-    racers.push_back(std::move(entrants[i].racer));
-    racers.back().nanoseconds = std::move(loops[i].nanoseconds);
-  }
+  for (std::size_t i = 0; i < racers.size(); ++i) racers[i].nanoseconds = std::move(loops[i].nanoseconds);
   return racers;
 }
 
@@ -154,7 +134,7 @@ template <class Set> std::vector<std::string_view> methods_that_serve() {
 }
 
 template <class Set> QuerySet query_set_of() {
-  return {Set::name, Set::title, Set::turns, methods_that_serve<Set>(), &race<Set, float>, &race<Set, double>};
+  return {Set::name, Set::title, is_turning<Set>, methods_that_serve<Set>(), &race<Set, float>, &race<Set, double>};
 }
 
 }  // namespace
