@@ -1,7 +1,6 @@
 #include <thinwall/experiments/swept_bounds/bounds.hpp>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <type_traits>
 
@@ -9,6 +8,7 @@
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/obb.hpp>
+#include <thinwall/discrete/type_list.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
@@ -83,36 +83,8 @@ struct ExactMotion {
 
 template <class Bound, class Motion> constexpr bool serves_motion = requires(const Motion& m) { Bound::around(m); };
 
-/// What the balls of a bound are drawn around.
-template <class Bound> FittedBody drawn_around(const Sweep& s) {
-  if constexpr (requires { Bound::drawn_around(s); }) {
-    return Bound::drawn_around(s);
-  } else {
-    return Bound::body(s);
-  }
-}
-
 /// Tells the optimizer that the value is used, and that all memory may have changed: what comes next is done anew.
 template <class T> void use(const T& value) { asm volatile("" : : "r"(&value) : "memory"); }
-
-template <class Bound, class Motion>
-SweepTally count_all(const Motion& motion, const Sweep& s, const BallRegion& region, const RandomStream& stream,
-                     std::int64_t shots) {
-  const auto bound = Bound::around(motion);
-  SweepTally t;
-  t.shots = t.grazing = shots;
-  for (std::int64_t i = 0; i < shots; ++i) {
-    const auto trial = static_cast<std::uint64_t>(i);
-    const Ball ball = ball_in(region, s, stream, trial);
-    const bool touched = touches(s, ball.center), reported = Bound::reports(bound, ball);
-    t.touching += touched ? 1 : 0;
-    t.reported += reported ? 1 : 0;
-    t.false_hits += reported && !touched ? 1 : 0;
-    t.missed += touched && !reported ? 1 : 0;
-    t.missed += Bound::reports(bound, grazing_ball(s, region.axes, stream, trial)) ? 0 : 1;
-  }
-  return t;
-}
 
 /// How many of the balls `answers` is true of, over all passes.
 template <class Answers> std::int64_t go_through(std::span<const Ball> balls, int passes, const Answers& answers) {
@@ -142,14 +114,7 @@ std::int64_t repeat_work(TimedWork work, const Motion& motion, std::span<const B
   return go_through(balls, passes, pipeline);
 }
 
-template <class Visit> void for_each_bound(const Visit& visit) {
-  visit(EnclosingSphere{});
-  visit(EnclosingAabb{});
-  visit(SweptCapsule{});
-  visit(OrientedBox{});
-  visit(RelativeCapsule{});
-  visit(ExactMotion{});
-}
+using Bounds = TypeList<EnclosingSphere, EnclosingAabb, SweptCapsule, OrientedBox, RelativeCapsule, ExactMotion>;
 
 /// Calls `ask` with the moving shape, which the bound serves.
 template <class Bound, class Result, class Ask> Result ask_shape(const Sweep& s, const Ask& ask) {
@@ -171,17 +136,19 @@ template <class Bound> SweptBound erased() {
             return form == SweptForm::sphere ? serves_motion<Bound, MovingBall> : serves_motion<Bound, MovingBox>;
           },
       .body = Bound::body,
-      .ask_all =
-          [](const Sweep& s, std::uint64_t seed, std::int64_t shots) {
-            return ask_shape<Bound, SweepTally>(s, [&](const auto& motion) {
-              return count_all<Bound>(motion, s, region_around(drawn_around<Bound>(s), s), random_stream(s, seed),
-                                      shots);
-            });
+      .drawn_around =
+          [](const Sweep& s) {
+            if constexpr (requires { Bound::drawn_around(s); }) {
+              return Bound::drawn_around(s);
+            } else {
+              return Bound::body(s);
+            }
           },
       .reports =
-          [](const Sweep& s, const Ball& ball) {
-            return ask_shape<Bound, bool>(
-                s, [&](const auto& motion) { return Bound::reports(Bound::around(motion), ball); });
+          [](const Sweep& s) {
+            return ask_shape<Bound, BallTest>(s, [](const auto& motion) {
+              return [bound = Bound::around(motion)](const Ball& ball) { return Bound::reports(bound, ball); };
+            });
           },
       .repeat =
           [](TimedWork work, const Sweep& s, std::span<const Ball> balls, int passes) {
@@ -193,50 +160,18 @@ template <class Bound> SweptBound erased() {
 
 constexpr int balls_in_question = 2048, tests_a_round = 1 << 13;
 
-/// Where the centers of balls are whose bounding box overlaps that of the swept shape.
-BallRegion box_pairs(const Sweep& s) {
-  const FittedBody box = enclosing_aabb_body(s);
-  BallRegion region = {path(s) / 2, box.axes, {}};
-  for (int i = 0; i < 3; ++i) region.half_extents[i] = half_width(box.body, box.axes.col(i)) + ball_radius(s);
-  return region;
-}
-
-double part_of(std::size_t part, std::size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
-
-/// The value below which `part` of the rounds lie, straight between neighbors.
-double quantile(std::vector<double> rounds, double part) {
-  std::sort(rounds.begin(), rounds.end());
-  const double place = part * static_cast<double>(rounds.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, rounds.size() - 1);
-  return rounds[below] + (rounds[above] - rounds[below]) * (place - static_cast<double>(below));
-}
-
-void note(SweepCost& cost, TimedWork work, const std::vector<double>& rounds) {
-  switch (work) {
-    case TimedWork::build: cost.build_ns = quantile(rounds, 0.5); break;
-    case TimedWork::test: cost.test_ns = quantile(rounds, 0.5); break;
-    case TimedWork::exact: cost.false_ns = quantile(rounds, 0.5); break;
-    case TimedWork::pipeline:
-      cost.pair_ns = quantile(rounds, 0.5);
-      cost.pair_lower_ns = quantile(rounds, 0.25);
-      cost.pair_upper_ns = quantile(rounds, 0.75);
-      break;
-  }
-}
-
 }  // namespace
 
 std::vector<std::string_view> swept_bound_names() {
   std::vector<std::string_view> names;
-  for_each_bound([&](const auto& bound) { names.push_back(bound.name); });
+  for_each_type(Bounds{}, [&]<class Bound>(TypeTag<Bound>) { names.push_back(Bound::name); });
   return names;
 }
 
 std::vector<SweptBound> swept_bounds_named(std::span<const std::string> names) {
   std::vector<SweptBound> all;
-  for_each_bound([&]<class Bound>(const Bound&) {
-    if (std::find(names.begin(), names.end(), Bound::name) != names.end()) all.push_back(erased<Bound>());
+  for_each_type(Bounds{}, [&]<class Bound>(TypeTag<Bound>) {
+    if (std::ranges::find(names, Bound::name) != names.end()) all.push_back(erased<Bound>());
   });
   return all;
 }
@@ -251,46 +186,68 @@ std::vector<SweepPair> serving_pairs(const std::vector<Sweep>& sweeps, const std
   return pairs;
 }
 
-SweepRow make_row(const SweepPair& pair, const SweepTally& tally) {
-  return {pair.sweep, pair.bound->name, pair.bound->makes_volume,
-          sweep_theory(pair.bound->body(pair.sweep), pair.sweep), tally};
+SweepTally count_balls(const SweepPair& pair, std::uint64_t seed, std::int64_t shots) {
+  const Sweep& s = pair.sweep;
+  const BallRegion region = region_around(pair.bound->drawn_around(s), s);
+  const RandomStream stream = random_stream(s, seed);
+  const BallTest reports = pair.bound->reports(s);
+  SweepTally t;
+  t.shots = t.grazing = shots;
+  for (std::int64_t i = 0; i < shots; ++i) {
+    const auto trial = static_cast<std::uint64_t>(i);
+    const Ball ball = ball_in(region, s, stream, trial);
+    const bool touched = touches(s, ball.center), reported = reports(ball);
+    t.touching += touched ? 1 : 0;
+    t.reported += reported ? 1 : 0;
+    t.false_hits += reported && !touched ? 1 : 0;
+    t.missed += touched && !reported ? 1 : 0;
+    t.missed += reports(grazing_ball(s, region.axes, stream, trial)) ? 0 : 1;
+  }
+  return t;
 }
 
 std::vector<CellCount> counts_of(const std::vector<SweepRow>& rows) {
   std::vector<CellCount> counts;
   for (const SweepRow& r : rows) {
     const SweepTally& t = r.tally;
-    counts.push_back({r.bound, "touching", t.shots, t.touching, r.theory.touching});
-    counts.push_back({r.bound, "reported", t.shots, t.reported, r.theory.reported()});
-    counts.push_back({r.bound, "false", t.shots, t.false_hits, r.theory.false_hits});
-    counts.push_back({r.bound, "missed", t.shots + t.grazing, t.missed, 0});
+    counts.push_back({r.bound->name, "touching", t.shots, t.touching, r.theory.touching});
+    counts.push_back({r.bound->name, "reported", t.shots, t.reported, r.theory.reported()});
+    counts.push_back({r.bound->name, "false", t.shots, t.false_hits, r.theory.false_hits});
+    counts.push_back({r.bound->name, "missed", t.shots + t.grazing, t.missed, 0});
   }
   return counts;
 }
 
 std::vector<TimedSubject> timed_subjects(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds,
                                          std::uint64_t seed) {
+  const auto part_of_all = [](std::size_t part) { return static_cast<double>(part) / balls_in_question; };
   std::vector<TimedSubject> subjects;
   for (const SweepPair& pair : serving_pairs(sweeps, bounds)) {
     const Sweep& s = pair.sweep;
-    const BallRegion region = box_pairs(s);
+    const BallRegion region = region_around(enclosing_aabb_body(s), s, 1);
     const RandomStream stream = random_stream(s, seed);
-    std::vector<Sphere<double>> all, wrong;
+    const BallTest reports = pair.bound->reports(s);
+    std::vector<Ball> all, wrong;
     std::size_t reported = 0;
     for (std::uint64_t i = 0; i < balls_in_question; ++i) {
       all.push_back(ball_in(region, s, stream, i));
-      if (!pair.bound->reports(s, all.back())) continue;
+      if (!reports(all.back())) continue;
       ++reported;
       if (!touches(s, all.back().center)) wrong.push_back(all.back());
     }
     for (const TimedWork work : {TimedWork::build, TimedWork::test, TimedWork::exact, TimedWork::pipeline}) {
-      const std::vector<Sphere<double>>& balls = work == TimedWork::exact ? wrong : all;
+      const std::vector<Ball>& balls = work == TimedWork::exact ? wrong : all;
       if (balls.empty()) continue;
       const int passes = std::max(1, tests_a_round / static_cast<int>(balls.size()));
-      subjects.push_back({pair, work, balls, passes, part_of(reported, all.size()), part_of(wrong.size(), all.size())});
+      subjects.push_back({pair, work, balls, passes, part_of_all(reported), part_of_all(wrong.size())});
     }
   }
   return subjects;
+}
+
+std::optional<double> SweepCost::quantile_ns(TimedWork work, double share) const {
+  const std::vector<double>& rounds = nanoseconds[static_cast<std::size_t>(work)];
+  return rounds.empty() ? std::nullopt : std::optional(quantile(rounds, share));
 }
 
 std::vector<SweepCost> sweep_costs(const std::vector<TimedSubject>& subjects, std::span<const double> seconds) {
@@ -298,14 +255,12 @@ std::vector<SweepCost> sweep_costs(const std::vector<TimedSubject>& subjects, st
   if (seconds.empty()) return costs;
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const TimedSubject& t = subjects[i];
-    if (costs.empty() || costs.back().sweep != t.pair.sweep || costs.back().bound != t.pair.bound->name) {
-      costs.push_back({t.pair.sweep, t.pair.bound->name, t.reported, t.false_hits, 0, 0, {}, 0, 0, 0});
+    if (costs.empty() || costs.back().sweep != t.pair.sweep || costs.back().bound != t.pair.bound) {
+      costs.push_back({t.pair, t.reported, t.false_hits});
     }
-    std::vector<double> rounds;
-    for (std::size_t k = i; k < seconds.size(); k += subjects.size()) {
+    std::vector<double>& rounds = costs.back().nanoseconds[static_cast<std::size_t>(t.work)];
+    for (std::size_t k = i; k < seconds.size(); k += subjects.size())
       rounds.push_back(1e9 * seconds[k] / static_cast<double>(t.tests()));
-    }
-    note(costs.back(), t.work, rounds);
   }
   return costs;
 }

@@ -43,13 +43,16 @@ enum class TimedWork {
 inline constexpr std::array<std::string_view, 4> timed_work_names = {"build", "test", "exact", "pipeline"};
 constexpr std::string_view name(TimedWork work) { return timed_work_names[static_cast<std::size_t>(work)]; }
 
+using BallTest = std::function<bool(const Sphere<double>&)>;
+
 struct SweptBound {
   std::string name;
   bool makes_volume;  ///< and asks what overlaps it; else it asks the moving shape itself, and has no false hits
   std::function<bool(SweptForm)> serves;
   std::function<FittedBody(const Sweep&)> body;
-  std::function<SweepTally(const Sweep&, std::uint64_t seed, std::int64_t shots)> ask_all;
-  std::function<bool(const Sweep&, const Sphere<double>&)> reports;
+  std::function<FittedBody(const Sweep&)>
+      drawn_around;                               ///< what balls are drawn around: the same, or as the library turns it
+  std::function<BallTest(const Sweep&)> reports;  ///< makes the bound, once for all balls
   /// Goes `passes` times through the balls; returns how many were reported. Nothing else is done in that time.
   std::function<std::int64_t(TimedWork, const Sweep&, std::span<const Sphere<double>>, int passes)> repeat;
 };
@@ -64,15 +67,13 @@ struct SweepPair {
 };
 std::vector<SweepPair> serving_pairs(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds);
 
-/// A cell, a bound, what was counted and what theory expects.
-struct SweepRow {
-  Sweep sweep;
-  std::string bound;
-  bool makes_volume;  ///< as the bound
-  SweepTheory theory;
+SweepTally count_balls(const SweepPair& pair, std::uint64_t seed, std::int64_t shots);
+
+/// What was counted and what theory expects.
+struct SweepRow : SweepPair {
   SweepTally tally;
+  SweepTheory theory = sweep_theory(bound->body(sweep), sweep);
 };
-SweepRow make_row(const SweepPair& pair, const SweepTally& tally);
 
 /// Reported, truly touched, false and missed against theory, as the self-test wants it: `method` is the bound, `scalar`
 /// the event.
@@ -95,18 +96,15 @@ struct TimedSubject {
 std::vector<TimedSubject> timed_subjects(const std::vector<Sweep>& sweeps, const std::vector<SweptBound>& bounds,
                                          std::uint64_t seed);
 
-/// What a bound costs at a cell. Times are medians.
-struct SweepCost {
-  Sweep sweep;
-  std::string bound;
-  double reported, false_hits;  ///< [1] shares of the pairs in question
-  double build_ns = 0, test_ns = 0;
-  std::optional<double> false_ns;               ///< the closed form on one of its false hits, if it makes any
-  double pair_ns = 0;                           ///< the bound on a pair, then the closed form if reported
-  double pair_lower_ns = 0, pair_upper_ns = 0;  ///< quartiles of the rounds
+/// What a bound costs at a cell.
+struct SweepCost : SweepPair {
+  double reported, false_hits;                          ///< [1] shares of the pairs in question
+  std::array<std::vector<double>, 4> nanoseconds = {};  ///< of each TimedWork, one a round; none of what there is not
 
+  /// What this share of the rounds took at most: the median.
+  std::optional<double> quantile_ns(TimedWork work, double share = 0.5) const;
   /// Time spent on false hits, a pair in question.
-  double wasted_ns() const { return false_hits * false_ns.value_or(0); }
+  double wasted_ns() const { return false_hits * quantile_ns(TimedWork::exact).value_or(0); }
 };
 
 /// `seconds` of every subject in turn, round by round; none if there were no rounds.

@@ -61,28 +61,24 @@ struct SquaredDistance {
 };
 
 /// 0, 1, and the times in between at which the point passes the plane of a face: the slope is straight between them.
-struct Times {
-  std::array<Real, 8> sorted;
-  std::size_t count;
-};
-Times times_of_change(const SquaredDistance& f) {
-  Times times = {{0, 1}, 2};
+std::array<Real, 8> times_of_change(const SquaredDistance& f) {
+  std::array<Real, 8> times = {0, 1, 1, 1, 1, 1, 1, 1};
+  std::size_t next = 2;
   for (int i = 0; i < 3; ++i) {
-    if (f.d[i] == 0) continue;
     for (const Real side : {-f.half_extents[i], f.half_extents[i]}) {
-      const Real time = (f.p[i] - side) / f.d[i];
-      if (0 < time && time < 1) times.sorted[times.count++] = time;
+      const Real time = f.d[i] == 0 ? 0 : (f.p[i] - side) / f.d[i];
+      if (0 < time && time < 1) times[next++] = time;
     }
   }
-  std::sort(times.sorted.begin(), times.sorted.begin() + static_cast<std::ptrdiff_t>(times.count));
+  std::ranges::sort(times);
   return times;
 }
 
 Real least_squared(const SquaredDistance& f) {
-  const Times times = times_of_change(f);
+  const std::array<Real, 8> times = times_of_change(f);
   Real least = std::min(f.at(0), f.at(1));
-  for (std::size_t k = 0; k + 1 < times.count; ++k) {
-    const Real from = times.sorted[k], to = times.sorted[k + 1];
+  for (std::size_t k = 0; k + 1 < times.size() && times[k] < 1; ++k) {
+    const Real from = times[k], to = times[k + 1];
     const Real falls = -f.slope(from), rises = f.slope(to);
     least = std::min(least, f.at(to));
     if (falls > 0 && rises > 0) least = std::min(least, f.at(from + (to - from) * (falls / (falls + rises))));

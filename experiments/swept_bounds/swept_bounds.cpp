@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
@@ -24,9 +25,6 @@ namespace {
 using Row = SweepRow;
 using Tally = SweepTally;
 
-constexpr const char* what_moves = "What moves.";
-constexpr const char* what_stands_for_it = "What stands for the volume it sweeps.";
-
 template <class Row> std::vector<Row> chosen(const std::vector<Row>& rows, const auto& choice) {
   std::vector<Row> result;
   std::ranges::copy_if(rows, std::back_inserter(result), choice);
@@ -35,13 +33,20 @@ template <class Row> std::vector<Row> chosen(const std::vector<Row>& rows, const
 
 // What the tables show.
 
+template <class Row> auto shape_column() {
+  return text("shape", "What moves.", [](const Row& r) { return name(r.sweep.form); });
+}
+template <class Row> auto bound_column() {
+  return text("bound", "What stands for the volume it sweeps.", [](const Row& r) { return r.bound->name; });
+}
+
 Columns<Row> row_columns() {
   const auto factors = [](std::initializer_list<std::string_view> names) {
     return sweep_factors().columns(&Row::sweep, names);
   };
   const auto expected = [](double share, const Row& r) { return share * static_cast<double>(r.tally.shots); };
   return columns_of<Row>(
-      factors({"shape"}), text("bound", what_stands_for_it, &Row::bound), factors({"speed", "step", "width"}),
+      factors({"shape"}), bound_column<Row>(), factors({"speed", "step", "width"}),
       value("path", "widths", "How far the shape moves in a step.",
             [](const Row& r) { return path_in_widths(r.sweep); }),
       factors({"angle_deg", "turn_deg", "obstacle"}), fields(&Row::tally, {"shots", "touching"}),
@@ -63,45 +68,37 @@ Columns<Row> row_columns() {
       fields(&Row::tally, {"grazing", "missed"}));
 }
 
-/// A bound of a shape over all of their cells.
-struct Total {
-  SweptForm form;
-  std::string bound;
-  std::int64_t cells = 0;
-  Tally tally = {};
-  double least_false = 1, most_false = 0;  ///< [1] false fraction by theory, in the cell where that is so
+/// A bound of a shape over all of their cells, of which the first is the pair's.
+struct Total : SweepPair {
+  Group<Row> cells;
+  Tally tally = total_of(cells, &Row::tally);
+
+  /// False fractions by theory, [1] of each cell.
+  auto false_shares() const {
+    return cells | std::views::transform([](const Row* cell) { return cell->theory.false_fraction; });
+  }
 };
 
 std::vector<Total> totals_of(const std::vector<Row>& rows) {
   std::vector<Total> totals;
-  for (const Group<Row>& group : group_by(rows, [](const Row& r) { return std::tie(r.sweep.form, r.bound); })) {
-    Total& total = totals.emplace_back();
-    total.form = group[0]->sweep.form;
-    total.bound = group[0]->bound;
-    total.cells = static_cast<std::int64_t>(group.size());
-    total.tally = total_of(group, &Row::tally);
-    for (const Row* row : group) {
-      total.least_false = std::min(total.least_false, row->theory.false_fraction);
-      total.most_false = std::max(total.most_false, row->theory.false_fraction);
-    }
-  }
-  std::ranges::stable_sort(totals, {}, &Total::form);
+  for (const Group<Row>& group : group_by(rows, [](const Row& r) { return std::pair(r.sweep.form, r.bound); }))
+    totals.push_back({*group[0], group});
+  std::ranges::stable_sort(totals, {}, [](const Total& t) { return t.sweep.form; });
   return totals;
 }
 
 Table shapes_table(const std::vector<Total>& totals) {
   const auto columns = columns_of<Total>(
-      text("shape", what_moves, [](const Total& t) { return name(t.form); }),
-      text("bound", what_stands_for_it, &Total::bound), value("cells", "1", "Conditions.", &Total::cells),
+      shape_column<Total>(), bound_column<Total>(),
+      value("cells", "1", "Conditions.", [](const Total& t) { return t.cells.size(); }),
       value("touched", "1", "Balls that the shape truly touches, those that just touch included.",
             [](const Total& t) { return t.tally.touched(); }),
       value("missed", "1", "Of those, not reported by the bound.", [](const Total& t) { return t.tally.missed; }),
-      value("reported", "1", "Balls around the bound that it reports.",
-            [](const Total& t) { return t.tally.reported; }),
-      value("false_hits", "1", "Of those, not touched.", [](const Total& t) { return t.tally.false_hits; }),
+      fields(&Total::tally, {"reported", "false_hits"}),
       value("false_least", "1", "Share of reports that are false, by theory, in the cell where it is least.",
-            &Total::least_false),
-      value("false_most", "1", "The same where it is most.", &Total::most_false));
+            [](const Total& t) { return std::ranges::min(t.false_shares()); }),
+      value("false_most", "1", "The same where it is most.",
+            [](const Total& t) { return std::ranges::max(t.false_shares()); }));
   return in_report(table("shapes", "Each bound of each shape over all of its cells.", columns, totals));
 }
 
@@ -118,21 +115,22 @@ Table counts_test_table(const std::vector<SelfTest>& tests) {
 
 Table timings_table(const std::vector<SweepCost>& costs) {
   using T = SweepCost;
+  const auto time = [](std::string name, std::string description, TimedWork work, double share = 0.5) {
+    return value(std::move(name), "ns", std::move(description), [=](const T& c) { return c.quantile_ns(work, share); });
+  };
   const auto columns = columns_of<T>(
-      text("shape", what_moves, [](const T& c) { return name(c.sweep.form); }),
-      value("speed", "m/s", "Its speed.", [](const T& c) { return c.sweep.speed; }),
+      shape_column<T>(), value("speed", "m/s", "Its speed.", [](const T& c) { return c.sweep.speed; }),
       value("path", "widths", "How far it moves in a step.", [](const T& c) { return path_in_widths(c.sweep); }),
-      text("bound", what_stands_for_it, &T::bound),
-      value("reported", "1", "Share of the pairs that it reports.", &T::reported),
+      bound_column<T>(), value("reported", "1", "Share of the pairs that it reports.", &T::reported),
       value("false_hits", "1", "Share of the pairs that it reports although they do not touch.", &T::false_hits),
-      value("build_ns", "ns", "Time to make the bound, once a shape and step.", &T::build_ns),
-      value("test_ns", "ns", "Time to put a pair to it.", &T::test_ns),
-      value("false_ns", "ns", "Time of the closed form on one of its false hits; missing if there are none.",
-            &T::false_ns),
+      time("build_ns", "Time to make the bound, once a shape and step.", TimedWork::build),
+      time("test_ns", "Time to put a pair to it.", TimedWork::test),
+      time("false_ns", "Time of the closed form on one of its false hits; missing if there are none.",
+           TimedWork::exact),
       value("wasted_ns", "ns", "false_hits * false_ns: time a pair that false hits cost.", &T::wasted_ns),
-      value("pair_ns", "ns", "Time a pair, the bound first and then the closed form on those reported.", &T::pair_ns),
-      value("pair_lower_ns", "ns", "Lower quartile of the rounds.", &T::pair_lower_ns),
-      value("pair_upper_ns", "ns", "Upper quartile of them.", &T::pair_upper_ns));
+      time("pair_ns", "Time a pair, the bound first and then the closed form on those reported.", TimedWork::pipeline),
+      time("pair_lower_ns", "Lower quartile of the rounds.", TimedWork::pipeline, 0.25),
+      time("pair_upper_ns", "Upper quartile of them.", TimedWork::pipeline, 0.75));
   return timing(
       in_report(table("timings",
                       "What each bound costs among the pairs that a broad phase of boxes hands over: medians over "
@@ -150,21 +148,6 @@ struct Abscissa {
   double Sweep::*factor;
 };
 
-/// From the least to the greatest value of the factor, by theory. All rows are of one bound's form.
-void add_theory(Plot& plot, const std::vector<Row>& rows, const SweptBound& bound, const Abscissa& along) {
-  const double from = rows.front().sweep.*along.factor, to = rows.back().sweep.*along.factor;
-  constexpr int steps = 90;  // a degree, where the factor is an angle
-  std::vector<double> xs, ys;
-  Sweep s = rows.back().sweep;
-  for (int i = 0; i <= steps; ++i) {
-    const double part = static_cast<double>(i) / steps;
-    s.*along.factor = along.axis == Axis::log ? from * std::pow(to / from, part) : from + (to - from) * part;
-    xs.push_back(along.factor == &Sweep::speed ? path_in_widths(s) : s.*along.factor);
-    ys.push_back(sweep_theory(bound.body(s), s).false_fraction);
-  }
-  plot.line(bound.name, std::move(xs), std::move(ys));
-}
-
 /// A panel for each shape.
 std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptBound>& bounds, const Abscissa& along,
                           const Sweep& view) {
@@ -174,7 +157,7 @@ std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptB
     if (s.angle_deg == 0) s.turn_deg = view.turn_deg;
     s.*along.factor = view.*along.factor;
     s.form = view.form;
-    return s == view && row.makes_volume;
+    return s == view && row.bound->makes_volume;
   };
   std::vector<Row> those = chosen(rows, belongs);
   std::ranges::stable_sort(those, {}, [&](const Row& row) { return row.sweep.*along.factor; });
@@ -188,7 +171,12 @@ std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptB
                      .by("bound")
                      .height(0.6);
     for (const SweptBound& bound : bounds) {
-      if (bound.makes_volume && bound.serves(shown[0].sweep.form)) add_theory(panel, shown, bound, along);
+      Sweep s = shown[0].sweep;
+      if (!bound.makes_volume || !bound.serves(s.form)) continue;
+      panel.curve(bound.name, [&bound, &along, s](double x) mutable {
+        s.*along.factor = along.factor == &Sweep::speed ? x * s.width / s.step : x;
+        return sweep_theory(bound.body(s), s).false_fraction;
+      });
     }
     all.push_back(panel);
   }
@@ -240,24 +228,24 @@ std::string spoken(std::string text) {
 
 /// "enclosing sphere 85.8 % (theory 85.9 %), capsule 0.0 % (theory 0.0 %)", of the bounds that are volumes.
 std::string diagonal_answer(const std::vector<Row>& rows, const Sweep& diagonal) {
-  std::string text;
+  std::vector<std::string> shares;
   for (const Row& row : rows) {
     const Tally& t = row.tally;
-    if (row.sweep != diagonal || !row.makes_volume || t.reported == 0) continue;
-    text += fmt::format("{}{} {} (theory {})", text.empty() ? "" : ", ", spoken(row.bound),
-                        percent(static_cast<double>(t.false_hits) / static_cast<double>(t.reported)),
-                        percent(row.theory.false_fraction));
+    if (row.sweep != diagonal || !row.bound->makes_volume || t.reported == 0) continue;
+    shares.push_back(fmt::format("{} {} (theory {})", spoken(row.bound->name),
+                                 percent(static_cast<double>(t.false_hits) / static_cast<double>(t.reported)),
+                                 percent(row.theory.false_fraction)));
   }
-  return text;
+  return fmt::format("{}", fmt::join(shares, ", "));
 }
 
 /// "1.9 widths (cube), 1.0 (plate)", in the direction of the view.
 std::string turning_answer(const std::vector<Total>& totals, Sweep view) {
   std::string text;
   for (const Total& t : totals) {
-    view.form = t.form;
-    const auto widths = t.bound == "oriented_box" ? path_to_turn_for(view) : std::nullopt;
-    if (widths) text += fmt::format("{}{:.2f} ({})", text.empty() ? "" : ", ", *widths, name(t.form));
+    view.form = t.sweep.form;
+    const auto widths = t.bound->name == "oriented_box" ? path_to_turn_for(view) : std::nullopt;
+    if (widths) text += fmt::format("{}{:.2f} ({})", text.empty() ? "" : ", ", *widths, name(t.sweep.form));
   }
   if (text.empty()) return "";
   return fmt::format(
@@ -333,9 +321,8 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
 
   std::vector<Task<Tally>> counted;
   for (const SweepPair& pair : asked->pairs) {
-    counted.push_back(
-        {fmt::format("{} {}", sweep_factors().key(pair.sweep), pair.bound->name), 2 * shots,
-         [asked, &pair, shots, seed = options.seed] { return pair.bound->ask_all(pair.sweep, seed, shots); }});
+    counted.push_back({fmt::format("{} {}", sweep_factors().key(pair.sweep), pair.bound->name), 2 * shots,
+                       [asked, &pair, shots, seed = options.seed] { return count_balls(pair, seed, shots); }});
   }
   std::vector<Task<std::int64_t>> timed;
   for (std::int64_t round = 0; round < repeats; ++round) {
@@ -347,7 +334,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   }
   const auto finish = [asked](const Done<Tally>& done, const Done<std::int64_t>& rounds) {
     std::vector<Row> rows;
-    for (std::size_t i = 0; i < asked->pairs.size(); ++i) rows.push_back(make_row(asked->pairs[i], done.results[i]));
+    for (std::size_t i = 0; i < asked->pairs.size(); ++i) rows.push_back({asked->pairs[i], done.results[i]});
     return outcome_of(rows, sweep_costs(asked->subjects, rounds.seconds), asked->bounds, asked->plan.view);
   };
   return make_run(finish, std::move(counted), std::move(timed));

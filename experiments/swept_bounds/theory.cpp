@@ -1,5 +1,7 @@
 #include <thinwall/experiments/swept_bounds/theory.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -30,17 +32,16 @@ Mat3<double> fitted_axes(const Sweep& s) {
   const Vec3<double> motion = direction(s);
   if (motion.cwiseAbs().maxCoeff() == 1) return Mat3<double>::Identity();
   const RoundedZonotope box = {edges(half_extents(s), Mat3<double>::Identity()), 0};
-  Mat3<double> best = Mat3<double>::Identity();
-  double least = std::numeric_limits<double>::infinity();
-  for (int edge = 0; edge < 3; ++edge) {
-    const Mat3<double> axes = axes_with_edge(motion, edge);
-    const double area = half_width(box, axes.col(1)) * half_width(box, axes.col(2));
-    if (area < least) {
-      least = area;
-      best = axes;
-    }
-  }
-  return best;
+  const std::array all = {axes_with_edge(motion, 0), axes_with_edge(motion, 1), axes_with_edge(motion, 2)};
+  const auto area = [&](const Mat3<double>& axes) {
+    return half_width(box, axes.col(1)) * half_width(box, axes.col(2));
+  };
+  return std::ranges::min(all, {}, area);
+}
+
+/// Half of the body's extents along the axes.
+Vec3<double> half_widths(const RoundedZonotope& body, const Mat3<double>& axes) {
+  return {half_width(body, axes.col(0)), half_width(body, axes.col(1)), half_width(body, axes.col(2))};
 }
 
 /// The part of `whole` that is not in `part`; what rounding alone can leave is none.
@@ -104,9 +105,7 @@ FittedBody enclosing_aabb_body(const Sweep& s) {
 FittedBody capsule_body(const Sweep& s) { return {{{path(s)}, radius_around(s)}, fitted_axes(s)}; }
 
 FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes) {
-  Vec3<double> half;
-  for (int i = 0; i < 3; ++i) half[i] = half_width(exact.body, axes.col(i));
-  return {{edges(half, axes), 0}, axes};
+  return {{edges(half_widths(exact.body, axes), axes), 0}, axes};
 }
 
 FittedBody oriented_box_body(const Sweep& s) {
@@ -116,12 +115,8 @@ FittedBody oriented_box_body(const Sweep& s) {
 
 double volume(const BallRegion& region) { return 8 * region.half_extents.prod(); }
 
-BallRegion region_around(const FittedBody& bound, const Sweep& s) {
-  constexpr double room = 1.1;
-  const RoundedZonotope reached = grown(bound.body, ball_radius(s));
-  BallRegion region = {path(s) / 2, bound.axes, {}};
-  for (int i = 0; i < 3; ++i) region.half_extents[i] = room * half_width(reached, bound.axes.col(i));
-  return region;
+BallRegion region_around(const FittedBody& bound, const Sweep& s, double room) {
+  return {path(s) / 2, bound.axes, room * half_widths(grown(bound.body, ball_radius(s)), bound.axes)};
 }
 
 SweepTheory sweep_theory(const FittedBody& bound, const Sweep& s) {

@@ -48,8 +48,8 @@ FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes);  ///< 
 
 double volume(const BallRegion& region);  ///< [m^3]
 
-/// Around all centers at which a ball overlaps the bound, and a tenth more: a bound that is too wide would show.
-BallRegion region_around(const FittedBody& bound, const Sweep& s);
+/// Around all centers at which a ball's box overlaps the bound's, and a tenth more: a bound that is too wide would show.
+BallRegion region_around(const FittedBody& bound, const Sweep& s, double room = 1.1);
 
 /// Of balls drawn from the region around a bound.
 struct SweepTheory {
