@@ -221,6 +221,7 @@ const Bins share_bins = {{"none", "#e6eef6"},
                          {"more", "#7f0000"}};
 const Bins error_bins = {{"up to 1", "#e6eef6"},   {"up to 4", "#b4d6ee"},   {"up to 100", "#eaa838"},
                          {"up to 1e4", "#dc741a"}, {"up to 1e8", "#b43f0a"}, {"more than 1e8", "#571c06"}};
+
 /// The first bin whose upper limit is not below x; the last has none.
 std::size_t bin_of(double x, const std::vector<double>& limits) {
   return static_cast<std::size_t>(std::ranges::lower_bound(limits, x) - limits.begin());
