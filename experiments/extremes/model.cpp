@@ -1,10 +1,8 @@
 #include <thinwall/experiments/extremes/model.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 

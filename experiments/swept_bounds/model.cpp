@@ -29,16 +29,6 @@ using Real = long double;
 
 double both_signs(std::uint64_t word) { return 2 * uniform(word) - 1; }
 
-/// The moving shape's core in the frame of its center: a ball's is a point.
-struct Core {
-  Vec3<Real> half_extents;
-  Real radius;
-};
-Core core_of(const Sweep& s) {
-  if (s.form == SweptForm::sphere) return {Vec3<Real>::Zero(), static_cast<Real>(s.width) / 2};
-  return {half_extents(s).cast<Real>(), 0};
-}
-
 /// The squared distance from a point that starts at `p` and moves by -d to a box around the origin, and half its derivative.
 struct SquaredDistance {
   Vec3<Real> p, d, half_extents;
@@ -197,9 +187,11 @@ Sphere<double> grazing_ball(const Sweep& s, const Mat3<double>& axes, const Rand
 }
 
 long double least_distance(const Sweep& s, const Vec3<double>& center) {
-  const Core core = core_of(s);
-  const SquaredDistance f = {center.cast<Real>(), path(s).cast<Real>(), core.half_extents};
-  return std::max<Real>(0, std::sqrt(least_squared(f)) - core.radius);
+  const bool is_ball = s.form == SweptForm::sphere;  // whose core is a point
+  const Vec3<Real> core = is_ball ? Vec3<Real>(Vec3<Real>::Zero()) : Vec3<Real>(half_extents(s).cast<Real>());
+  const Real radius = is_ball ? static_cast<Real>(s.width) / 2 : 0;
+  const SquaredDistance f = {center.cast<Real>(), path(s).cast<Real>(), core};
+  return std::max<Real>(0, std::sqrt(least_squared(f)) - radius);
 }
 
 bool touches(const Sweep& s, const Vec3<double>& center) {

@@ -55,7 +55,7 @@ struct Racer {
   static constexpr auto fields() {
     using T = Racer;
     return record(
-        kept("method", &T::method), kept("setting", &T::setting),
+        kept("method", &T::method, "", "Way to find the time of impact."), kept("setting", &T::setting),
         kept("option", &T::option, "1", "Its tolerance or number of poses; missing where it has none."),
         kept("queries", &T::queries, "1", "Queries put."),
         kept("touching", &T::touching, "1", "Of those, that touch during the step, by the oracle."),

@@ -82,8 +82,7 @@ Columns<Row> key_columns() {
       text("set", "The pair of shapes.", [](const Row& r) { return r.heat->set->name; }),
       text("class", "Hits, misses or grazes.", [](const Row& r) { return name(r.heat->kind); }),
       text("scalar", "Floating-point type of the shapes.", [](const Row& r) { return r.heat->scalar; }),
-      text("method", "Way to find the time of impact.", [](const Row& r) { return r.racer->method; }),
-      fields(racer_of, {"option"}));
+      fields(racer_of, {"method", "option"}));
 }
 
 Table errors_table(const std::vector<Row>& rows) {
@@ -203,21 +202,21 @@ std::vector<Panel> panels_of(const std::vector<Heat>& heats, const Shown& what) 
 Figure figure(const std::vector<Heat>& heats, const Shown& shown) {
   const std::string what =
       std::string(shown.turns ? "turning " : "") + (shown.kind == QueryClass::hit ? "hits" : "grazes");
-  Figure figure;
-  figure.name = fmt::format("{}_{}_{}", what, shown.scalar, shown.by_time ? "time" : "evaluations");
-  std::ranges::replace(figure.name, ' ', '_');
-  figure.title =
-      fmt::format("Error against {}: {} in {}", shown.by_time ? "run time" : "evaluations", what, shown.scalar);
-  figure.caption = fmt::format(
-      "Each method along its option, from rough (right) to fine (left). {}A method that misses half of the contacts has no point; "
-      "a bar that ends at 1 stands for one that misses more than 1 %. Errors below 1e-18 are drawn there.",
-      shown.by_time
-          ? "Vertical bars, mostly hidden by their points: 95 % bootstrap intervals of the median time over interleaved "
-            "rounds. The front joins the 99th percentile errors of those that nobody beats in both. "
-          : "Evaluations are separations, overlap tests, rays or closed forms: a cost that no machine changes. ");
-  figure.panels = panels_of(heats, shown);
-  figure.is_timing = shown.by_time;
-  return figure;
+  std::string name = fmt::format("{}_{}_{}", what, shown.scalar, shown.by_time ? "time" : "evaluations");
+  std::ranges::replace(name, ' ', '_');
+  return {
+      .name = name,
+      .title =
+          fmt::format("Error against {}: {} in {}", shown.by_time ? "run time" : "evaluations", what, shown.scalar),
+      .caption = fmt::format(
+          "Each method along its option, from rough (right) to fine (left). {}A method that misses half of the contacts has no point; "
+          "a bar that ends at 1 stands for one that misses more than 1 %. Errors below 1e-18 are drawn there.",
+          shown.by_time
+              ? "Vertical bars, mostly hidden by their points: 95 % bootstrap intervals of the median time over interleaved "
+                "rounds. The front joins the 99th percentile errors of those that nobody beats in both. "
+              : "Evaluations are separations, overlap tests, rays or closed forms: a cost that no machine changes. "),
+      .panels = panels_of(heats, shown),
+      .is_timing = shown.by_time};
 }
 
 std::vector<Figure> figures_of(const std::vector<Heat>& heats) {

@@ -86,7 +86,8 @@ template <class A, class B> ExtremeQuery<A, B> draw_extreme(QueryNumbers& u, con
     pass.b.half_extents[0] *= e.thickness;
     if constexpr (HasRadius<A>) pass.a.radius *= e.thickness;
   }
-  const double size = pass.reach = size_of(pass.a) + size_of(pass.b);
+  pass.reach = size_of(pass.a) + size_of(pass.b);
+  const double size = pass.reach;
   const bool upright = u.one_in(2);
   const Vec3<double> any = u.direction(), other = u.direction(), off = u.direction(), drifting = u.direction();
   const int axis = static_cast<int>(3 * u());
