@@ -91,7 +91,7 @@ bool keeps_contract(const Heat& heat) {
     });
   }
   const Racer* exact = closed_form_of(heat);
-  return exact == nullptr || (exact->is_sound() && exact->forward <= 4);
+  return exact == nullptr || (finishes(*exact) && exact->false_hits == 0 && exact->forward <= 4);
 }
 
 }  // namespace thinwall

@@ -49,9 +49,6 @@ struct Racer {
   std::int64_t most_evaluations = 0;
   std::vector<double> nanoseconds{};  ///< a query, one of each round; the rounds of all racers are interleaved
 
-  /// Every verdict is right.
-  bool is_sound() const { return missed == 0 && false_hits == 0 && gave_up == 0; }
-
   static constexpr auto fields() {
     using T = Racer;
     return record(
@@ -77,7 +74,6 @@ enum class QueryClass {
   miss,   ///< one passes beside the other
   graze,  ///< the path is within 1e-8 (in float 1e-3) to 1e-2 of its offset from the last that touches, on either side
 };
-inline constexpr std::array all_query_classes{QueryClass::hit, QueryClass::miss, QueryClass::graze};
 constexpr std::string_view name(QueryClass kind) {
   constexpr std::array<std::string_view, 3> names{"hit", "miss", "graze"};
   return names[static_cast<std::size_t>(kind)];
@@ -133,7 +129,7 @@ bool keeps_contract(const Heat& heat);
 /// The result in words.
 std::string work_precision_answer(const std::vector<Heat>& heats);
 
-/// One set and scalar, hits: who is the cheapest at which error, and by how much the others trail. Empty for another class.
+/// One set and scalar, hits: who is the cheapest at which error, and by how much the others trail.
 std::string heat_text(const Heat& heat);
 
 }  // namespace thinwall

@@ -46,9 +46,8 @@ auto on_stretch(const A& shape, const Vec3<double>& spin, double from, double le
   }
 }
 
-constexpr double quarter_turn = std::numbers::pi / 2;  // [rad]
 struct QuarterTurns {
-  static constexpr double most_turn_a = quarter_turn, most_turn_b = quarter_turn;
+  static constexpr double most_turn_a = std::numbers::pi / 2, most_turn_b = most_turn_a;  // [rad]
 };
 template <class Set> constexpr bool is_turning = std::derived_from<Set, QuarterTurns>;
 

@@ -1,8 +1,8 @@
 /// The races: every method at every setting on the same queries, errors once, times in rounds that are interleaved.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,35 +14,27 @@ namespace thinwall {
 
 namespace {
 
-/// One of the settings that each method is raced with, from rough to fine along its option, if it has one.
-template <class Method> struct Rung {
+/// A method at each setting it is raced with, from rough to fine along its option, if it has one; the racers are yet to be judged.
+template <class Method, class S> std::vector<std::pair<Method, Racer>> rungs(const RaceOptions& options) {
+  std::vector<std::pair<Method, Racer>> all;
   Method method;
-  std::string label;             ///< "tolerance 1e-06"; empty for a method without an option
-  std::optional<double> option;  ///< its value
-};
-
-template <class Method>
-concept HasTolerance = requires(const Method& method) { method.tolerance; };
-template <class Method>
-concept HasPoses = requires(const Method& method) { method.n; };
-
-template <class Method, class S> std::vector<Rung<Method>> rungs(const RaceOptions& options) {
-  std::vector<Rung<Method>> all;
-  if constexpr (HasTolerance<Method>) {
+  const auto add = [&](std::string setting, std::optional<double> option) {
+    all.emplace_back(method,
+                     Racer{.method = std::string(Method::name), .setting = std::move(setting), .option = option});
+  };
+  if constexpr (requires { method.tolerance; }) {
     for (const double tolerance : options.tolerances) {
       if (!is_tolerance(static_cast<S>(tolerance))) continue;
-      Method method;
       method.tolerance = static_cast<S>(tolerance);
-      all.push_back({method, fmt::format("tolerance {:g}", tolerance), tolerance});
+      add(fmt::format("tolerance {:g}", tolerance), tolerance);
     }
-  } else if constexpr (HasPoses<Method>) {
+  } else if constexpr (requires { method.n; }) {
     for (const std::int64_t n : options.poses) {
-      Method method;
       method.n = static_cast<int>(n);
-      all.push_back({method, fmt::format("n {}", n), static_cast<double>(n)});
+      add(fmt::format("n {}", n), static_cast<double>(n));
     }
   } else {
-    all.push_back({Method{}, "", {}});
+    add("", {});
   }
   return all;
 }
@@ -52,17 +44,16 @@ ErrorSpread spread_of(std::span<const double> errors) {
   return {quantile(errors, 0.5), quantile(errors, 0.99), quantile(errors, 1)};
 }
 
-/// All of a racer but its times.
+/// Fills in all but the times.
 template <class Method, class A, class B>
-Racer judged_racer(const Rung<Method>& rung, std::span<const TimedQuery<A, B>> queries) {
+void judge_racer(const Method& method, std::span<const TimedQuery<A, B>> queries, Racer& racer) {
   using S = typename decltype(A::shape)::Scalar;
   constexpr double unit = static_cast<double>(std::numeric_limits<S>::epsilon()) / 2;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> times, lengths;
   std::int64_t evaluations = 0;
-  Racer racer = {.method = std::string(Method::name), .setting = rung.label, .option = rung.option};
   for (const TimedQuery<A, B>& q : queries) {
-    const Toi<S> toi = time_of_impact(rung.method, q.a, q.b);
+    const Toi<S> toi = time_of_impact(method, q.a, q.b);
     ++racer.queries;
     evaluations += toi.evaluations;
     racer.most_evaluations = std::max(racer.most_evaluations, std::int64_t{toi.evaluations});
@@ -84,7 +75,6 @@ Racer judged_racer(const Rung<Method>& rung, std::span<const TimedQuery<A, B>> q
   racer.time = spread_of(times);
   racer.length = spread_of(lengths);
   racer.evaluations = static_cast<double>(evaluations) / static_cast<double>(std::max<std::int64_t>(1, racer.queries));
-  return racer;
 }
 
 template <class Set, class S> using MethodsOf = std::conditional_t<is_turning<Set>, TurningMethods<S>, Methods<S>>;
@@ -101,18 +91,18 @@ template <class Set, class S> std::vector<Racer> race(QueryClass kind, const Rac
   const std::array<double, 3> factors = {Set::key, static_cast<double>(kind), std::is_same_v<S, float> ? 1.0 : 0.0};
   const RandomStream stream = {options.seed, stream_of(factors)};
   std::vector<Query> queries;
-  for (std::int64_t i = 0; i < options.queries; ++i) {
+  for (std::int64_t i = 0; i < options.queries; ++i)
     queries.push_back(timed_query<Set, S>(stream, static_cast<std::uint64_t>(i), kind));
-  }
   const std::span<const Query> all(queries);
   std::vector<Racer> racers;
   std::vector<TimedLoop<Query>> loops;
   for_each_type(MethodsOf<Set, S>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (takes_part<Set, Method>()) {
       if (std::ranges::find(options.methods, Method::name) == options.methods.end()) return;
-      for (const Rung<Method>& rung : rungs<Method, S>(options)) {
-        racers.push_back(judged_racer(rung, all));
-        loops.push_back({[method = rung.method](std::span<const Query> some) {
+      for (auto& [method, racer] : rungs<Method, S>(options)) {
+        judge_racer(method, all, racer);
+        racers.push_back(std::move(racer));
+        loops.push_back({[method = method](std::span<const Query> some) {
           for (const Query& q : some) keep(time_of_impact(method, q.a, q.b));
         }});
       }
