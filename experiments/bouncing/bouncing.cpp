@@ -312,7 +312,7 @@ Figure heights_figure(Cell cell, const std::vector<BouncePolicy>& policies) {
 /// What is good at the least cost: rms error and time of the exact arc at its coarsest step beside the best of the others.
 std::string cost_sentence(const std::vector<WorkRow>& work) {
   const auto is_arc = [](const WorkRow& w) { return w.policy.name == "parabola_toi"; };
-  const auto arcs = rows_where(work, is_arc), others = rows_where(work, std::not_fn(is_arc));
+  const auto arcs = only(work, is_arc), others = only(work, std::not_fn(is_arc));
   if (arcs.empty() || others.empty()) return "";
   const WorkRow& best = *std::ranges::min_element(others, {}, &WorkRow::rms_error);
   return fmt::format(
@@ -416,8 +416,8 @@ std::vector<BouncePolicy> policies_asked(const Settings& settings) {
   std::vector<std::string_view> names;
   std::ranges::transform(all_bounce_policies, std::back_inserter(names), &BouncePolicy::name);
   const std::vector<std::string> asked = settings.choices_or_all("policy", names);
-  return rows_where(std::vector(all_bounce_policies.begin(), all_bounce_policies.end()),
-                    [&](const BouncePolicy& policy) { return std::ranges::count(asked, policy.name) > 0; });
+  return only(std::vector(all_bounce_policies.begin(), all_bounce_policies.end()),
+              [&](const BouncePolicy& policy) { return std::ranges::count(asked, policy.name) > 0; });
 }
 
 /// In the order asked for.
@@ -501,7 +501,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
         results.rows.push_back({cell, policy, tallies.results[results.rows.size()]});
     }
     const double most = std::ranges::max(cells, {}, &Cell::restitution).restitution;
-    results.lively = rows_where(results.rows, [&](const Row& r) { return r.cell.restitution == most; });
+    results.lively = only(results.rows, [&](const Row& r) { return r.cell.restitution == most; });
     results.tests = bounce_tests(results.rows);
     for (std::size_t i = 0; i < policies.size(); ++i) {
       for (const LongRunPoint& at : long_runs.results[i]) results.long_rows.push_back({policies[i], long_cell, at});

@@ -192,7 +192,7 @@ std::vector<double> distinct(const std::vector<Row>& rows, double Crossing::*fac
 /// One curve a ratio over the angle, as one series with gaps.
 Series theory_curves(const std::vector<Row>& rows, const Quantity& quantity) {
   constexpr double curve_step = 5, end_step = 2;  // [deg], finer within 10 degrees of the ends
-  Series series = {.label = "theory", .mark = Mark::line, .x = {}, .y = {}, .lower = {}, .upper = {}};
+  Series series = {.label = "theory", .mark = Mark::line};
   for (const double ratio : distinct(rows, &Crossing::ratio)) {
     Crossing c = rows.front().cell;
     c.ratio = ratio;

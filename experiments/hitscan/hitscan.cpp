@@ -48,7 +48,7 @@ std::optional<double> missed_share_theory(const Row& row) { return quotient(row.
 double steps_late(const Row& row) { return row.tally.lateness.mean(time_unit(row.cell)) / row.cell.step; }
 
 Rows of_rule(const Rows& rows, const HitscanRule& rule) {
-  return rows_where(rows, [&](const Row& row) { return row.rule.name == rule.name; });
+  return only(rows, [&](const Row& row) { return row.rule.name == rule.name; });
 }
 
 // What the tables show.
@@ -278,7 +278,7 @@ Figure path_error_figure(const Rows& rows) {
               "Mean distance from the arc where the path crosses the plane of the target, against the flight "
               "time, and the theory. The ray is off by the whole fall; the rules that go step by step by that of "
               "a step, or less in a first step that reaches the target.",
-          .panels = {drawn(rows_where(rows, [](const Row& r) { return r.rule.name != hitscan_ball.name; }))
+          .panels = {drawn(only(rows, [](const Row& r) { return r.rule.name != hitscan_ball.name; }))
                          .x("flight_time", Axis::log, "flight time [s]")
                          .y("path_error_mean", Axis::log, "mean distance from the arc [m]")
                          .by("rule")
@@ -286,8 +286,7 @@ Figure path_error_figure(const Rows& rows) {
 }
 
 Figure lateness_figure(const Rows& timed) {
-  const Rows framed =
-      rows_where(of_rule(timed, next_frame), [](const Row& r) { return flight_time(r.cell) >= r.cell.step; });
+  const Rows framed = only(of_rule(timed, next_frame), [](const Row& r) { return flight_time(r.cell) >= r.cell.step; });
   return {.name = "lateness",
           .title = "When a hit is reported",
           .caption =
@@ -309,18 +308,17 @@ Figure lateness_figure(const Rows& timed) {
 
 /// Those whose rule was asked. Of the known shots none, of several targets and steps the first.
 std::vector<Figure> figures_of(const Rows& rows) {
-  const Rows asked = rows_where(rows, [](const Row& r) { return !is_known(r.cell); });
+  const Rows asked = only(rows, [](const Row& r) { return !is_known(r.cell); });
   if (asked.empty()) return {};
   const Cell& one = asked.front().cell;
-  const Rows alike =
-      rows_where(asked, [&](const Row& r) { return r.cell.target == one.target && r.cell.step == one.step; });
-  const Rows bent = rows_where(alike, [](const Row& r) { return deflection(r.cell) > 0; });
+  const Rows alike = only(asked, [&](const Row& r) { return r.cell.target == one.target && r.cell.step == one.step; });
+  const Rows bent = only(alike, [](const Row& r) { return deflection(r.cell) > 0; });
   const Rows rays = of_rule(bent, hitscan_ray);
-  const Rows of_one_kind = rows_where(bent, [&](const Row& r) {
+  const Rows of_one_kind = only(bent, [&](const Row& r) {
     return r.cell.drag == one.drag && r.cell.wind == one.wind && r.cell.radius == one.radius;
   });
   return only_measured(
-      {missed_figure(rays, one.target), path_error_figure(of_one_kind), lateness_figure(rows_where(alike, is_timed))});
+      {missed_figure(rays, one.target), path_error_figure(of_one_kind), lateness_figure(only(alike, is_timed))});
 }
 
 // What it says.
@@ -343,7 +341,7 @@ std::string known_answer(const Rows& rows) {
 /// thickest bullet.
 std::string ray_answer(const Rows& rows) {
   const Rows rays =
-      rows_where(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
+      only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
   if (rays.empty()) return "";
   const std::set<double> radii = radii_of(rays);
   const double thin = *radii.begin(), thick = *radii.rbegin();
@@ -407,7 +405,7 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
             columns.without({"drag", "flight_time", "deflection", "touching", "touching_theory", "missed", "reported",
                              "false_hits", "path_error_max", "point_error_mean", "path_error_bound", "point_error_max",
                              "lateness_min", "lateness_max"}),
-            rows_where(rows, [](const Row& r) { return is_known(r.cell); })));
+            only(rows, [](const Row& r) { return is_known(r.cell); })));
   const Table rules = rules_table(totals);
   return {.answer = answer_of(rows, totals),
           .summary = terminal(known, {"shot", "rule", "missed_share", "missed_theory", "false_share", "false_theory",

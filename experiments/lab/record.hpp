@@ -248,13 +248,6 @@ template <class Row, class Key> std::vector<Group<Row>> group_by(const std::vect
   return groups;
 }
 
-/// Those for which it is so, in their order.
-template <class Row, class IsIt> std::vector<Row> rows_where(const std::vector<Row>& rows, const IsIt& is_it) {
-  std::vector<Row> some;
-  std::ranges::copy_if(rows, std::back_inserter(some), is_it);
-  return some;
-}
-
 /// All rows of several lists, one list after the other.
 template <class Row> std::vector<Row> flat(const std::vector<std::vector<Row>>& lists) {
   std::vector<Row> all;

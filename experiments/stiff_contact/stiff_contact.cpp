@@ -52,7 +52,7 @@ Interval time_interval(const Row& row) { return median_of_rounds(row.nanoseconds
 /// Of those of one damping ratio, all of whose bounces returned: whom nobody beats in both error and time, from the finest to the
 /// coarsest.
 std::vector<Row> front_of(const std::vector<Row>& racers, double ratio) {
-  auto all = rows_where(racers, [&](const Row& r) { return ratio_of(r) == ratio && all_returned(r); });
+  auto all = only(racers, [&](const Row& r) { return ratio_of(r) == ratio && all_returned(r); });
   std::ranges::stable_sort(all, {}, [](const Row& r) { return r.tally.square_error; });
   std::vector<Row> front;
   for (const Row& r : all) {
@@ -63,7 +63,7 @@ std::vector<Row> front_of(const std::vector<Row>& racers, double ratio) {
 
 /// Of each damping ratio, scheme and detection the cheapest whose error is at most this, if there is one.
 std::vector<Row> cheapest(const std::vector<Row>& racers, double error) {
-  const auto good = rows_where(racers, [&](const Row& r) { return all_returned(r) && rms_error(r) <= error; });
+  const auto good = only(racers, [&](const Row& r) { return all_returned(r) && rms_error(r) <= error; });
   std::vector<Row> best;
   for (const Group<Row>& group : group_by(good, [](const Row& r) { return std::pair(ratio_of(r), method_of(r)); }))
     best.push_back(**std::ranges::min_element(group, {}, [](const Row* r) { return time_of(*r); }));
@@ -137,7 +137,7 @@ Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
 Table detection_table(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
   const auto split = [&](const Row& r) -> const Row& { return twin_of(results.bounces, r); };
-  const auto rows = rows_where(results.bounces, [&](const Row& r) {
+  const auto rows = only(results.bounces, [&](const Row& r) {
     return r.contact.detection == Detection::discrete && r.contact.stiffness == plan.stiffest() && is_clean(plan, r) &&
            is_clean(plan, split(r));
   });
@@ -234,7 +234,7 @@ Figure stability_figure(const StiffResults& results) {
 
 /// At the greatest stiffness, and at steps at which a bounce is no matter of chance.
 std::vector<Row> clean_rows(const StiffResults& results) {
-  return rows_where(results.bounces, [&](const Row& r) {
+  return only(results.bounces, [&](const Row& r) {
     return r.contact.stiffness == results.plan.stiffest() && r.contact.step <= last_step_of_bounces &&
            is_clean(results.plan, r);
   });
@@ -369,10 +369,10 @@ std::string percent(std::int64_t part, std::int64_t whole) {
 /// Undamped (or least damped), at the greatest stiffness, at the poses: at up to four of the steps below 2, or at the last of them.
 std::vector<Row> told_rows(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
-  auto steps = rows_where(std::vector{0.1, 0.3, 1.5, 1.9}, [&](double step) { return is_in(plan.bounce_steps, step); });
+  auto steps = only(std::vector{0.1, 0.3, 1.5, 1.9}, [&](double step) { return is_in(plan.bounce_steps, step); });
   const auto last = std::ranges::lower_bound(plan.bounce_steps, 2.0);
   if (steps.empty() && last != plan.bounce_steps.begin()) steps.push_back(*std::prev(last));
-  return rows_where(results.bounces, [&](const Row& r) {
+  return only(results.bounces, [&](const Row& r) {
     return r.contact.stiffness == plan.stiffest() && r.contact.detection == Detection::discrete &&
            ratio_of(r) == plan.bounce_ratios.front() && is_in(steps, r.contact.step);
   });
@@ -387,7 +387,7 @@ struct Passage {
 /// By scheme and detection, over the rows of the damping ratios.
 std::vector<Passage> passages(const StiffResults& results, const std::vector<double>& ratios) {
   const Approach& e = results.plan.approach;
-  const auto stiff = rows_where(results.bounces, [&](const Row& r) {
+  const auto stiff = only(results.bounces, [&](const Row& r) {
     return is_stiff_enough(results.plan, r.contact) && is_in(ratios, ratio_of(r));
   });
   std::vector<Passage> all;
@@ -407,8 +407,7 @@ std::string stiff_answer(const StiffResults& results) {
       "Euler: that lies inside the measured bracket in {} of {} springs.",
       grouped_text(std::ranges::count_if(results.limits, holds_theory)),
       grouped_text(static_cast<std::int64_t>(results.limits.size())));
-  const auto told =
-      rows_where(told_rows(results), [](const Row& r) { return r.contact.scheme == Scheme::semi_implicit; });
+  const auto told = only(told_rows(results), [](const Row& r) { return r.contact.scheme == Scheme::semi_implicit; });
   if (!told.empty() && has_returned(told.back())) {
     text += fmt::format(
         " Stable is not enough for a wall that only pushes: at h omega = {:g} a semi-implicit bounce leaves with {:.2f} to {:.2f} "
@@ -456,7 +455,7 @@ std::string stiff_summary(const StiffResults& results, const std::vector<StiffCl
   constexpr double one_percent = 0.01;
   const StiffPlan& plan = results.plan;
   const std::vector<double> ratios = {plan.ratios.front(), 0.1, 1, plan.ratios.back()};
-  const auto springs = rows_where(results.limits, [&](const LimitRow& r) {
+  const auto springs = only(results.limits, [&](const LimitRow& r) {
     return r.stiffness == plan.stiffness.front() && is_in(ratios, r.ratio);
   });
   Table race = times_table(cheapest(results.racers, one_percent));

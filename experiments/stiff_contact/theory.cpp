@@ -108,12 +108,11 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
   using Row = ContactRow;
   const StiffPlan& plan = results.plan;
-  const auto decided =
-      rows_where(map_of(plan, results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
+  const auto decided = only(map_of(plan, results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
   const auto undamped =
-      rows_where(results.bounces, [&](const Row& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
+      only(results.bounces, [&](const Row& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
   const auto undamped_by = [&](Scheme scheme) {
-    return rows_where(undamped, [scheme](const Row& r) { return r.contact.scheme == scheme; });
+    return only(undamped, [scheme](const Row& r) { return r.contact.scheme == scheme; });
   };
   const auto discrete = [](const Row& r) { return r.contact.detection == Detection::discrete; };
   const auto slack = [&](const Row& r) { return slack_of(plan, r.contact); };
@@ -126,8 +125,8 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
               return (s.verdict == "stable") == (!s.spring->theory || s.step < *s.spring->theory);
             }),
       claim("semi-implicit, undamped: the speed ratio keeps its bounds",
-            rows_where(undamped_by(Scheme::semi_implicit),
-                       [](const Row& r) { return bounce_bounds(r.contact.step).has_value(); }),
+            only(undamped_by(Scheme::semi_implicit),
+                 [](const Row& r) { return bounce_bounds(r.contact.step).has_value(); }),
             [&](const Row& r) {
               const Interval range = *bounce_bounds(r.contact.step);
               return r.tally.slowest >= range.lower - slack(r) && r.tally.fastest <= range.upper + slack(r);
@@ -137,28 +136,25 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
       claim("implicit, undamped: never faster after than before", undamped_by(Scheme::implicit_euler),
             [&](const Row& r) { return r.tally.fastest <= 1 + slack(r); }),
       // A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
-      claim(
-          "explicit and semi-implicit, undamped: splitting the step changes no bounce",
-          rows_where(undamped, [&](const Row& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
-          [&](const Row& r) {
-            const Row& split = twin_of(results.bounces, r);
-            const double most = slack(r) * std::max(1.0, r.tally.fastest);
-            return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
-                   std::abs(r.tally.fastest - split.tally.fastest) <= most;
-          }),
-      claim("discrete: as many escape as are first seen past the middle, or more",
-            rows_where(results.bounces, discrete),
+      claim("explicit and semi-implicit, undamped: splitting the step changes no bounce",
+            only(undamped, [&](const Row& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
+            [&](const Row& r) {
+              const Row& split = twin_of(results.bounces, r);
+              const double most = slack(r) * std::max(1.0, r.tally.fastest);
+              return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
+                     std::abs(r.tally.fastest - split.tally.fastest) <= most;
+            }),
+      claim("discrete: as many escape as are first seen past the middle, or more", only(results.bounces, discrete),
             [&](const Row& r) {
               const double late = static_cast<double>(r.tally.bounces()) * late_share(plan, r.contact);
               return static_cast<double>(r.tally.escaped) >= std::floor(late) - 1;
             }),
       claim("implicit, split, stiff enough for continuous time: none escapes",
-            rows_where(results.bounces,
-                       [&](const Row& r) {
-                         const double depth = plan.approach.speed / frequency(spring_of(plan.approach, r.contact));
-                         return r.contact.scheme == Scheme::implicit_euler && !discrete(r) &&
-                                depth < reach(plan.approach);
-                       }),
+            only(results.bounces,
+                 [&](const Row& r) {
+                   const double depth = plan.approach.speed / frequency(spring_of(plan.approach, r.contact));
+                   return r.contact.scheme == Scheme::implicit_euler && !discrete(r) && depth < reach(plan.approach);
+                 }),
             [](const Row& r) { return r.tally.escaped == 0; })};
 }
 

@@ -25,12 +25,6 @@ namespace {
 using Row = SweepRow;
 using Tally = SweepTally;
 
-template <class Row> std::vector<Row> chosen(const std::vector<Row>& rows, const auto& choice) {
-  std::vector<Row> result;
-  std::ranges::copy_if(rows, std::back_inserter(result), choice);
-  return result;
-}
-
 // What the tables show.
 
 template <class Row> auto shape_column() {
@@ -159,11 +153,11 @@ std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptB
     s.form = view.form;
     return s == view && row.bound->makes_volume;
   };
-  std::vector<Row> those = chosen(rows, belongs);
+  std::vector<Row> those = only(rows, belongs);
   std::ranges::stable_sort(those, {}, [&](const Row& row) { return row.sweep.*along.factor; });
   std::vector<Panel> all;
   for (const std::string_view form : swept_form_names) {
-    const auto shown = chosen(those, [&](const Row& row) { return name(row.sweep.form) == form; });
+    const auto shown = only(those, [&](const Row& row) { return name(row.sweep.form) == form; });
     if (shown.empty()) continue;
     Plot panel = plot(table("drawn", "", row_columns(), shown))
                      .x(along.column, along.axis, along.label)
@@ -277,7 +271,7 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<SweepCost>& c
   const std::vector<SelfTest> tests = self_test(counts_of(rows));
   const Table diagonal = in_report(table(
       "diagonal", "A ball and a cube 4 cm wide that move at 10 m/s and 60 steps a second along a face's diagonal.",
-      row_columns(), chosen(rows, [](const Row& row) { return is_diagonal(row.sweep); })));
+      row_columns(), only(rows, [](const Row& row) { return is_diagonal(row.sweep); })));
   const Table shapes = shapes_table(totals);
   Outcome outcome = {
       .answer = answer_of(rows, totals, view),
@@ -294,7 +288,7 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<SweepCost>& c
     outcome.tables.push_back(timings_table(costs));
     outcome.summary +=
         "\n" +
-        terminal(timings_table(chosen(costs, [&](const SweepCost& c) { return c.sweep.speed == view.speed; })),
+        terminal(timings_table(only(costs, [&](const SweepCost& c) { return c.sweep.speed == view.speed; })),
                  {"shape", "speed", "bound", "false_hits", "build_ns", "test_ns", "false_ns", "wasted_ns", "pair_ns"});
   }
   outcome.summary += fmt::format("\nSelf-test: {}.\n", all_passed(tests) ? "passed" : "FAILED");

@@ -60,7 +60,7 @@ bool is_judged(const Row& row) {
 
 /// Those of the scalar whose shots are spoken of: double if it was fired. Float's are the same shots and must not count twice.
 template <class Row> std::vector<Row> of_one_scalar(const std::vector<Row>& rows) {
-  const auto in_double = rows_where(rows, [](const Row& row) { return row.method->scalar == "double"; });
+  const auto in_double = only(rows, [](const Row& row) { return row.method->scalar == "double"; });
   return in_double.empty() ? rows : in_double;
 }
 
@@ -198,7 +198,7 @@ Table stratified_table(const Totals& totals) {
       value("passed", "", "The largest deviation is at most 1.", &Total::even_passes));
   return in_report(table("stratified", "Counts of evenly spread phases against theory: infinite walls, double.",
                          columns.without({"scalar"}),
-                         rows_where(totals, [](const Total& t) { return t.method->scalar == "double"; })));
+                         only(totals, [](const Total& t) { return t.method->scalar == "double"; })));
 }
 
 // What the pictures show: double only, since float's points would lie on the same spots.
@@ -222,7 +222,7 @@ constexpr Abscissa mean_chord_ratios = {Wall::finite,
                                         "step over mean chord  v h shadow / volume  [1]"};
 
 Rows drawn(const Rows& rows, const Abscissa& along) {
-  return rows_where(of_one_scalar(rows), [&](const Row& row) {
+  return only(of_one_scalar(rows), [&](const Row& row) {
     return row.cell.wall == along.wall && left <= along.x(row) && along.x(row) <= right;
   });
 }
@@ -233,7 +233,7 @@ Rows thinned(const Rows& rows, const Abscissa& along) {
   const auto place = [&](const Row& row) { return std::floor(6 * std::log10(along.x(row))); };
   std::map<double, Cell> first;
   for (const Row& row : rows) first.try_emplace(place(row), row.cell);
-  Rows result = rows_where(rows, [&](const Row& row) { return first.at(place(row)) == row.cell; });
+  Rows result = only(rows, [&](const Row& row) { return first.at(place(row)) == row.cell; });
   std::ranges::stable_sort(result, {}, along.x);
   return result;
 }
@@ -288,7 +288,7 @@ Plot with_theory(Plot plot, const Rows& rows, double (*curve)(double), const cha
 double unseen_curve(double x) { return miss_probability(1, x); }
 
 Figure probability_figure(const Rows& infinite, const Rows& few) {
-  const Rows judged = rows_where(infinite, is_judged);
+  const Rows judged = only(infinite, is_judged);
   Plot top = points(few, step_ratios, "probability", "tunneling probability [1]");
   Plot bottom = points(judged, step_ratios, "residual", "residual [std. errors]").height(0.45);
   for (const double y : {-1.96, 1.96}) bottom.line("95 % of residuals", {left, right}, {y, y}, Mark::dashes);
@@ -451,7 +451,7 @@ Outcome outcome_of(const Rows& rows, const ShotPlan& plan) {
   const bool bounces = plan.response == Response::bounce;
   const Totals totals = totals_of(rows), spoken_of = of_one_scalar(totals);
   const std::vector<SelfTest> counts = self_test(counts_of(rows, tunneling));
-  const Rows bullets = rows_where(rows, [](const Row& row) { return row.cell == bullet; });
+  const Rows bullets = only(rows, [](const Row& row) { return row.cell == bullet; });
   const auto bullet_table = [&](const Rows& shown) {
     return in_report(table("bullet",
                            "The bullet at 10 m/s that is before the wall at one frame and behind it at the next.",

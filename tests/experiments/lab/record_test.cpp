@@ -142,7 +142,7 @@ TEST(Groups, are_in_the_order_of_their_first_rows_and_add_up) {
   EXPECT_EQ(groups[0], (Group<Named>{&rows[0], &rows[2]}));
   EXPECT_EQ(total_of(groups[0], &Named::inner).count, 101);
   EXPECT_EQ(groups[1][0]->method, "a");
-  const auto some = rows_where(rows, [](const Named& row) { return row.method == "b"; });
+  const auto some = only(rows, [](const Named& row) { return row.method == "b"; });
   EXPECT_EQ(some[1].inner.count, 100);
   EXPECT_EQ(flat(std::vector{rows, some}).size(), 5U);
 }
