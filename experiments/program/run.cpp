@@ -46,8 +46,15 @@ std::string experiment_named_in(const std::string& text, const std::string& file
   const Settings settings(text, file, "");
   if (settings.has(key)) return settings.choice(key, names);
   if (settings.has("scene")) return "scene";
-  throw UsageError(fmt::format("{}:1: key '{}': missing; it says what the file is, as in {} = \"{}\"; {}",
-                               one_line(file), key, key, names.front(), spelling_hint("", names)));
+  throw UsageError(
+      fmt::format("{}:1: key '{}': missing, and so is 'scene': one of them says what the file is, as in {} = \"{}\" or "
+                  "scene = \"my scene\"; {}",
+                  one_line(file), key, key, names.front(), spelling_hint("", names)));
+}
+
+UsageError not_a_scene(const std::string& file, std::string_view experiment) {
+  return UsageError(
+      fmt::format("{}: is a configuration of {}, not a scene; thinwall run it", one_line(file), experiment));
 }
 
 /// Every experiment that a file may configure.
@@ -137,10 +144,7 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
     const std::string named = experiment_named_in(text, file, names);
     chosen = find_experiment(all, request.compare && named == "scene" ? "compare" : named);
   }
-  if (request.compare && chosen->name != "compare") {
-    throw UsageError(
-        fmt::format("{}: is a configuration of {}, not a scene; thinwall run it", one_line(file), chosen->name));
-  }
+  if (request.compare && chosen->name != "compare") throw not_a_scene(file, chosen->name);
   if (!is_scene(*chosen) && request.trace) throw UsageError("--trace: only a scene has a trace");
   if (!is_scene(*chosen) && !request.plan_kind.empty()) throw UsageError("--plan: only a scene has a plan");
 
@@ -267,7 +271,10 @@ int print_plan(const PlanText& text, std::ostream& out) {
   require_scene_target("plan", text.target);
   const std::string kind = parse_plan_kind(text.plan);
   const std::uint64_t seed = parse_seed(text.seed);
-  Settings settings(read_config(text.target), text.target, scene_experiment().default_toml);
+  const std::string config = read_config(text.target);
+  if (const Settings given(config, text.target, ""); given.has("experiment") && !given.has("scene"))
+    throw not_a_scene(text.target, given.text("experiment"));
+  Settings settings(config, text.target, scene_experiment().default_toml);
   settings.reject_unknown_keys();
   settings.require("scene", "its name; without one the file is not a scene");
   if (!kind.empty()) settings.assign("plan", kind);

@@ -30,7 +30,7 @@ class Stepper {
   std::size_t bytes() const;
 
  private:
-  // stepping.cpp
+  // step.cpp
   void begin(double dt, bool changed_by_hand);
   void fall(double dt);
   void box(double dt);
@@ -40,7 +40,6 @@ class Stepper {
   void find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask);
   void mark_proxies(bool as_they_are);
   void count(const Asked& asked);
-  // sampled_step.cpp
   void sampled_step(int parts);
   void respond_at_instant(std::vector<BodyMotion>& motions, std::vector<Spin>& spins);
   // swept_step.cpp

@@ -215,6 +215,7 @@ TEST_F(SceneProgram, plan_prints_what_is_left_out) {
 TEST_F(SceneProgram, refuses_what_is_no_scene) {
   write_text(file, "experiment = 'toy'\n");
   expect_refused({"compare", file, "--out", out}, "not a scene");
+  expect_refused({"plan", file}, "not a scene");
   expect_refused({"run", "toy", "--out", out, "--trace"}, "--trace: only a scene has a trace");
   expect_refused({"run", "toy", "--out", out, "--plan", "full"}, "--plan: only a scene has a plan");
   expect_refused({"plan", folder / "none.toml"}, "there is no such file");
