@@ -146,14 +146,9 @@ Table rule_timings_table(const std::vector<Total>& totals) {
 }
 
 Table counts_test_table(const std::vector<SelfTest>& tests) {
-  Table table = self_test_table(tests);
-  table.description = "Counts of independent encounters against theory, over all cells of a rule and event at once.";
-  for (Column& column : table.columns) {
-    if (column.name == "method") column = {"rule", ColumnType::text, "", "How a hit is found."};
-    if (column.name == "scalar") column = {"event", ColumnType::text, "", "What is counted."};
-    if (column.name == "judged_cells") column.description = "Cells with at least 5 expected events and 5 without.";
-  }
-  return table;
+  return self_test_table(tests,
+                         "Counts of independent encounters against theory, over all cells of a rule and event at once.",
+                         {"rule", "How a hit is found."}, {"event", "What is counted."});
 }
 
 Table timing_test_table(const std::vector<TimingTest>& tests) {

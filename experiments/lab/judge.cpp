@@ -99,15 +99,15 @@ std::string self_test_text(const std::vector<SelfTest>& tests) {
   return text;
 }
 
-Table self_test_table(const std::vector<SelfTest>& tests) {
+Table self_test_table(const std::vector<SelfTest>& tests, std::string description, const Heading& of,
+                      const Heading& part) {
   using T = SelfTest;
   const auto count = [](double x) { return static_cast<std::int64_t>(x); };
   const auto columns = columns_of<T>(
-      text("method", "Way of detecting the hit.", &T::name),
-      text("scalar", "Floating-point type the method ran in.", &T::part),
+      text(of.name, of.description, &T::name), text(part.name, part.description, &T::part),
       value("certain_cells", "1", "Cells whose theory is exactly 0 or 1.", &T::certain_cells),
       value("certain_wrong", "1", "Of those, cells whose count is not exactly that; must be 0.", &T::certain_wrong),
-      value("judged_cells", "1", "Cells with at least 5 expected to tunnel and 5 not to.", &T::judged_cells),
+      value("judged_cells", "1", "Cells with at least 5 expected events and 5 without.", &T::judged_cells),
       value("covered", "1", "Of those, cells whose 95 % Wilson interval holds the theory.", &T::covered),
       where(
           [](const T& t) { return t.judged_cells > 0; },
@@ -122,9 +122,7 @@ Table self_test_table(const std::vector<SelfTest>& tests) {
               value("chi_square_upper", "1", "Most allowed.", [](const T& t) { return t.chi_square_allowed.upper; }))),
       value("other_cells", "1", "Cells with a theory but too few expected events to judge alone.", &T::other_cells),
       value("passed", "", "All of the above hold.", &T::passed));
-  return in_report(table("self_test",
-                         "Counts of independent shots against theory, over all cells of a method and scalar at once.",
-                         columns, tests));
+  return in_report(table("self_test", std::move(description), columns, tests));
 }
 
 }  // namespace thinwall

@@ -43,7 +43,17 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells);
 /// A paragraph for each: "closed_form, double: 864 cells certain, 0 wrong." One that failed names its cell that is farthest off.
 std::string self_test_text(const std::vector<SelfTest>& tests);
 
-Table self_test_table(const std::vector<SelfTest>& tests);
+/// A column's name and what it says.
+struct Heading {
+  std::string name, description;
+};
+
+/// `of` and `part` head the columns of a test's name and part.
+Table self_test_table(const std::vector<SelfTest>& tests,
+                      std::string description =
+                          "Counts of independent shots against theory, over all cells of a method and scalar at once.",
+                      const Heading& of = {"method", "Way of detecting the hit."},
+                      const Heading& part = {"scalar", "Floating-point type the method ran in."});
 
 /// Of verdicts of whatever kind.
 template <class Verdict> bool all_passed(const std::vector<Verdict>& verdicts) {

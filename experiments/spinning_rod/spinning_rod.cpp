@@ -169,12 +169,8 @@ void add_counts(const char* obstacle, const std::vector<Row>& rows, std::vector<
 }
 
 Table counts_table(const std::vector<SelfTest>& tests) {
-  Table table = self_test_table(tests);
-  table.description = "Tunneled trials against theory, over all cells of a method at an obstacle at once.";
-  for (Column& column : table.columns) {
-    if (column.name == "scalar") column = {"obstacle", ColumnType::text, "", "What is in the way."};
-  }
-  return table;
+  return self_test_table(tests, "Tunneled trials against theory, over all cells of a method at an obstacle at once.",
+                         {"method", "Way of detecting the hit."}, {"obstacle", "What is in the way."});
 }
 
 struct ClaimTest {

@@ -97,14 +97,9 @@ Table shapes_table(const std::vector<Total>& totals) {
 }
 
 Table counts_test_table(const std::vector<SelfTest>& tests) {
-  Table table = self_test_table(tests);
-  table.description = "Counts of independent balls against theory, over all cells of a bound and event at once.";
-  for (Column& column : table.columns) {
-    if (column.name == "method") column = {"bound", ColumnType::text, "", "What stands for the swept volume."};
-    if (column.name == "scalar") column = {"event", ColumnType::text, "", "What is counted."};
-    if (column.name == "judged_cells") column.description = "Cells with at least 5 expected events and 5 without.";
-  }
-  return table;
+  return self_test_table(tests,
+                         "Counts of independent balls against theory, over all cells of a bound and event at once.",
+                         {"bound", "What stands for the swept volume."}, {"event", "What is counted."});
 }
 
 Table timings_table(const std::vector<SweepCost>& costs) {
