@@ -85,7 +85,7 @@ need_commands() {
   local missing
   read -ra missing <<<"$(missing_commands "$@" | tr '\n' ' ')"
   ((${#missing[@]} == 0)) || die "this is not Debian or Ubuntu, so nothing is installed for you; missing: ${missing[*]}
-Install them, then run this again with THINWALL_FETCH=ON ./$(basename "$0"): CMake downloads the missing libraries."
+Install them, then run this again with THINWALL_FETCH=ON ./$(basename "$0"): CMake downloads the missing libraries, but OpenSSL and Expat."
   echo "All of these are there: $*"
 }
 

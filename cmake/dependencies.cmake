@@ -88,7 +88,12 @@ function(thinwall_dependency name)
     set_property(GLOBAL APPEND PROPERTY thinwall_missing_debian "${dep_DEBIAN}")
     return()
   endif()
-  set(version "${${name}_VERSION}")
+  string(TOUPPER ${name} upper)  # as CMake's own modules spell it
+  foreach(variable IN ITEMS ${name}_VERSION ${upper}_VERSION ${upper}_VERSION_STRING)
+    if(NOT version)
+      set(version "${${variable}}")
+    endif()
+  endforeach()
   if(NOT version AND origin STREQUAL "fetched")
     string(REGEX MATCH "[0-9]+[.][0-9]+[.][0-9]+" version "${dep_SOURCE}")
   endif()
@@ -139,6 +144,6 @@ function(thinwall_stop_if_missing)
     message(FATAL_ERROR
       "thinwall needs, and did not find: ${missing}.\n"
       "On Debian or Ubuntu: apt-get install ${packages}\n"
-      "Elsewhere: add -DTHINWALL_FETCH=ON, and CMake downloads pinned releases of what is missing.")
+      "Elsewhere: add -DTHINWALL_FETCH=ON, and CMake downloads pinned releases of what is missing, but of OpenSSL and Expat.")
   endif()
 endfunction()

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -331,6 +332,7 @@ std::vector<BounceScenario> bounce_scenarios(std::string_view group, const std::
     for (int more = 0; more <= std::min(digits, 5); ++more) all.push_back(digits_of_pi<float>(more, "float"));
     for (int more = 0; more <= digits; ++more) all.push_back(digits_of_pi<double>(more, "double"));
   }
+  if (all.empty()) throw std::logic_error(fmt::format("no impacts in crowds are called '{}'", group));
   for (BounceScenario& scenario : all) scenario.group = group;
   return all;
 }

@@ -176,7 +176,7 @@ struct Quantity {
   std::function<double(const Crossing&)> theory;
 };
 
-std::vector<double> distinct(const std::vector<Row>& rows, double Crossing::*factor) {
+std::vector<double> sorted_values(const std::vector<Row>& rows, double Crossing::*factor) {
   std::vector<double> values;
   for (const Row& row : rows) values.push_back(row.cell.*factor);
   std::ranges::sort(values);
@@ -188,7 +188,7 @@ std::vector<double> distinct(const std::vector<Row>& rows, double Crossing::*fac
 Series theory_curves(const std::vector<Row>& rows, const Quantity& quantity) {
   constexpr double curve_step = 5, end_step = 2;  // [deg], finer within 10 degrees of the ends
   Series series = {.label = "theory", .mark = Mark::line};
-  for (const double ratio : distinct(rows, &Crossing::ratio)) {
+  for (const double ratio : sorted_values(rows, &Crossing::ratio)) {
     Crossing c = rows.front().cell;
     c.ratio = ratio;
     double angle = ratio == 1 ? end_step : 0;
@@ -232,9 +232,9 @@ std::vector<double> ends(const std::vector<double>& values) {
 /// A panel for the slowest and the fastest speed, at the narrowest disc.
 std::vector<Panel> by_speed(const std::vector<Row>& rows, const std::string& y_label, const Quantity& quantity) {
   std::vector<Panel> panels;
-  for (const double speed : ends(distinct(rows, &Crossing::speed))) {
+  for (const double speed : ends(sorted_values(rows, &Crossing::speed))) {
     const auto as_fast = only(rows, [&](const Row& r) { return r.cell.speed == speed; });
-    const double narrowest = distinct(as_fast, &Crossing::offset).front();
+    const double narrowest = sorted_values(as_fast, &Crossing::offset).front();
     const auto drawn = only(as_fast, [&](const Row& r) { return r.cell.offset == narrowest; });
     const Crossing& c = drawn.front().cell;
     const double path = c.speed * c.step / contact_distance(c);
@@ -277,7 +277,7 @@ Figure lateness_figure(const std::vector<Row>& rows) {
 
 /// A panel for the narrowest and the widest disc that leaves room to pass, at the fastest speed.
 Figure false_hits_figure(const std::vector<Row>& rows) {
-  const double fastest = distinct(rows, &Crossing::speed).back();
+  const double fastest = sorted_values(rows, &Crossing::speed).back();
   const auto drawn = only(rows, [&](const Row& r) { return r.cell.speed == fastest && r.cell.offset > 1; });
   const Quantity quantity = {
       [](const Row& r) { return r.tally.apart() > 0 ? share_of(r.tally.false_hits, r.tally.apart()) : nan; },
@@ -291,7 +291,7 @@ Figure false_hits_figure(const std::vector<Row>& rows) {
                        "contact distances R.",
                        fastest),
                    .panels = {}};
-  for (const double offset : ends(distinct(drawn, &Crossing::offset))) {
+  for (const double offset : ends(sorted_values(drawn, &Crossing::offset))) {
     const auto those = only(drawn, [&](const Row& r) { return r.cell.offset == offset; });
     figure.panels.push_back(panel(those, fmt::format("false hits [1], passing within {:g} R", offset), quantity));
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <functional>
@@ -77,12 +76,6 @@ inline double thread_seconds() {
 inline Measured median_of_rounds(const std::vector<double>& rounds) {
   const std::array<double, 1> key = {static_cast<double>(rounds.size())};
   return {median(rounds), bootstrap_median(rounds, {1, stream_of(key)})};
-}
-
-/// The mean of so many, whose standard deviation is known; without an interval where that is NaN.
-inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
-  const double bar = 1.96 * deviation / std::sqrt(static_cast<double>(count));
-  return {mean, {mean - bar, mean + bar}};
 }
 
 }  // namespace thinwall

@@ -1,6 +1,7 @@
 #pragma once
 /// Intervals for counts: what a number of hits in a number of trials says about a probability, and the other way round.
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -21,6 +22,12 @@ struct Measured {
 
   Measured times(double factor) const { return {factor * value, {factor * interval.lower, factor * interval.upper}}; }
 };
+
+/// The mean of so many, whose standard deviation is known; without an interval where that is NaN.
+inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
+  const double bar = 1.96 * deviation / std::sqrt(static_cast<double>(count));
+  return {mean, {mean - bar, mean + bar}};
+}
 
 /// For a curve: the Wilson score interval of a probability, after `successes` in `trials` >= 1 independent trials.
 /// Covers the true probability `confidence` of the time on average; at the ends it is exactly 0 and exactly 1.

@@ -229,8 +229,9 @@ std::string plot_script(const Figure& figure) {
     std::vector<std::string> items;
     const bool crowded = point_count(panel) > 400;
     for (const Series& series : panel.series) {
-      const auto style = std::ranges::find(styles, series.label, &SeriesStyle::label) - styles.begin() + 1;
-      for (std::string& item : plot_items(figure.name + ".dat", series, block, style, crowded))
+      const auto style = std::ranges::find(styles, series.label, &SeriesStyle::label);
+      if (style == styles.end()) throw std::logic_error("no style for '" + series.label + "'");
+      for (std::string& item : plot_items(figure.name + ".dat", series, block, style - styles.begin() + 1, crowded))
         items.push_back(std::move(item));
       ++block;
     }

@@ -63,13 +63,6 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
-std::optional<std::int64_t> parse_count(std::string_view text) {
-  if (const auto count = parsed<std::int64_t>(text)) return count;
-  const auto value = parsed<double>(text);
-  if (!value || !(std::abs(*value) < two_to_53) || *value != std::trunc(*value)) return std::nullopt;
-  return static_cast<std::int64_t>(*value);
-}
-
 namespace {
 
 int power_of_ten(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }

@@ -267,20 +267,22 @@ struct PlanText {
   bool json = false;
 };
 
-int print_plan(const PlanText& text, std::ostream& out) {
+int print_plan(const PlanText& text, const Call& call) {
   require_scene_target("plan", text.target);
   const std::string kind = parse_plan_kind(text.plan);
   const std::uint64_t seed = parse_seed(text.seed);
   const std::string config = read_config(text.target);
-  if (const Settings given(config, text.target, ""); given.has("experiment") && !given.has("scene"))
-    throw not_a_scene(text.target, given.text("experiment"));
+  if (const Settings given(config, text.target, ""); given.has("experiment") && !given.has("scene")) {
+    const std::string named = given.text("experiment");
+    if (find_experiment(call.experiments, named) != nullptr) throw not_a_scene(text.target, named);
+  }
   Settings settings(config, text.target, scene_experiment().default_toml);
   settings.reject_unknown_keys();
   settings.require("scene", "its name; without one the file is not a scene");
   if (!kind.empty()) settings.assign("plan", kind);
   const Scene scene = read_scene(settings, {.seed = seed, .trials = {}});
   const Plan made = plan(scene.bodies, scene.options);
-  out << (text.json ? json_reply(scene, made) : to_text(made));
+  call.out << (text.json ? json_reply(scene, made) : to_text(made));
   return exit_done;
 }
 
@@ -294,7 +296,7 @@ Action declare_plan(CLI::App& self) {
   add_seed(self, text->seed);
   add_plan_kind(self, text->plan);
   add_json(self, text->json);
-  return [text](const Call& call) { return print_plan(*text, call.out); };
+  return [text](const Call& call) { return print_plan(*text, call); };
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -274,7 +275,9 @@ void check_trace(const Settings& settings, const Scene& scene) {
 }  // namespace
 
 TimePolicy policy_named(std::string_view name) {
-  return static_cast<TimePolicy>(std::ranges::find(policy_names, name) - policy_names.begin());
+  const auto found = std::ranges::find(policy_names, name);
+  if (found == policy_names.end()) throw std::logic_error(fmt::format("no policy is called '{}'", name));
+  return static_cast<TimePolicy>(found - policy_names.begin());
 }
 
 constexpr std::int64_t most_steps = 10'000'000;

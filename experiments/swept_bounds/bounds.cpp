@@ -247,7 +247,8 @@ std::vector<TimedSubject> timed_subjects(const std::vector<Sweep>& sweeps, const
 
 std::optional<double> SweepCost::quantile_ns(TimedWork work, double share) const {
   const std::vector<double>& rounds = nanoseconds[static_cast<std::size_t>(work)];
-  return rounds.empty() ? std::nullopt : std::optional(quantile(rounds, share));
+  if (rounds.empty()) return std::nullopt;
+  return share == 0.5 ? median(rounds) : quantile(rounds, share);
 }
 
 std::vector<SweepCost> sweep_costs(const std::vector<TimedSubject>& subjects, std::span<const double> seconds) {

@@ -48,7 +48,7 @@ FittedBody box_around(const FittedBody& exact, const Mat3<double>& axes);  ///< 
 
 double volume(const BallRegion& region);  ///< [m^3]
 
-/// Around all centers at which a ball's box overlaps the bound's, and a tenth more: a bound that is too wide would show.
+/// Around all centers at which a ball's box overlaps the bound's, `room` times as wide: with a tenth more a bound that is too wide shows.
 BallRegion region_around(const FittedBody& bound, const Sweep& s, double room = 1.1);
 
 /// Of balls drawn from the region around a bound.

@@ -184,7 +184,8 @@ void append(std::span<const std::string> names, std::span<const std::int64_t> po
           all.push_back(shot_at<S>(method, fmt::format("{}_{}", Method::name, n), method.n, response));
         }
       } else {
-        all.push_back(shot_at<S>(Method{}, std::string(Method::name), std::same_as<Method, EndOfStep<S>>, response));
+        all.push_back(
+            shot_at<S>(Method{}, std::string(Method::name), std::same_as<Method, EndOfStep<S>> ? 1 : 0, response));
       }
     }
   });

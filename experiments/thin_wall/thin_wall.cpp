@@ -624,9 +624,11 @@ bool ends_agree(const std::vector<ThinWallRow>& rows) {
 std::vector<ThinWallTotal> totals_of(const std::vector<ThinWallRow>& rows) {
   Totals totals;
   for (const Group<Row>& group : group_by(rows, &Row::method)) {
-    Total& total = totals.emplace_back(Total{.method = group[0]->method, .tally = total_of(group, &Row::tally)});
-    total.tally.lateness = 0;
+    Total& total = totals.emplace_back(Total{.method = group[0]->method});
     for (const Row* row : group) {
+      Tally tally = row->tally;
+      tally.lateness = 0;  // of cells whose units differ, and a sum that might overflow
+      total.tally += tally;
       ++total.cells;
       total.clean_cells += row->tally.tunneled == 0 ? 1 : 0;
       add(total.tunneled, *row, tunneling);

@@ -12,6 +12,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 
 #include "support/experiment_run.hpp"
@@ -75,6 +76,19 @@ TEST(ThinWallShots, start_before_contact_and_the_path_ends_there) {
     ASSERT_NEAR(gap(aimed, contact), 0, 1e-13 * (1 + start.norm()));
     ASSERT_GE(gap(aimed, (start + contact) / 2), 0);
   });
+}
+
+TEST(ThinWallShots, phase_is_uniform) {
+  const Target aimed = target(bullet);
+  std::vector<double> counts(50);
+  for (std::uint64_t trial = 0; trial < 50000; ++trial) {
+    const double phase =
+        path_to_contact(aimed, random_start(aimed, random_stream(bullet, 3), trial)) / aimed.step_length;
+    ++counts[std::min<std::size_t>(49, static_cast<std::size_t>(50 * phase))];
+  }
+  double sum = 0;
+  for (const double count : counts) sum += (count - 1000) * (count - 1000) / 1000;
+  EXPECT_TRUE(chi_square_range(49, 0.9999).contains(sum)) << sum;
 }
 
 /// Head-on, the share of lines that meet the wall itself is its face over its shadow; the others meet the rim only.
@@ -271,6 +285,8 @@ TEST(ThinWallBounce, agrees_with_theory_and_changes_no_other_count) {
   EXPECT_EQ(bounced.figures.front().name, "bounce");
   for (const char* name : {"self_test", "stratified", "lateness", "methods"})
     EXPECT_EQ(table_of(still, name).rows, table_of(bounced, name).rows) << name;
+  for (const char* method : {"end_of_step", "centre_ray", "closed_form"})
+    EXPECT_EQ(tunneled(table_of(still, "cells"), method), tunneled(table_of(bounced, "cells"), method));
   EXPECT_EQ(still.tables.size() + 2, bounced.tables.size());
 }
 
