@@ -117,19 +117,17 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
     enter[i] = (near - start[i]) / v[i];
     leave[i] = (-near - start[i]) / v[i];
   }
+  if (excess_of(start, h) == Vec3<S>::Zero() && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
   int axis = 0;
-  S t = enter.maxCoeff(&axis), until = std::min(ray.max_t, leave.minCoeff());
-  bool inside = excess_of(start, h) == Vec3<S>::Zero();
-  if (!inside && is_last_in_doubt(enter, leave, axis)) {
+  S t = enter.maxCoeff(&axis);
+  if (!(t >= S(0) && t <= std::min(ray.max_t, leave.minCoeff()))) return std::nullopt;
+  if (is_last_in_doubt(enter, leave, axis)) {
     const Vec3<S> none = Vec3<S>::Zero();
-    const Entry<S> entry = exact_box_entry<S>({ray.origin, box.center}, {v, none}, {h, none}, ray.max_t);
-    entry.normal.cwiseAbs().maxCoeff(&axis);
-    inside = entry.inside;
-    t = entry.time;
-    until = ray.max_t;
+    if (const auto exact = exact_box_entry<S>({ray.origin, box.center}, {v, none}, {h, none})) {
+      exact->normal.cwiseAbs().maxCoeff(&axis);
+      t = std::min(exact->time, ray.max_t);
+    }
   }
-  if (inside && ray.max_t >= S(0)) return RayHit<S>{S(0), ray.origin, Vec3<S>::Zero()};
-  if (!(t >= S(0) && t <= until)) return std::nullopt;
   RayHit<S> hit;
   hit.t = t;
   hit.normal = axis_vector<S>(axis, v[axis] > S(0));
@@ -189,7 +187,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
   const ClearSlabs::Last last = slabs.last_entered();
   const LanesMask axis = packed::lowest(last.axes);
-  const bool clear = both(all_of(slabs.in_range & last.sure), last.at_most_one());
+  const bool clear = both(both(all_of(slabs.in_range), any_of(slabs.outside)), last.clear);
   const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
   return {both(both(clear, all_of(slabs.in_order())), ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
           center + select(axis, against(h, v), clamped), keep(axis, against(all(1), v))};

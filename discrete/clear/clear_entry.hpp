@@ -88,7 +88,7 @@ THINWALL_HOT packed::Lanes clear_face_normal(unsigned axes, const packed::Lanes&
 struct ClearSlabs {
   packed::Lanes P, W;                   ///< the place and the speed so seen
   packed::Lanes low, high;              ///< how far it is to where the slabs begin and end, not widened
-  packed::Lanes extent;                 ///< [length] of all that counts on an axis
+  packed::Lanes size, extent;           ///< [length] of place and box on an axis, and with the path
   packed::Lanes enter, leave;           ///< [1] when it is in the widened slabs
   packed::Pair first, last;             ///< [1] when it is in all of them: last < first, never
   packed::Pair time;                    ///< [1] `first`, or `never`
@@ -100,7 +100,8 @@ struct ClearSlabs {
         W(abs(v)),
         low(P - h),
         high(P + h),
-        extent(abs(p) + W + h),
+        size(abs(p) + h),
+        extent(size + W),
         enter(max((low - R) / W, packed::all(0))),
         leave(min((high + R) / W, packed::all(until))),
         first(largest_of(enter)),
@@ -108,19 +109,18 @@ struct ClearSlabs {
         time(select(last < first, packed::both(ClearEntry::never), first)),
         in_range((extent <= packed::all(packed::most_length)) & (packed::all(0) <= h)),
         outside(R * packed::all(packed::more_than_rounding) < abs(p) - h) {}
-  /// The axes entered last, where nothing is widened: all of them where the start is not outside. If that is at most one, and all lanes are
-  /// `sure`, no rounding of its time hides another; nor is there one to be hidden in a miss, which may have several.
+  /// The axes entered last, where nothing is widened; `clear` if it is a miss, or they are one and no rounding of its time, told for another's,
+  /// is more than that one's own.
   struct Last {
-    unsigned axes, of_hit;
-    packed::LanesMask sure;
-
-    THINWALL_HOT bool at_most_one() const { return (of_hit & (of_hit - 1U)) == 0U; }
+    bool clear;
+    unsigned axes;
   };
   THINWALL_HOT Last last_entered() const {
     using packed::all, packed::both;
-    const packed::LanesMask early = enter < all(first * both(1 - 0x1p-20));
-    const unsigned axes = bits(early) ^ 7U, hit = 0U - static_cast<unsigned>(all_of(first <= last));
-    return {axes, axes & hit, early | (extent * all(0x1p-28) <= low)};
+    const packed::LanesMask early = enter < all(first * both(1 - 0x1p-20)), sure = early | (size * all(0x1p-28) <= low);
+    const unsigned axes = bits(early) ^ 7U, unsure = bits(sure) ^ 7U,
+                   hit = 0U - static_cast<unsigned>(all_of(first <= last));
+    return {(((axes & (axes - 1U)) | unsure) & hit) == 0U, axes};
   }
   /// Which of `first` and `last` comes first.
   THINWALL_HOT packed::PairMask in_order() const {

@@ -6,6 +6,10 @@
 /// lengths are given as they came, before any difference of theirs was rounded; on each axis two conditions are linear in the time.
 /// Source: the slabs are Ericson, Real-Time Collision Detection, 2005, section 5.3.3; the doubt is derived here.
 
+#include <array>
+#include <limits>
+#include <optional>
+
 #include <thinwall/discrete/entry/flat_entry.hpp>
 
 namespace thinwall {
@@ -23,30 +27,35 @@ template <Scalar S> bool is_last_in_doubt(const Vec3<S>& enter, const Vec3<S>& l
 /// A difference or a sum that has not been rounded, of lengths or of displacements.
 template <Scalar S> struct ExactTwo {
   Vec3<S> first, second;
+
+  ExactTwo times_two_to(int e) const { return {times_power_of_two(first, e), times_power_of_two(second, e)}; }
+  ExactNumber<S> sum(int i) const { return ExactNumber<S>(first[i]) + ExactNumber<S>(second[i]); }
+  ExactNumber<S> difference(int i) const { return ExactNumber<S>(first[i]) - ExactNumber<S>(second[i]); }
+  bool operator==(const ExactTwo&) const = default;
 };
 
-/// First time t in [0, last] at which a point is in a box: it starts at `place` from the box's center and moves by `path`, both the first
-/// less the second; the box reaches the sum of `halves`. Infinity if there is none. `last` [1] >= 0 may be infinite.
-/// Error: the verdict and the face are right; the time is off by a few u of itself. Unless products of lengths and displacements underflow.
+/// First time t >= 0 at which a point is in a box: it starts at `place` from the box's center and moves by `path`, both the first less the
+/// second; the box reaches the sum of `halves`. Nothing if it starts there or never is; nor where the scale at which products are in range
+/// would flush one of these numbers: they are 2^900 apart.
+/// Error: the face is right; the time is off by a few u of itself.
 template <Scalar S>
-Entry<S> exact_box_entry(const ExactTwo<S>& place, const ExactTwo<S>& path, const ExactTwo<S>& halves, const S& last) {
+std::optional<Entry<S>> exact_box_entry(const ExactTwo<S>& place, const ExactTwo<S>& path, const ExactTwo<S>& halves) {
   const SafeScale<S> scale(largest(place.first, place.second, halves.first, halves.second),
                            largest(path.first, path.second));
-  ExactStretch<S> stretch(scale.time(last));
+  const int of_lengths = scale.length_exponent, of_path = scale.speed_exponent;
+  const ExactTwo<S> x = place.times_two_to(-of_lengths), h = halves.times_two_to(-of_lengths),
+                    v = path.times_two_to(-of_path);
+  if (x.times_two_to(of_lengths) != place || h.times_two_to(of_lengths) != halves || v.times_two_to(of_path) != path)
+    return std::nullopt;
+  ExactStretch<S> stretch(std::numeric_limits<S>::infinity());
   for (int i = 0; i < 3; ++i) {
-    const auto length = [&](const Vec3<S>& v) { return ExactNumber<S>(scale.length(v[i])); };
-    const auto displacement = [&](const Vec3<S>& v) { return ExactNumber<S>(scale.displacement(v[i])); };
-    const ExactNumber<S> x = length(place.first) - length(place.second),
-                         h = length(halves.first) + length(halves.second);
-    const ExactNumber<S> v = displacement(path.first) - displacement(path.second);
-    stretch.not_negative(h + x, v, axis_vector<S>(i, true));
-    stretch.not_negative(h - x, -v, axis_vector<S>(i, false));
+    const ExactNumber<S> at = x.difference(i), half = h.sum(i), speed = v.difference(i);
+    stretch.not_negative(half + at, speed, axis_vector<S>(i, true));
+    stretch.not_negative(half - at, -speed, axis_vector<S>(i, false));
   }
+  if (stretch.empty || stretch.first.sign() == 0) return std::nullopt;
   Entry<S> entry;
-  if (stretch.empty) return entry;
-  entry.inside = stretch.first.sign() == 0;
-  if (entry.inside) return entry;
-  entry.time = std::min(last, scale.time_back(S(stretch.first.rounded() / stretch.first_denominator.rounded())));
+  entry.time = scale.time_back(S(stretch.first.rounded() / stretch.first_denominator.rounded()));
   entry.normal = stretch.edge;
   return entry;
 }

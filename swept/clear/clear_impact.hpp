@@ -77,7 +77,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const Lanes time = all(slabs.first), at_a = center_a + path_a * time, at_b = center_b + path_b * time;
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
   const ClearSlabs::Last last = slabs.last_entered();
-  const bool clear = both(all_of((zero <= min(half_a, half_b)) & slabs.in_range & last.sure), last.at_most_one());
+  const bool sizes = all_of((zero <= min(half_a, half_b)) & slabs.in_range);
+  const bool clear = both(both(sizes, any_of(slabs.outside)), last.clear);
   return {both(both(clear, all_of(slabs.in_order())), gap == 0), slabs.time, clear_face_normal(last.axes, v), point};
 }
 

@@ -60,20 +60,24 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
   GapSample<T> before = sample(T(0));
-  const bool recedes = !(before.closing > T(0));
   // The direction of a gap within rounding, S's of the axes too, is none, and its slope proves nothing.
-  if (recedes && before.gap > T(gap_noise(S(magnitude(a) + magnitude(b))))) return {ToiStatus::apart, evaluations};
+  const T noise(gap_noise(S(magnitude(a) + magnitude(b))));
+  bool has_slope = before.closing > T(0);
+  if (!has_slope && before.gap > noise) return {ToiStatus::apart, evaluations};
   GapSample<T> after = sample(T(1));
-  if (after.gap > T(0) && (recedes || after.closing >= T(0))) return {ToiStatus::apart, evaluations};
   constexpr int rounds = 2 * std::numeric_limits<S>::digits;  // half of them halve
-  for (int k = 0; k < rounds && after.gap > T(0); ++k) {
+  for (int k = 0; after.gap > T(0); ++k) {
+    const T at_start = after.gap + after.closing * after.time;  // the tangent, which leads up from there
+    const bool stays_apart = after.closing >= T(0) || (!has_slope && at_start > -noise);
+    if (stays_apart || k == rounds) return {ToiStatus::apart, evaluations};
     const TangentCrossing<T> crossing(before, after);
-    if (crossing.lowest > T(0)) return {ToiStatus::apart, evaluations};
-    const GapSample<T> between = sample(k % 2 == 0 ? crossing.time : T((before.time + after.time) / 2));
+    if (has_slope && crossing.lowest > T(0)) return {ToiStatus::apart, evaluations};
+    const GapSample<T> between = sample(has_slope && k % 2 == 0 ? crossing.time : T((before.time + after.time) / 2));
     if (!(between.time > before.time && between.time < after.time)) continue;
-    (between.gap > T(0) && between.closing > T(0) ? before : after) = between;
+    const bool approaches = between.gap > T(0) && between.closing > T(0);
+    (approaches ? before : after) = between;
+    has_slope = has_slope || approaches;
   }
-  if (after.gap > T(0)) return {ToiStatus::apart, evaluations};
   while (after.time - before.time > T(method.tolerance)) {  // at least epsilon: one more halving a digit
     const GapSample<T> between = sample((before.time + after.time) / 2);
     (between.gap > T(0) ? before : after) = between;

@@ -17,15 +17,16 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Mov
   return toi_of(a, b, gap, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
 }
 
-/// When B, a sphere or an upright box of half extents `half_b`, comes within R of an upright box: without rounding where R is 0 and
-/// roundings may decide whether it does, or by which face.
+/// When B, a sphere or an upright box of half extents `half_b`, comes within R of an upright box. Where R is 0 and plain times cannot tell by
+/// which face, that is told without rounding.
 template <class B, Scalar T>
 Entry<T> upright_box_entry(const Moving<Aabb<T>>& a, const Moving<B>& b, const Vec3<T>& half_b, const T& R) {
   const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                               a.shape.half_extents + half_b, R);
-  if (R > T(0) || !entry.graze) return entry;
+  if (R > T(0) || !entry.graze || !is_finite(entry.time)) return entry;
   return exact_box_entry<T>({b.shape.center, a.shape.center}, {b.displacement, a.displacement},
-                            {a.shape.half_extents, half_b}, T(1));
+                            {a.shape.half_extents, half_b})
+      .value_or(entry);
 }
 
 template <Scalar S, Scalar T>

@@ -12,7 +12,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
-#include <thinwall/experiments/lab/judge.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 
 #include "support/experiment_run.hpp"

@@ -1,6 +1,7 @@
 // Two faces of upright boxes met at once to rounding, one of them slowly: the forward error is that of the face met last.
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -18,22 +19,29 @@ using V = Vec3<double>;
 using Box = Aabb<double>;
 using Point = Sphere<double>;
 
-/// A box at rest, and one or a point of half extents `half` that comes beside its faces across x and y at one time but for rounding; half of
-/// them through a shift that both have.
+/// A box at rest, and one or a point of half extents `half` that comes beside its faces across two axes at one time but for rounding, half of
+/// them through a shift that both have. The axes are any, and every fourth box is a plate.
 struct Tie : PortableDraw {
   Moving<Box> box;
   V half, start, path;
 
   Tie(std::uint64_t seed, bool is_point) : PortableDraw(seed) {
+    const int quick = below(3), slow = (quick + 1 + below(2)) % 3, other = 3 - quick - slow;
     const V shift = one_in(2) ? any(-64, 64) : V(V::Zero());
     box = {{any(-1, 1), any(0.2, 0.8)}, shift};
+    if (one_in(4)) box.shape.half_extents[slow] = 0;
     half = is_point ? V(V::Zero()) : any(0.1, 0.5);
     const double time = between(0.1, 0.9);
-    V signs, beside;
-    for (int i = 0; i < 3; ++i) signs[i] = one_in(2) ? 1 : -1;
-    path = V(between(0.5, 2), std::ldexp(between(0.5, 1), -below(50)), between(-0.2, 0.2)).cwiseProduct(signs);
-    for (int i = 0; i < 2; ++i) beside[i] = -signs[i] * (box.shape.half_extents[i] + half[i]) - path[i] * time;
-    beside[2] = between(-0.1, 0.1);
+    V beside;
+    path[quick] = between(0.5, 2);
+    path[slow] = std::ldexp(between(0.5, 1), -below(50));
+    path[other] = between(-0.2, 0.2);
+    for (const int i : {quick, slow}) {
+      if (one_in(2)) path[i] = -path[i];
+      const double reach = box.shape.half_extents[i] + half[i];
+      beside[i] = (path[i] < 0 ? reach : -reach) - path[i] * time;
+    }
+    beside[other] = between(-0.1, 0.1);
     start = box.shape.center + beside;
     path += shift;
   }
@@ -66,17 +74,38 @@ TEST(Ties, a_box_and_a_point) {
 }
 
 TEST(Ties, a_box_and_a_ray) {
+  constexpr double never = std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::max();
   for (std::uint64_t seed = 0; seed < motions; ++seed) {
     const Tie tie(seed, true);
-    const Ray<double> ray{tie.start, tie.path - tie.box.displacement, 1};
-    const oracle::Impact truth =
-        oracle::impact(oracle::pair(at_rest(tie.box.shape), Moving{Point{ray.origin, 0}, ray.direction}));
-    for (const auto& hit : {raycast(ray, tie.box.shape), careful_raycast(ray, tie.box.shape)}) {
-      ASSERT_EQ(hit.has_value(), truth.verdict == oracle::Verdict::hit) << "seed " << seed;
-      if (!hit) continue;
-      EXPECT_LE(oracle::forward_error_in_u_kappa(truth, hit->t), 4) << "seed " << seed;
+    const V direction = tie.path - tie.box.displacement;
+    const oracle::Pair pair = oracle::pair(at_rest(tie.box.shape), Moving{Point{tie.start, 0}, direction});
+    const oracle::Impact truth = oracle::impact(pair);
+    for (const double max_t : {1.0, 1e300, most, never}) {
+      const Ray<double> ray{tie.start, direction, max_t};
+      for (const auto& hit : {raycast(ray, tie.box.shape), careful_raycast(ray, tie.box.shape)}) {
+        const bool is_hit = hit && hit->t <= 1;
+        EXPECT_TRUE(oracle::verdict_is_near(pair, truth, is_hit ? oracle::Verdict::hit : oracle::Verdict::apart,
+                                            oracle::unit_roundoff<double>()))
+            << "seed " << seed << ", to " << max_t;
+        if (!is_hit) continue;
+        EXPECT_LE(oracle::forward_error_in_u_kappa(truth, hit->t), 4) << "seed " << seed;
+      }
     }
   }
+}
+
+/// What leaves its face, or a corner, is clear as well.
+TEST(Ties, what_recedes_is_clear) {
+  const Box box{V::Zero(), V::Constant(0.5)};
+  for (const V& path : {V(0, 0, 1), V(0.1, 0.2, 1), V(1, 1, 1), V(-0.1, 0, 0)}) {
+    const ClearToi toi = clear_impact(at_rest(box), Moving{Box{{0.25, 0.25, 2}, box.half_extents}, path}, 0.0);
+    EXPECT_TRUE(toi.clear) << path.transpose();
+    EXPECT_EQ(toi.toi().status, ToiStatus::apart);
+    const ClearRayHit hit = clear_raycast(Ray<double>{{0.25, 0.25, 2}, path, 1e3}, box);
+    EXPECT_TRUE(hit.clear && !hit.hit) << path.transpose();
+  }
+  const ClearRayHit far = clear_raycast(Ray<double>{{-2, 0, 0}, {1e10, 1, 1}, 1}, box);
+  EXPECT_TRUE(far.clear && far.hit);
 }
 
 /// As boxes in a grid: which axis is the last has no answer, and any will do.

@@ -73,15 +73,19 @@ TYPED_TEST(BisectionMethod, keeps_the_minimal_separation) {
 
 /// Boxes that are apart by 2^-24 at first, a fortieth of what their axes in float are off by: the way from one to the other says nothing.
 TEST(BisectionInFloat, goes_by_no_slope_of_a_gap_that_is_rounding) {
-  const Motion<Obb<float>, Aabb<float>> motion = [] {
-    Shaker<float> draw(632056760);
-    return drawn_motion<Obb<float>, Aabb<float>>(draw);
-  }();
-  const Toi<float> exact = time_of_impact(motion.a, motion.b),
-                   toi = time_of_impact(Bisection<float>{}, motion.a, motion.b);
-  ASSERT_EQ(exact.status, ToiStatus::hit);
-  EXPECT_EQ(toi.status, ToiStatus::hit);
-  EXPECT_LE(toi.time, exact.time + half_digits<float>());
+  Shaker<float> draw(632056760);
+  auto motion = drawn_motion<Obb<float>, Aabb<float>>(draw);
+  const float apart = separation(motion.a.shape, motion.b.shape).distance;
+  ASSERT_TRUE(apart > 0 && apart < 0x1p-22f) << apart;
+  for (const float longer : {1.0f, 64.0f}) {  // in contact at the end; through and out by then
+    motion.a.displacement *= longer;
+    motion.b.displacement *= longer;
+    const Toi<float> exact = time_of_impact(motion.a, motion.b),
+                     toi = time_of_impact(Bisection<float>{}, motion.a, motion.b);
+    ASSERT_EQ(exact.status, ToiStatus::hit);
+    EXPECT_EQ(toi.status, ToiStatus::hit) << longer;
+    EXPECT_LE(toi.time, exact.time + half_digits<float>());
+  }
 }
 
 // ---- Conservative advancement by cases: never late, and bounded.
