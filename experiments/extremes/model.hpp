@@ -44,7 +44,7 @@ const AxisInfo& info(ExtremeAxis axis);
 struct Place {
   ExtremeAxis axis = ExtremeAxis::scale;
   double value = 1;
-  auto operator<=>(const Place&) const = default;
+  auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): false alarm
 };
 Extreme extreme_at(const Place& place);
 

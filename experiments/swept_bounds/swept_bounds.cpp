@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -68,15 +67,17 @@ struct Total : SweepPair {
   Tally tally = total_of(cells, &Row::tally);
 
   /// False fractions by theory, [1] of each cell.
-  auto false_shares() const {
-    return cells | std::views::transform([](const Row* cell) { return cell->theory.false_fraction; });
+  std::vector<double> false_shares() const {
+    std::vector<double> shares;
+    for (const Row* cell : cells) shares.push_back(cell->theory.false_fraction);
+    return shares;
   }
 };
 
 std::vector<Total> totals_of(const std::vector<Row>& rows) {
   std::vector<Total> totals;
   for (const Group<Row>& group : group_by(rows, [](const Row& r) { return std::pair(r.sweep.form, r.bound); }))
-    totals.push_back({*group[0], group});
+    totals.push_back({{group[0]->sweep, group[0]->bound}, group});
   std::ranges::stable_sort(totals, {}, [](const Total& t) { return t.sweep.form; });
   return totals;
 }

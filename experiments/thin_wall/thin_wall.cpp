@@ -279,9 +279,10 @@ Plot with_theory(Plot plot, const Rows& rows, double (*curve)(double), const cha
   std::set<int> poses;
   for (const Row& row : rows) poses.insert(row.method->poses_per_step);
   poses.erase(0);
-  for (const int n : poses)
+  for (const int n : poses) {
     plot.curve(
         label, [=](double x) { return curve(x / n); }, left, right, mark);
+  }
   return plot;
 }
 
