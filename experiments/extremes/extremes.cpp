@@ -38,7 +38,7 @@ std::string title_of(std::size_t precision) {
 }
 
 /// How far a method gets along each arm, on pairs with a ball or on two boxes.
-struct Rung : Contender {
+struct Rung : ExtremeContender {
   double nanoseconds;          ///< a query: the median over pairs and places
   std::vector<Survival> arms;  ///< in the order of all_arms()
 
@@ -54,7 +54,7 @@ std::vector<Rung> rungs_of(const std::vector<Row>& rows) {
   for (const std::string_view method : extreme_method_names()) {
     for (const std::size_t p : precisions_of(rows)) {
       for (const PairSet pairs : {PairSet::rounded, PairSet::boxes}) {
-        const Contender contender = {method, p, pairs};
+        const ExtremeContender contender = {method, p, pairs};
         std::vector<double> times;
         for (const Row& row : rows) {
           if (contender.has(row)) times.push_back(row.tally.nanoseconds);
@@ -308,7 +308,7 @@ auto methods_on(PairSet pairs) {
   return [pairs](std::size_t precision) {
     std::vector<HeatRow> heat_rows;
     for (const std::string_view method : extreme_method_names()) {
-      const Contender contender = {method, precision, pairs};
+      const ExtremeContender contender = {method, precision, pairs};
       heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""),
                            [contender](const Row& row) { return contender.has(row); }});
     }
@@ -320,9 +320,10 @@ auto methods_on(PairSet pairs) {
 std::vector<HeatRow> every_pair(std::size_t precision) {
   std::vector<HeatRow> heat_rows;
   for (const ExtremePair& pair : extreme_pairs()) {
-    heat_rows.push_back({std::string(pair.name), [precision, &pair](const Row& row) {
-                           return row.pair == &pair && Contender{"closed_form", precision, PairSet::all}.has(row);
-                         }});
+    heat_rows.push_back(
+        {std::string(pair.name), [precision, &pair](const Row& row) {
+           return row.pair == &pair && ExtremeContender{"closed_form", precision, PairSet::all}.has(row);
+         }});
   }
   return heat_rows;
 }

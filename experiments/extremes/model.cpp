@@ -70,7 +70,7 @@ std::vector<double> values_along(const Arm& arm, const std::vector<Place>& place
   return values;
 }
 
-bool Contender::has(const ExtremeRow& row) const {
+bool ExtremeContender::has(const ExtremeRow& row) const {
   return row.precision == precision && row.tally.method == method && row.tally.queries > 0 && is_in(*row.pair, pairs);
 }
 
@@ -95,7 +95,7 @@ std::vector<const ExtremeRow*> two_balls(const std::vector<ExtremeRow>& rows, st
   std::vector<const ExtremeRow*> found;
   for (const ExtremeRow& row : rows) {
     const bool is_it = row.pair->name == "sphere_sphere" && row.place.axis == ExtremeAxis::distance;
-    if (is_it && Contender{method, precision}.has(row)) found.push_back(&row);
+    if (is_it && ExtremeContender{method, precision}.has(row)) found.push_back(&row);
   }
   std::ranges::sort(found, {}, [](const ExtremeRow* row) { return row->place; });
   return found;
@@ -114,7 +114,7 @@ std::optional<Flaw> flaw_of(const ExtremeTally& tally) {
   return {};
 }
 
-Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const Contender& whose) {
+Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const ExtremeContender& whose) {
   Survival result;
   for (const double value : values_along(arm, places_of(rows))) {
     bool asked = false;

@@ -142,7 +142,7 @@ enum class PairSet {
 };
 
 /// A method in a precision, on some of the pairs.
-struct Contender {
+struct ExtremeContender {
   std::string_view method;
   std::size_t precision;  ///< index into all_precisions()
   PairSet pairs = PairSet::four;
@@ -179,6 +179,6 @@ struct Survival {
 
   bool is_asked() const { return survived || broken; }
 };
-Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const Contender& whose);
+Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const ExtremeContender& whose);
 
 }  // namespace thinwall

@@ -41,7 +41,7 @@ void add_contract(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>&
   LadderTest test{.what = std::string(what), .precision = precision, .most = most};
   const double least = least_contact * unit_of(precision);
   for (const ExtremeRow& row : rows) {
-    if (!Contender{closed_form, precision, PairSet::all}.has(row) || contact_share(row.place) < least) continue;
+    if (!ExtremeContender{closed_form, precision, PairSet::all}.has(row) || contact_share(row.place) < least) continue;
     if (what == forward && grazing_share(row.place) < least) continue;
     note(test, row, measure(row.tally));
   }

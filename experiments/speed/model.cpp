@@ -216,8 +216,7 @@ std::string TimedWay::name() const {
 
 std::vector<Tic> tics_from_top(const std::vector<std::string>& names) {
   std::vector<Tic> tics;
-  for (auto name = names.rbegin(); name != names.rend(); ++name)
-    tics.push_back({static_cast<double>(tics.size() + 1), *name});
+  for (std::size_t i = names.size(); i > 0; --i) tics.push_back({static_cast<double>(tics.size() + 1), names[i - 1]});
   return tics;
 }
 

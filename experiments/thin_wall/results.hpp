@@ -38,15 +38,15 @@ struct ThinWallRow {
 std::vector<ThinWallRow> rows_of(const ShotPlan& plan);
 
 /// What a shot may come to: how many did, and the chance of it.
-struct Fate {
+struct ThinWallFate {
   std::int64_t (*count)(const Tally&);
   std::optional<double> Theory::*chance;
 };
-inline constexpr Fate tunneling = {[](const Tally& t) { return t.tunneled; }, &Theory::probability};
-inline constexpr Fate going_through = {[](const Tally& t) { return t.went_through(); }, &Theory::through};
+inline constexpr ThinWallFate tunneling = {[](const Tally& t) { return t.tunneled; }, &Theory::probability};
+inline constexpr ThinWallFate going_through = {[](const Tally& t) { return t.went_through(); }, &Theory::through};
 
 /// Of every row with a theory of it.
-std::vector<CellCount> counts_of(const std::vector<ThinWallRow>& rows, const Fate& fate);
+std::vector<CellCount> counts_of(const std::vector<ThinWallRow>& rows, const ThinWallFate& fate);
 
 /// In an infinite wall a ball ends behind it if and only if it went through. True if all counts say so.
 bool ends_agree(const std::vector<ThinWallRow>& rows);

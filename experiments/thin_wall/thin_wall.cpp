@@ -572,7 +572,7 @@ void add_evenly_spread(Total& total, const Row& row) {
   total.largest_deviation = std::max(total.largest_deviation, deviation);
 }
 
-void add(Foretold& sum, const Row& row, const Fate& fate) {
+void add(Foretold& sum, const Row& row, const ThinWallFate& fate) {
   const std::optional<double>& chance = row.theory.*fate.chance;
   if (!chance) return;
   sum.shots += row.tally.shots;
@@ -606,7 +606,7 @@ bool is_fired_evenly(const Cell& cell, const ThinWallMethod& method) {
   return cell.wall == Wall::infinite && method.scalar == "double";
 }
 
-std::vector<CellCount> counts_of(const std::vector<ThinWallRow>& rows, const Fate& fate) {
+std::vector<CellCount> counts_of(const std::vector<ThinWallRow>& rows, const ThinWallFate& fate) {
   std::vector<CellCount> counts;
   for (const Row& row : rows) {
     const std::optional<double>& chance = row.theory.*fate.chance;

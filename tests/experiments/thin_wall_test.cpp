@@ -199,7 +199,7 @@ TEST(ThinWall, agrees_with_theory_and_nothing_passes_what_is_exact) {
 }
 
 /// Does the self-test of end_of_step, over many shots at infinite walls, pass with another chord in its theory?
-bool passes(const Fate& fate, double (*chord)(const Cell&), double factor = 1) {
+bool passes(const ThinWallFate& fate, double (*chord)(const Cell&), double factor = 1) {
   static const ShotPlan plan = plan_of(
       "speed = [3, 10, 40]\nstep = [0.01, 0.05]\nradius = [0, 0.02]\nthickness = [0.01]\nangle_deg = [0, 60]\n"
       "wall = ['infinite']\nshots = 10000\nresponse = 'bounce'\nmethod = ['end_of_step']");
