@@ -285,8 +285,10 @@ TEST(ThinWallBounce, agrees_with_theory_and_changes_no_other_count) {
   EXPECT_EQ(bounced.figures.front().name, "bounce");
   for (const char* name : {"self_test", "stratified", "lateness", "methods"})
     EXPECT_EQ(table_of(still, name).rows, table_of(bounced, name).rows) << name;
-  for (const char* method : {"end_of_step", "centre_ray", "closed_form"})
-    EXPECT_EQ(tunneled(table_of(still, "cells"), method), tunneled(table_of(bounced, "cells"), method));
+  const Table &before = table_of(still, "cells"), &after = table_of(bounced, "cells");
+  ASSERT_EQ(before.rows.size(), after.rows.size());
+  for (std::size_t row = 0; row < before.rows.size(); ++row)
+    EXPECT_EQ(value_of(before, row, "tunneled"), value_of(after, row, "tunneled")) << row;
   EXPECT_EQ(still.tables.size() + 2, bounced.tables.size());
 }
 
