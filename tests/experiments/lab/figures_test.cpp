@@ -223,6 +223,7 @@ TEST(Xml, names_the_line_and_what_is_wrong) {
       {"<a>b & c</a>", "not well-formed"},
       {"<a>&nbsp;</a>", "undefined entity"},
       {"<!DOCTYPE a SYSTEM 'there.dtd'><a>&nbsp;</a>", "undefined entity"},
+      {"<!DOCTYPE a SYSTEM 'there.dtd'><a b='&nbsp;'/>", "undefined entity"},
       {"<a>&#x;</a>", "not well-formed"},
       {"<a>&#x1F;</a>", "reference to invalid character number"},
       {"<a>&lt</a>", "not well-formed"},
