@@ -6,7 +6,6 @@
 /// lengths are given as they came, before any difference of theirs was rounded; on each axis two conditions are linear in the time.
 /// Source: the slabs are Ericson, Real-Time Collision Detection, 2005, section 5.3.3; the doubt is derived here.
 
-#include <array>
 #include <limits>
 #include <optional>
 

@@ -375,8 +375,8 @@ std::string summary_of(const Results& results, const Table& dropped) {
                         last_of_each(results.long_rows)),
                   {"policy", "step", "bounces", "mean", "random_mean", "sigma", "random_sigma"}) +
          "\n" + terminal(dropped) + crowd_lines(results) +
-         fmt::format("\nSelf-test: energies {}, crowds {}.\n", all_passed(results.tests) ? "passed" : "FAILED",
-                     results.scenarios_pass() ? "passed" : "FAILED");
+         fmt::format("\nSelf-test: energies {}, crowds {}.\n", verdict_text(all_passed(results.tests)),
+                     verdict_text(results.scenarios_pass()));
 }
 
 Outcome outcome_of(const Results& results, double long_step) {
@@ -392,7 +392,7 @@ Outcome outcome_of(const Results& results, double long_step) {
   const Table dropped = dropped_table(results.dropped);
   std::string verdicts;
   for (const BounceTest& test : results.tests)
-    verdicts += fmt::format("{}: {}.\n\n", test.policy.name, test.passed() ? "passed" : "FAILED");
+    verdicts += fmt::format("{}: {}.\n\n", test.policy.name, verdict_text(test.passed()));
   return {.answer = answer_of(results),
           .summary = summary_of(results, dropped),
           .tables = {means, scenarios_table(results.scenarios), runs, dropped, test_table(results.tests),

@@ -386,8 +386,8 @@ Outcome outcome_of(const std::vector<Row>& rows) {
       .answer = answer_of(rows, totals),
       .summary = terminal(meeting, {"rule", "touching", "missed", "missed_share", "missed_theory", "lateness_max"}) +
                  "\n" + terminal(rules) +
-                 fmt::format("\nSelf-test: counts {}, times {}.\n", all_passed(counts) ? "passed" : "FAILED",
-                             times_pass ? "passed" : "FAILED"),
+                 fmt::format("\nSelf-test: counts {}, times {}.\n", verdict_text(all_passed(counts)),
+                             verdict_text(times_pass)),
       .tables = {meeting, rules, counts_test_table(counts), timing_test_table(times), all, rule_timings_table(totals)},
       .figures = figures_of(rows),
       .sections = {{"Self-test", self_test_text(counts)}},

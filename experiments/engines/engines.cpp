@@ -379,7 +379,7 @@ std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vect
   text += terminal(
       turned, {"engine", "mode", "wall_size", "path", "lateness", "latest", "energy", "least_energy", "most_energy"});
   text += "\n" + stages_summary(stages);
-  text += fmt::format("\nSelf-test of ours: {}.\n", all_passed(tests_of(rows, stages)) ? "passed" : "FAILED");
+  text += fmt::format("\nSelf-test of ours: {}.\n", verdict_text(all_passed(tests_of(rows, stages))));
   for (const std::string& missing : missing_engines(plan)) text += missing + ".\n";
   return text;
 }

@@ -7,6 +7,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -271,7 +272,7 @@ std::string summary_of(const std::vector<PlanRace>& races, const std::vector<Gat
 Outcome outcome_of(const std::vector<PlanRace>& races, const std::vector<GateRow>& shots) {
   const bool right = std::ranges::all_of(races, is_right) && gate_is_right(shots);
   return {.answer = answer_of(races),
-          .summary = summary_of(races, shots) + fmt::format("\nSelf-test {}.\n", right ? "passed" : "FAILED"),
+          .summary = summary_of(races, shots) + fmt::format("\nSelf-test {}.\n", verdict_text(right)),
           .tables = {savings_table(races), ways_table(races), gate_table(shots), gate_timings_table(shots)},
           .figures = {savings_figure(races), gate_figure(shots)},
           .sections = {{"Self-test", self_test_words(races, shots)}},

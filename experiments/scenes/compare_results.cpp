@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -125,7 +126,7 @@ Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const 
     held &= c.repeated_alike;
     if (looks_at_all_motion(c.contender.policy, comparison.scene.options.gate)) held &= c.trial.tunneled == 0;
   }
-  out.summary += fmt::format("\nSelf-test: {}.\n", held && exact.tunneled == 0 ? "passed" : "FAILED");
+  out.summary += fmt::format("\nSelf-test: {}.\n", verdict_text(held && exact.tunneled == 0));
   out.tables = {compare_table(contests), compare_timings_table(comparison, contests)};
   out.figures = {compare_figure(comparison, contests), error_against_time_figure(comparison, contests)};
   out.self_test_passed = held && exact.tunneled == 0;

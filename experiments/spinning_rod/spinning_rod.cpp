@@ -381,8 +381,8 @@ Outcome outcome_of(const std::vector<FlightRow>& flights, const std::vector<Pass
     out.tables.insert(out.tables.begin() + 1, spins_table(spins));
     out.summary += "\nlinear_sweep at the wall:\n" + terminal(out.tables[1]);
   }
-  out.summary += fmt::format("\nSelf-test: counts {}, claims {}.\n", all_passed(tests) ? "passed" : "FAILED",
-                             claims_hold ? "passed" : "FAILED");
+  out.summary +=
+      fmt::format("\nSelf-test: counts {}, claims {}.\n", verdict_text(all_passed(tests)), verdict_text(claims_hold));
   out.figures = flight_figures(flights, methods);
   out.figures.push_back(pass_figure(passes, methods));
   out.sections = {{"Self-test", self_test_text(tests)}};

@@ -472,8 +472,8 @@ std::string stiff_summary(const StiffResults& results, const std::vector<StiffCl
     if (!claim.passed())
       text += wrapped(fmt::format("FAILED: {}: wrong in {} of {}.", claim.text, claim.wrong, claim.judged));
   }
-  return text + fmt::format("Self-test: {}, {} claims on {} cells.\n", all_passed(claims) ? "passed" : "FAILED",
-                            claims.size(), grouped_text(judged));
+  return text + fmt::format("Self-test: {}, {} claims on {} cells.\n", verdict_text(all_passed(claims)), claims.size(),
+                            grouped_text(judged));
 }
 
 std::vector<Section> stiff_sections(const StiffResults& results, const std::vector<StiffClaim>& claims) {

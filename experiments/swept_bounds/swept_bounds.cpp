@@ -287,7 +287,7 @@ Outcome outcome_of(const std::vector<Row>& rows, const std::vector<SweepCost>& c
         terminal(timings_table(only(costs, [&](const SweepCost& c) { return c.sweep.speed == view.speed; })),
                  {"shape", "speed", "bound", "false_hits", "build_ns", "test_ns", "false_ns", "wasted_ns", "pair_ns"});
   }
-  outcome.summary += fmt::format("\nSelf-test: {}.\n", all_passed(tests) ? "passed" : "FAILED");
+  outcome.summary += fmt::format("\nSelf-test: {}.\n", verdict_text(all_passed(tests)));
   return outcome;
 }
 
