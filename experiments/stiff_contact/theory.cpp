@@ -106,16 +106,15 @@ const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow&
 
 std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
-  using Row = ContactRow;
   const StiffPlan& plan = results.plan;
   const auto decided = only(map_of(plan, results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
   const auto undamped =
-      only(results.bounces, [&](const Row& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
+      only(results.bounces, [&](const ContactRow& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
   const auto undamped_by = [&](Scheme scheme) {
-    return only(undamped, [scheme](const Row& r) { return r.contact.scheme == scheme; });
+    return only(undamped, [scheme](const ContactRow& r) { return r.contact.scheme == scheme; });
   };
-  const auto discrete = [](const Row& r) { return r.contact.detection == Detection::discrete; };
-  const auto slack = [&](const Row& r) { return slack_of(plan, r.contact); };
+  const auto discrete = [](const ContactRow& r) { return r.contact.detection == Detection::discrete; };
+  const auto slack = [&](const ContactRow& r) { return slack_of(plan, r.contact); };
   return {
       claim("the limit lies in the measured bracket", results.limits, holds_theory),
       claim("the bracket is at most 0.1 % wide", results.limits,
@@ -126,36 +125,37 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
             }),
       claim("semi-implicit, undamped: the speed ratio keeps its bounds",
             only(undamped_by(Scheme::semi_implicit),
-                 [](const Row& r) { return bounce_bounds(r.contact.step).has_value(); }),
-            [&](const Row& r) {
+                 [](const ContactRow& r) { return bounce_bounds(r.contact.step).has_value(); }),
+            [&](const ContactRow& r) {
               const Interval range = *bounce_bounds(r.contact.step);
               return r.tally.slowest >= range.lower - slack(r) && r.tally.fastest <= range.upper + slack(r);
             }),
       claim("explicit, undamped: never slower after than before", undamped_by(Scheme::explicit_euler),
-            [&](const Row& r) { return r.tally.slowest >= 1 - slack(r); }),
+            [&](const ContactRow& r) { return r.tally.slowest >= 1 - slack(r); }),
       claim("implicit, undamped: never faster after than before", undamped_by(Scheme::implicit_euler),
-            [&](const Row& r) { return r.tally.fastest <= 1 + slack(r); }),
+            [&](const ContactRow& r) { return r.tally.fastest <= 1 + slack(r); }),
       // A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
       claim("explicit and semi-implicit, undamped: splitting the step changes no bounce",
-            only(undamped, [&](const Row& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
-            [&](const Row& r) {
+            only(undamped,
+                 [&](const ContactRow& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
+            [&](const ContactRow& r) {
               const Row& split = twin_of(results.bounces, r);
               const double most = slack(r) * std::max(1.0, r.tally.fastest);
               return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
                      std::abs(r.tally.fastest - split.tally.fastest) <= most;
             }),
       claim("discrete: as many escape as are first seen past the middle, or more", only(results.bounces, discrete),
-            [&](const Row& r) {
+            [&](const ContactRow& r) {
               const double late = static_cast<double>(r.tally.bounces()) * late_share(plan, r.contact);
               return static_cast<double>(r.tally.escaped) >= std::floor(late) - 1;
             }),
       claim("implicit, split, stiff enough for continuous time: none escapes",
             only(results.bounces,
-                 [&](const Row& r) {
+                 [&](const ContactRow& r) {
                    const double depth = plan.approach.speed / frequency(spring_of(plan.approach, r.contact));
                    return r.contact.scheme == Scheme::implicit_euler && !discrete(r) && depth < reach(plan.approach);
                  }),
-            [](const Row& r) { return r.tally.escaped == 0; })};
+            [](const ContactRow& r) { return r.tally.escaped == 0; })};
 }
 
 }  // namespace thinwall
