@@ -121,7 +121,7 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   int axis = 0;
   S t = enter.maxCoeff(&axis);
   if (!(t >= S(0) && t <= std::min(ray.max_t, leave.minCoeff()))) return std::nullopt;
-  if (is_last_in_doubt(enter, leave, axis)) {
+  if (is_last_in_doubt(enter, leave, axis, t)) {
     const Vec3<S> none = Vec3<S>::Zero();
     if (const auto exact = exact_box_entry<S>({ray.origin, box.center}, {v, none}, {h, none})) {
       exact->normal.cwiseAbs().maxCoeff(&axis);

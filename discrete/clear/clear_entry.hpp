@@ -164,15 +164,20 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
   const Lanes X = slabs.P - all(slabs.first) * slabs.W;
   const Lanes noise = turned ? clear_noise(p, h) : slabs.extent * all(0x1p-48);
-  const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & (h < abs(X)));
+  const LanesMask off = h < abs(X);
+  const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & off), misses = bits(slabs.last < slabs.first);
   const LanesMask is_round = max(noise * all(0x1p20), all(1 / packed::most_length)) <= all(R);
   bool clear = both(both(all_of(slabs.in_range & is_round), any_of(slabs.outside)), all_of(slabs.in_order()));
   if (turned) {
     const ClearOrder order(slabs.low - all(R), slabs.high + all(R), slabs.W, noise, ClearEntry::never);
     clear = both(both(clear, any_of(all(R) + noise + noise < abs(p) - h)), order.meets || order.misses);
   }
-  ClearEntry entry{both(clear, (axes | bits(slabs.last < slabs.first)) != 0), slabs.time, clear_face_normal(axes, v)};
-  if ((axes & (axes - 1)) == 0) return entry;  // beside a face, or a miss
+  ClearEntry entry{both(clear, (axes | misses) != 0), slabs.time, clear_face_normal(axes, v)};
+  if ((axes & (axes - 1)) == 0) {  // beside a face, whose time tells so, or a miss
+    const LanesMask sure = noise * all(0x1p24) <= select(off, slabs.low - all(R), h - abs(X));
+    entry.clear = both(entry.clear, (misses | static_cast<unsigned>(all_of(sure))) != 0);
+    return entry;
+  }
   const Lanes enter = slabs.low / slabs.W, leave = min(slabs.high / slabs.W, all(ClearEntry::never));
   const PairMask fine = largest_of(noise) * both(0x1p32) < R;
   Pair now = slabs.first;

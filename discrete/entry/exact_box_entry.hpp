@@ -13,12 +13,12 @@
 
 namespace thinwall {
 
-/// Whether the axis entered last may be another one whose time is known twice as well: the farther end of an axis's interval is what
-/// roundings take a part of, over its speed. An axis without motion has infinite ends, and is not the last.
-template <Scalar S> bool is_last_in_doubt(const Vec3<S>& enter, const Vec3<S>& leave, int last) {
+/// Whether the axis entered last, at `time`, may be another one whose time is known twice as well: the farther end of an axis's interval is
+/// what roundings take a part of, over its speed. An axis without motion has infinite ends, and is not the last.
+template <Scalar S> bool is_last_in_doubt(const Vec3<S>& enter, const Vec3<S>& leave, int last, const S& time) {
   const Vec3<S> noise = 16 * std::numeric_limits<S>::epsilon() * enter.cwiseAbs().cwiseMax(leave.cwiseAbs());
   for (int i = 0; i < 3; ++i) {
-    if (2 * noise[i] < noise[last] && enter[i] >= enter[last] - 2 * noise[last]) return true;
+    if (2 * noise[i] < noise[last] && enter[i] >= time - 2 * noise[last]) return true;
   }
   return false;
 }

@@ -85,13 +85,15 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   CorePart<S> part = closest(p + v * now);
   answer.inside = not_before == S(0) && (part.contains_point() || within(part.gap, R));
   if (answer.inside) return answer;
+  const S sizes = largest(p, S(R + size)), noise = gap_noise(sizes);
+  const S speed = largest(v), speed_noise = gap_noise(speed);
+  // What closes this slowly comes beside its neighbor before its time is known.
   const auto hit = [&](const S& time, const Vec3<S>& normal) {
     answer.time = time;
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
+    answer.graze = largest(answer.normal.dot(v)) < constant_power_of_two<S, -16>() * speed;
     return answer;
   };
-  const S sizes = largest(p, S(R + size)), noise = gap_noise(sizes);
-  const S speed = largest(v), speed_noise = gap_noise(speed);
   const auto miss = [&](const CorePart<S>& nearest) {
     answer.graze = nearest.distance() - R <= near_miss(sizes);
     return answer;

@@ -157,7 +157,7 @@ Entry<S> rounded_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S&
   }
   if (!on_face) return walk_around_box(slabs, p, v, R);
   entry.time = slabs.entry_time(slabs.axis, p, v, R);
-  entry.graze = entry.graze || (R == S(0) && is_last_in_doubt(slabs.enter, slabs.leave, slabs.axis));
+  entry.graze = entry.graze || is_last_in_doubt(slabs.enter, slabs.leave, slabs.axis, slabs.first);
   slabs.meet(entry, slabs.axis);
   entry.normal = axis_vector<S>(slabs.axis, v[slabs.axis] > S(0));
   return entry;

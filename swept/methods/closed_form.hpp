@@ -17,13 +17,15 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Mov
   return toi_of(a, b, gap, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
 }
 
-/// When B, a sphere or an upright box of half extents `half_b`, comes within R of an upright box. Where R is 0 and plain times cannot tell by
-/// which face, that is told without rounding.
+/// When B, a sphere or an upright box of half extents `half_b`, comes within R of an upright box. By which face, where plain times cannot
+/// tell, is found without rounding where R is 0, and else left to the wider scalar.
 template <class B, Scalar T>
 Entry<T> upright_box_entry(const Moving<Aabb<T>>& a, const Moving<B>& b, const Vec3<T>& half_b, const T& R) {
-  const Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
-                                              a.shape.half_extents + half_b, R);
-  if (R > T(0) || !entry.graze || !is_finite(entry.time)) return entry;
+  Entry<T> entry = rounded_box_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
+                                        a.shape.half_extents + half_b, R);
+  if (R > T(0) || !entry.graze) return entry;
+  entry.graze = false;
+  if (!is_finite(entry.time)) return entry;
   return exact_box_entry<T>({b.shape.center, a.shape.center}, {b.displacement, a.displacement},
                             {a.shape.half_extents, half_b})
       .value_or(entry);
@@ -33,21 +35,21 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Entry<T> entry = upright_box_entry<Sphere<T>, T>(box, sphere, Vec3<T>::Zero(), sphere.shape.radius + gap);
-  return toi_of(box, sphere, gap, entry,
-                [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_of_walk(method, box, sphere, entry,
+                     [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
   const Entry<T> entry = upright_box_entry<Aabb<T>, T>(a, b, b.shape.half_extents, T(method.min_separation));
-  return toi_of(a, b, T(method.min_separation), entry,
-                [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
-                  const Vec3<T> middle_a = a.shape.center + a.displacement * time,
-                                middle_b = b.shape.center + b.displacement * time;
-                  return ((middle_a - a.shape.half_extents).cwiseMax(middle_b - b.shape.half_extents) +
-                          (middle_a + a.shape.half_extents).cwiseMin(middle_b + b.shape.half_extents)) /
-                         T(2);
-                });
+  return toi_of_walk(method, a, b, entry,
+                     [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
+                       const Vec3<T> middle_a = a.shape.center + a.displacement * time,
+                                     middle_b = b.shape.center + b.displacement * time;
+                       return ((middle_a - a.shape.half_extents).cwiseMax(middle_b - b.shape.half_extents) +
+                               (middle_a + a.shape.half_extents).cwiseMin(middle_b + b.shape.half_extents)) /
+                              T(2);
+                     });
 }
 
 template <Scalar S, Scalar T>
