@@ -171,16 +171,13 @@ Table timing_test_table(const std::vector<TimingTest>& tests) {
 
 /// The same for a measurement and for theory.
 struct Quantity {
-  std::function<double(const Row&)> measured;
-  std::function<Interval(const Row&)> bars;
+  std::function<std::optional<Measured>(const Row&)> measured;
   std::function<double(const Crossing&)> theory;
 };
 
 std::vector<double> sorted_values(const std::vector<Row>& rows, double Crossing::*factor) {
-  std::vector<double> values;
-  for (const Row& row : rows) values.push_back(row.cell.*factor);
+  auto values = distinct(rows, [factor](const Row& row) { return row.cell.*factor; });
   std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
@@ -194,12 +191,10 @@ Series theory_curves(const std::vector<Row>& rows, const Quantity& quantity) {
     double angle = ratio == 1 ? end_step : 0;
     while (angle <= 180) {
       c.angle_deg = ratio == 0 ? 0 : angle;
-      series.x.push_back(angle);
-      series.y.push_back(quantity.theory(c));
+      series.add(angle, quantity.theory(c));
       angle += angle < 10 || angle >= 170 ? end_step : curve_step;
     }
-    series.x.push_back(180);
-    series.y.push_back(nan);
+    series.end_line();
   }
   return series;
 }
@@ -212,10 +207,8 @@ Panel panel(const std::vector<Row>& rows, std::string y_label, const Quantity& q
                                               return r.cell.ratio == 0 ? "slower ball at rest"
                                                                        : fmt::format("speed ratio {}", r.cell.ratio);
                                             }),
-                                       ValueColumn{"y", "", "", quantity.measured, "lower", "upper"},
-                                       value("lower", "", "", [&](const Row& r) { return quantity.bars(r).lower; }),
-                                       value("upper", "", "", [&](const Row& r) { return quantity.bars(r).upper; }));
-  Panel panel = plot(table("drawn", "", columns, rows))
+                                       measured("y", "", "", quantity.measured));
+  Panel panel = plot(columns, rows)
                     .x("angle", Axis::linear, "angle between the motions [deg], 180 is head-on")
                     .y("y", Axis::linear, std::move(y_label))
                     .by("ratio");
@@ -244,10 +237,8 @@ std::vector<Panel> by_speed(const std::vector<Row>& rows, const std::string& y_l
 }
 
 Figure missed_figure(const std::vector<Row>& rows) {
-  const Quantity missed = {
-      [](const Row& r) { return r.tally.touching > 0 ? share_of(r.tally.missed, r.tally.touching) : nan; },
-      [](const Row& r) { return wilson(r.tally.missed, std::max<std::int64_t>(1, r.tally.touching)); },
-      [](const Crossing& c) { return 1 - confirmed_theory(c).share / touch_theory(c); }};
+  const Quantity missed = {[](const Row& r) { return measured_share(r.tally.missed, r.tally.touching); },
+                           [](const Crossing& c) { return 1 - confirmed_theory(c).share / touch_theory(c); }};
   return {.name = "missed",
           .title = "What the tutorial's rule for two bodies misses",
           .caption =
@@ -257,11 +248,10 @@ Figure missed_figure(const std::vector<Row>& rows) {
 }
 
 Figure lateness_figure(const std::vector<Row>& rows) {
-  const auto share = [](const Row& r) { return r.tally.lateness.mean().value_or(nan) / longest_contact(r.cell); };
-  const auto bars = [share](const Row& r) {
-    const double sigma = r.theory.confirmed.lateness_sigma / longest_contact(r.cell);
-    const double half = 1.96 * sigma / std::sqrt(static_cast<double>(r.tally.lateness.count));
-    return Interval{share(r) - half, share(r) + half};
+  const auto share = [](const Row& r) -> std::optional<Measured> {
+    const RealSum& late = r.tally.lateness;
+    if (!late.mean()) return std::nullopt;
+    return normal_mean(*late.mean(), r.theory.confirmed.lateness_sigma, late.count).times(1 / longest_contact(r.cell));
   };
   const auto theory = [](const Crossing& c) {
     const ConfirmedTheory t = confirmed_theory(c);
@@ -272,17 +262,15 @@ Figure lateness_figure(const std::vector<Row>& rows) {
           .caption =
               "Mean time from first contact to the answer of sweep_then_confirm, of the true hits it sees, over the "
               "longest time in contact, with 95 % intervals, and the theory. R is the contact distance.",
-          .panels = by_speed(rows, "mean lateness / longest contact [1]", {share, bars, theory})};
+          .panels = by_speed(rows, "mean lateness / longest contact [1]", {share, theory})};
 }
 
 /// A panel for the narrowest and the widest disc that leaves room to pass, at the fastest speed.
 Figure false_hits_figure(const std::vector<Row>& rows) {
   const double fastest = sorted_values(rows, &Crossing::speed).back();
   const auto drawn = only(rows, [&](const Row& r) { return r.cell.speed == fastest && r.cell.offset > 1; });
-  const Quantity quantity = {
-      [](const Row& r) { return r.tally.apart() > 0 ? share_of(r.tally.false_hits, r.tally.apart()) : nan; },
-      [](const Row& r) { return wilson(r.tally.false_hits, std::max<std::int64_t>(1, r.tally.apart())); },
-      [](const Crossing& c) { return false_overlap_theory(c) / (1 - touch_theory(c)); }};
+  const Quantity quantity = {[](const Row& r) { return measured_share(r.tally.false_hits, r.tally.apart()); },
+                             [](const Crossing& c) { return false_overlap_theory(c) / (1 - touch_theory(c)); }};
   Figure figure = {.name = "false_hits",
                    .title = "False hits of sweeping both balls and testing what they sweep",
                    .caption = fmt::format(

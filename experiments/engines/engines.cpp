@@ -1,7 +1,6 @@
 /// How often do the same fast balls pass a thin wall in whole physics engines, and does theory agree? See docs/engines.md.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <set>
 #include <utility>

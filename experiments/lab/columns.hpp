@@ -174,10 +174,8 @@ MeasuredColumns<Get> measured(std::string name, std::string unit, std::string de
 /// The share of a count in another with its 95 % Wilson interval; empty where the other is 0.
 template <class Get, class Whole>
 auto share(std::string name, std::string description, Get count, Whole whole, std::string prefix = "") {
-  const auto get = [count, whole](const auto& row) -> std::optional<Measured> {
-    const std::int64_t some = std::invoke(count, row), all = std::invoke(whole, row);
-    if (all <= 0) return std::nullopt;
-    return Measured{static_cast<double>(some) / static_cast<double>(all), wilson(some, all)};
+  const auto get = [count, whole](const auto& row) {
+    return measured_share(std::invoke(count, row), std::invoke(whole, row));
   };
   return measured(std::move(name), "1", std::move(description), get, std::move(prefix), "the 95 % Wilson interval");
 }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include <thinwall/experiments/lab/random.hpp>
@@ -33,6 +34,12 @@ inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
 /// Covers the true probability `confidence` of the time on average; at the ends it is exactly 0 and exactly 1.
 /// Source: derived in docs/tunneling_theory.md.
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
+
+/// A share of counts with that interval; nothing where there is no trial.
+inline std::optional<Measured> measured_share(std::int64_t successes, std::int64_t trials) {
+  if (trials <= 0) return std::nullopt;
+  return Measured{static_cast<double>(successes) / static_cast<double>(trials), wilson(successes, trials)};
+}
 
 /// For a claim, such as "none seen": the Clopper-Pearson interval, which covers the true probability at least
 /// `confidence` of the time, whatever it is. Source: the beta quantiles of Boost.Math, (1 - confidence) / 2 a side.

@@ -1,7 +1,6 @@
 #include <thinwall/experiments/lab/terminal.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include <thinwall/experiments/lab/escape.hpp>

@@ -1,6 +1,5 @@
 /// What does an answer cost on this machine, and how wrong is it: ours, the plain form, other libraries? See docs/speed.md.
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
