@@ -285,8 +285,7 @@ Panel heat_panel(const std::string& title, const std::vector<Row>& rows, const s
     for (std::size_t j = 0; j < places.size(); ++j) {
       const std::optional<std::size_t> bin = look.bin_of(sums[j]);
       if (!bin) continue;
-      panel.series[*bin].x.push_back(panel.x_tics[j].at);
-      panel.series[*bin].y.push_back(y);
+      panel.series[*bin].add(panel.x_tics[j].at, y);
     }
   }
   return panel;
@@ -353,13 +352,8 @@ Figure loss_figure(const std::vector<Row>& rows) {
       for (const Row* row : two_balls(rows, method, p)) {
         const double d = row->place.value, unit = all_precisions()[p].unit * d * d / 2;
         if (d < 10 || row->tally.timed == 0) continue;
-        if (method == "textbook") {
-          line.x.push_back(d);
-          line.y.push_back(unit);
-        }
-        if (row->tally.loss_rms == 0) continue;
-        points.x.push_back(d);
-        points.y.push_back(row->tally.loss_rms * unit);
+        if (method == "textbook") line.add(d, unit);
+        if (row->tally.loss_rms != 0) points.add(d, row->tally.loss_rms * unit);
       }
       if (!points.x.empty()) panel.series.push_back(points);
     }

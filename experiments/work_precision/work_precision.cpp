@@ -144,10 +144,9 @@ Series points_of(const Heat& heat, std::string_view method, bool by_time) {
   for (const Racer& r : heat.racers) {
     if (r.method != method || !std::isfinite(r.time.median)) continue;
     const Measured cost = by_time ? nanoseconds(r) : Measured{r.evaluations, {r.evaluations, r.evaluations}};
-    points.x.push_back(shown(r.time.median));
+    points.add(shown(r.time.median), cost.value);
     points.x_lower.push_back(shown(r.time.median));
     points.x_upper.push_back(shown(std::isfinite(r.time.p99) ? r.time.p99 : 1));
-    points.y.push_back(cost.value);
     points.lower.push_back(cost.interval.lower);
     points.upper.push_back(cost.interval.upper);
   }
@@ -157,16 +156,12 @@ Series points_of(const Heat& heat, std::string_view method, bool by_time) {
 /// Corners at the 99th percentile errors of those nobody beats: below and left of it there is nobody.
 Series front_line(const Heat& heat) {
   Series line = {.label = "Pareto front", .mark = Mark::dashes};
-  const auto draw_to = [&](double x, double y) {
-    line.x.push_back(x);
-    line.y.push_back(y);
-  };
   for (const Racer* r : pareto_front(heat)) {
     const double x = shown(r->time.p99);
-    if (!line.x.empty()) draw_to(x, line.y.back());
-    draw_to(x, median(r->nanoseconds));
+    if (!line.x.empty()) line.add(x, line.y.back());
+    line.add(x, median(r->nanoseconds));
   }
-  if (!line.x.empty()) draw_to(1, line.y.back());
+  if (!line.x.empty()) line.add(1, line.y.back());
   return line;
 }
 
