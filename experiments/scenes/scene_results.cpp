@@ -52,9 +52,9 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
   const StepRow sums = playback.sums();
   const auto omitted =
       std::count_if(plan.lines.begin(), plan.lines.end(), [](const PlanLine& line) { return line.omitted; });
-  std::string text = fmt::format("{}: {} bodies, {} steps of {} ms, {}\n\n", scene.name,
-                                 grouped_text(static_cast<std::int64_t>(scene.bodies.size())),
-                                 grouped_text(scene.steps), rounded_text(1e3 * scene.dt, 4), policy_text(scene));
+  std::string text = fmt::format("{}: {} {}, {} of {} ms, {}\n\n", scene.name, grouped_text(std::ssize(scene.bodies)),
+                                 scene.bodies.size() == 1 ? "body" : "bodies", plural_text(scene.steps, "step"),
+                                 rounded_text(1e3 * scene.dt, 4), policy_text(scene));
   text += log_text(scene, playback);
   text += fmt::format("\ncontacts begun {:>12}   ended {:>12}   not ended {:>12}\n", grouped_text(sums.begins),
                       grouped_text(sums.ends), grouped_text(playback.live));
