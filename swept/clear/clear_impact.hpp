@@ -82,9 +82,10 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   return {both(both(clear, all_of(slabs.in_order())), gap == 0), slabs.time, clear_face_normal(last.axes, v), point};
 }
 
-/// As against an aligned box, in the box's own axes; and the time once more by the plane of contact, whose normal n is the world's, and g in
-/// the box's: turned coordinates have three roundings each, and those that do not count along the normal go. Not clear where the plane
-/// moves it by more than these roundings, as that of a long face does whose normal is off, or so far along that the ball curves.
+/// As against an aligned box, in the box's own axes. A face is met as exactly as they are: what turning rounds of a place counts along one.
+/// Beside an edge or a corner the time is told once more, by the plane of contact, whose normal n is the world's, and g in the box's: what
+/// does not count along it goes. Not clear where the plane moves it by more than turning rounds, as that of a long face does whose normal is
+/// off, or so far along that the ball curves.
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
@@ -92,18 +93,22 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), h = lanes(box.shape.half_extents);
   const Lanes p = center - lanes(box.shape.center), v = path - lanes(box.displacement);
   const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), h, both(r + gap));
-  const Lanes n = frame.out_of(entry.normal), g = frame.into(n);
-  const Pair toward = two_sums(n * p, n * v), sums = two_sums(n * n, abs(g) * h), length = root(firsts(sums));
-  const Pair closing = both(0) - seconds(toward);
-  const Pair plane = (firsts(toward) - (both(r + gap) * length + seconds(sums))) / closing;
-  const PairMask misses = both(ClearEntry::never) <= entry.time;
-  const Pair time = select(misses, both(ClearEntry::never), max(plane, both(0)));
-  const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - entry.time);
-  const PairMask settled =
-      misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= both((r + gap) * 0x1p-26)));
-  const PairMask in_time = clear_of_end(time, closing, size * both(0x1p-44));
-  const Lanes normal = n / all(length);
-  return {both(both(entry.clear, frame.clear()), all_of(clear_sizes(r, r, gap) & settled & in_time)), time, normal,
+  const Lanes n = frame.out_of(entry.normal);
+  const Pair half_square = two_sums(n * n, n * n) * both(0.5);  // n is as long as its axes: 1 to rounding
+  Pair time = entry.time;
+  PairMask sure = clear_of_end(time);
+  if (entry.rounds > 1) {
+    const Lanes g = abs(frame.into(n)) * h;
+    const Pair toward = two_sums(n * p, n * v), closing = both(0) - seconds(toward);
+    const Pair plane = (firsts(toward) - (both(r + gap) * (both(0.5) + half_square) + two_sums(g, g))) / closing;
+    const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - time);
+    const PairMask misses = both(ClearEntry::never) <= time;
+    sure = misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= both((r + gap) * 0x1p-26)));
+    time = select(misses, time, max(plane, both(0)));
+    sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
+  }
+  const Lanes normal = n * all(both(1.5) - half_square);
+  return {both(both(entry.clear, frame.clear()), all_of(clear_sizes(r, r, gap) & sure)), time, normal,
           (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 
