@@ -111,12 +111,15 @@ template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) { ret
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Obb<S>& box) {
   const NearPath<S> path(ray.origin - box.center, ray.direction, box.half_extents.sum(), S(64));
   const S max_t = path.base_time > S(0) ? std::numeric_limits<S>::infinity() : ray.max_t;
+  const Vec3<S> squares =
+      box.axes.colwise().squaredNorm();  // what is h along an axis of length a is h a^2 in these axes
   auto hit = ray_entry(Ray<S>{into(box, path.start), into(box, ray.direction), max_t},
-                       Aabb<S>{Vec3<S>::Zero(), box.half_extents});
+                       Aabb<S>{Vec3<S>::Zero(), box.half_extents.cwiseProduct(squares)});
   if (!hit || !(hit->t + path.base_time <= ray.max_t)) return std::nullopt;
   hit->t += path.base_time;
-  hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin : Vec3<S>(box.center + out_of(box, hit->point));
-  hit->normal = out_of(box, hit->normal);
+  hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin
+                                              : Vec3<S>(box.center + out_of<S>(box, hit->point.cwiseQuotient(squares)));
+  hit->normal = safe_unit(out_of(box, hit->normal));
   return hit;
 }
 
@@ -128,16 +131,18 @@ struct ClearFrame {
   const double* numbers;
   packed::Lanes x, y, z;
   packed::Vectors<packed::Lanes> rows;  ///< of each of the world's axes, what the box's have along it
+  packed::Lanes squares;                ///< of the axes' lengths
 
   THINWALL_HOT explicit ClearFrame(const Mat3<double>& m)
       : numbers(m.data()),
         x(packed::lanes(numbers)),
         y(packed::lanes(numbers + 3)),
         z(packed::lanes(numbers + 6)),
-        rows(packed::transposed(x, y, z)) {}
+        rows(packed::transposed(x, y, z)),
+        squares(dot(rows, rows)) {}
   THINWALL_HOT bool clear() const {
     const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
-    return all_of(abs(dot(rows, rows) - packed::all(1)) + abs(dot(rows, next)) <= packed::all(0x1p-49));
+    return all_of(abs(squares - packed::all(1)) + abs(dot(rows, next)) <= packed::all(0x1p-49));
   }
   /// Vectors in the box's own axes, and one of these in the world's.
   THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return dot(rows, spread(v)); }
@@ -184,7 +189,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents),
               start = packed::lanes(ray.origin) - center;
   const Lanes p = frame.into(start), v = frame.into(packed::lanes(ray.direction)), noise = clear_noise(start, h);
-  const Lanes P = against(p, v), W = abs(v), near = P - h, far = P + h;
+  const Lanes P = against(p, v), W = abs(v), reach = h * frame.squares, near = P - reach, far = P + reach;
   const ClearOrder order(near, far, W, noise, ray.max_t);
   const bool in_range = all_of((all(1 / packed::most_length) <= noise * all(0x1p48)) & (all(0) <= h) &
                                (abs(p) + W + h <= all(packed::most_length)));
@@ -198,7 +203,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const bool outside = any_of(noise + noise < abs(p) - h);
   const bool one_face = (may_be_last & (may_be_last - 1)) == 0;
   return {both(both(sure, one_face), both(order.meets, outside)), true, first, center + frame.out_of(on_box),
-          frame.out_of(keep(axis, against(all(1), v)))};
+          frame.out_of(keep(axis, against(all(1.5) - frame.squares * all(0.5), v)))};
 }
 
 }  // namespace thinwall

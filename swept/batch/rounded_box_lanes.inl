@@ -212,16 +212,20 @@ struct SeeTurned {
     const Vector p = minus(vector_at(sphere, 0), vector_at(box, 0));
     const Vector v = minus(vector_at(sphere, 4), vector_at(box, 15));
     const Vector ax = vector_at(box, 6), ay = vector_at(box, 9), az = vector_at(box, 12);
-    const auto one = hn::Set(d, hn::TFromD<D>(1));
-    const auto off =
-        hn::Add(sum(Vector{hn::Sub(dot(ax, ax), one), hn::Sub(dot(ay, ay), one), hn::Sub(dot(az, az), one)}),
-                sum(Vector{dot(ax, ay), dot(ay, az), dot(az, ax)}));
+    const auto zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
+    const auto half_radius = hn::Mul(hn::Set(d, hn::TFromD<D>(0.5)), sphere(3));
+    const Vector longer{hn::Sub(dot(ax, ax), one), hn::Sub(dot(ay, ay), one), hn::Sub(dot(az, az), one)};
+    const auto off = hn::Add(sum(longer), sum(Vector{dot(ax, ay), dot(ay, az), dot(az, ax)}));
+    // in axes of length a, R is R a and h is h a^2
+    const Vector h = vector_at(box, 3);
+    const auto seen = [&](hn::Vec<D> half, hn::Vec<D> more)
+                          HWY_ATTR { return hn::Max(hn::MulAdd(hn::Add(half, half_radius), more, half), zero); };
     return {{dot(ax, p), dot(ay, p), dot(az, p)},
             {dot(ax, v), dot(ay, v), dot(az, v)},
-            vector_at(box, 3),
+            {seen(h.x, longer.x), seen(h.y, longer.y), seen(h.z, longer.z)},
             sphere(3),
             hn::Add(no_blur(d), hn::Add(sum(p), sum(v))),
-            hn::Le(off, hn::Set(d, Bounds<hn::TFromD<D>>::upright))};
+            hn::And(ordinary(d, h, sphere(3), sum(h)), hn::Le(off, hn::Set(d, Bounds<hn::TFromD<D>>::upright)))};
   }
 };
 

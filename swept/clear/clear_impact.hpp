@@ -92,7 +92,9 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   const ClearFrame frame(box.shape.axes);
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), h = lanes(box.shape.half_extents);
   const Lanes p = center - lanes(box.shape.center), v = path - lanes(box.displacement);
-  const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), h, both(r + gap));
+  // in axes of length a, R is R a and h is h a^2
+  const Lanes reach = h + (h + all((r + gap) / 2)) * (frame.squares - all(1));
+  const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), max(reach, all(0)), both(r + gap));
   const Lanes n = frame.out_of(entry.normal);
   const Pair half_square = two_sums(n * n, n * n) * both(0.5);  // n is as long as its axes: 1 to rounding
   Pair time = entry.time;
@@ -108,8 +110,9 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
   }
   const Lanes normal = n * all(both(1.5) - half_square);
-  return {both(both(entry.clear, frame.clear()), all_of(clear_sizes(r, r, gap) & sure)), time, normal,
-          (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
+  return {both(both(entry.clear, frame.clear()),
+               both(all_of((all(0) <= h) & (h <= all(packed::most_length))), all_of(clear_sizes(r, r, gap) & sure))),
+          time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Sphere<double>>& sphere,

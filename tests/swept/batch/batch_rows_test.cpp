@@ -260,6 +260,20 @@ TEST_P(BatchRowsOfBoxesAndBalls, that_all_but_touch_a_capsules_end_are_the_scala
                    at_rest(Sphere<double>{center, 0.006277015432715416}));
 }
 
+TEST_P(BatchRowsOfBoxesAndBalls, of_axes_that_are_longer_by_eight_roundings_are_of_longer_boxes) {
+  using V = Vec3<double>;
+  const double longer = 1 + 0x1p-50;
+  for (const double half : {0.0, 1.0}) {
+    RowTable<Moving<Obb<double>>> boxes;
+    RowTable<Moving<Sphere<double>>> balls;
+    boxes.push_back(at_rest(Obb<double>{V::Zero(), {8, 8, half}, Mat3<double>(V(1, 1, longer).asDiagonal())}));
+    balls.push_back({Sphere<double>{{0, 0, half + 1.25}, 1}, {0, 0, -1}});
+    Answers<double> answers(1);
+    EXPECT_EQ(time_of_impact(boxes.rows(), balls.rows(), answers.rows()).asked_again, 0U);
+    EXPECT_NEAR(answers.time[0], 0.25 - half * 0x1p-50, 0x1p-51);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Vectors, BatchRowsOfBoxesAndBalls, ::testing::ValuesIn(vector_targets()),
                          [](const auto& name) { return name.param; });
 
