@@ -142,7 +142,7 @@ struct ClearFrame {
         squares(dot(rows, rows)) {}
   THINWALL_HOT bool clear() const {
     const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
-    return all_of(abs(squares - packed::all(1)) + abs(dot(rows, next)) <= packed::all(0x1p-49));
+    return all_of(abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(0x1p-49));
   }
   /// Vectors in the box's own axes, and one of these in the world's.
   THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return dot(rows, spread(v)); }

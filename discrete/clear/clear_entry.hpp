@@ -173,9 +173,16 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     clear = both(both(clear, any_of(all(R) + noise + noise < abs(p) - h)), order.meets || order.misses);
   }
   ClearEntry entry{both(clear, (axes | misses) != 0), slabs.time, clear_face_normal(axes, v)};
-  if ((axes & (axes - 1)) == 0) {  // beside a face, whose time tells so, or a miss
-    const LanesMask sure = noise * all(0x1p24) <= select(off, slabs.low - all(R), h - abs(X));
-    entry.clear = both(entry.clear, (misses | static_cast<unsigned>(all_of(sure))) != 0);
+  if ((axes & (axes - 1)) == 0) {
+    // A miss; or beside a face whose time is off by 2^-26 of itself at most; or beside it, and on one side of the step's end, while it is off.
+    const LanesMask far = noise * all(0x1p24) <= select(off, slabs.low - all(R), h - abs(X));
+    if ((misses | static_cast<unsigned>(all_of(far))) != 0) [[likely]]
+      return entry;
+    const LanesMask face = packed::lowest(axes);
+    const Pair its = two_sums(keep(face, slabs.W), keep(face, noise));
+    const LanesMask beside = all(seconds(its)) * slabs.W <= all(firsts(its)) * ((h - noise) - abs(X));
+    const PairMask in_time = seconds(its) < firsts(its) * abs(slabs.first - both(1));
+    entry.clear = both(entry.clear, both((bits(beside) | axes) == 7U, all_of(in_time)));
     return entry;
   }
   const Lanes enter = slabs.low / slabs.W, leave = min(slabs.high / slabs.W, all(ClearEntry::never));

@@ -108,7 +108,7 @@ template <Scalar S> struct Entry {
   S not_after = std::numeric_limits<S>::infinity();  ///< [1] and until when
   bool inside = false;                               ///< already so at time 0, touching included
   bool gave_up = false;                              ///< out of rounds; `time` is proven free
-  bool graze = false;  ///< a few roundings of the coordinates may turn a miss into a hit, or back
+  bool graze = false;  ///< a few roundings of the coordinates may turn a miss into a hit, or back, or change the part
   int rounds = 1;      ///< how many closed forms were solved
 
   void come_later(const S& by) {

@@ -89,12 +89,13 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
+  const Pair R = both(r + gap);
   const ClearFrame frame(box.shape.axes);
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), h = lanes(box.shape.half_extents);
   const Lanes p = center - lanes(box.shape.center), v = path - lanes(box.displacement);
   // in axes of length a, R is R a and h is h a^2
-  const Lanes reach = h + (h + all((r + gap) / 2)) * (frame.squares - all(1));
-  const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), max(reach, all(0)), both(r + gap));
+  const Lanes reach = h + (h + all(R * both(0.5))) * (frame.squares - all(1));
+  const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), max(reach, all(0)), R);
   const Lanes n = frame.out_of(entry.normal);
   const Pair half_square = two_sums(n * n, n * n) * both(0.5);  // n is as long as its axes: 1 to rounding
   Pair time = entry.time;
@@ -102,10 +103,10 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   if (entry.rounds > 1) {
     const Lanes g = abs(frame.into(n)) * h;
     const Pair toward = two_sums(n * p, n * v), closing = both(0) - seconds(toward);
-    const Pair plane = (firsts(toward) - (both(r + gap) * (both(0.5) + half_square) + two_sums(g, g))) / closing;
+    const Pair plane = (firsts(toward) - (R * (both(0.5) + half_square) + two_sums(g, g))) / closing;
     const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - time);
     const PairMask misses = both(ClearEntry::never) <= time;
-    sure = misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= both((r + gap) * 0x1p-26)));
+    sure = misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= R * both(0x1p-26)));
     time = select(misses, time, max(plane, both(0)));
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
   }

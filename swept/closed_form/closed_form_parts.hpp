@@ -116,12 +116,14 @@ THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, cons
   return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, wide(a), wide(b)));
 }
 
-/// The same for a walk around a core, which a miss by little leaves in doubt.
+/// The same for what is round and not turned, which a miss by little leaves in doubt, or which of two parts is met slowly; not where that is
+/// long after the step.
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_walk(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                    const Point& point) {
   if constexpr (has_wider<T>) {
-    if (found.graze) return toi_by_wider<Method, A, B, T>(method, a, b);
+    const bool is_late = is_finite(found.time) && found.time > T(2);
+    if (found.graze && !is_late) return toi_by_wider<Method, A, B, T>(method, a, b);
   }
   return toi_of(a, b, T(method.min_separation), found, point);
 }

@@ -87,11 +87,13 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   if (answer.inside) return answer;
   const S sizes = largest(p, S(R + size)), noise = gap_noise(sizes);
   const S speed = largest(v), speed_noise = gap_noise(speed);
-  // What closes this slowly comes beside its neighbor before its time is known.
+  // What closes slowly, even where it meets the rounding of an edge, is known to noise over that: another part may be met then.
   const auto hit = [&](const S& time, const Vec3<S>& normal) {
     answer.time = time;
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
-    answer.graze = largest(answer.normal.dot(v)) < constant_power_of_two<S, -16>() * speed;
+    const S closing = largest(answer.normal.dot(v)), off = 4 * noise / closing;
+    if (closing * closing * R < 64 * noise * speed * speed)
+      answer.graze = !is_finite(off) || closest(p + v * S(time - off)).id != closest(p + v * S(time + off)).id;
     return answer;
   };
   const auto miss = [&](const CorePart<S>& nearest) {

@@ -82,5 +82,14 @@ TEST(AxesLengths, count_for_a_ray) {
   }
 }
 
+/// A floor leans by what its axes do, more than sizes round far from its middle.
+TEST(AxesLengths, are_not_clear_where_axes_lean) {
+  Obb<double> floor{V::Zero(), {10, 1, 0x1p-4}, Mat3<double>::Identity()};
+  const Moving<Ball> ball{{{5, 0, 0x1p-3 + 0x1p-5}, 0x1p-5}, {0, 0, -0.125}};
+  EXPECT_TRUE(clear_impact(at_rest(floor), ball, 0.0).clear);
+  floor.axes(2, 0) = 0x1p-50;
+  EXPECT_FALSE(clear_impact(at_rest(floor), ball, 0.0).clear);
+}
+
 }  // namespace
 }  // namespace thinwall::testing

@@ -132,6 +132,19 @@ TEST(Ties, what_recedes_is_clear) {
   EXPECT_TRUE(far.clear && far.hit);
 }
 
+/// What rests on a floor, or drifts to it, is as clear as what falls: it stays far from the floor's edges.
+TEST(Ties, what_comes_from_near_is_clear) {
+  for (const double gap : {3e-3, 3e-6, 3e-9, 3e-12}) {
+    for (const double speed : {1e-2, 1e-6, 1e-14}) {
+      const Moving<Point> ball{{{3, 4, 1.5 + gap}, 0.5}, {0.1, 0.02, -speed}};
+      const Box floor{V::Zero(), {50, 50, 1}};
+      EXPECT_TRUE(clear_impact(at_rest(floor), ball, 0.0).clear) << gap << " away, " << speed;
+      const Obb<double> turned{floor.center, floor.half_extents, Mat3<double>::Identity()};
+      EXPECT_TRUE(clear_impact(at_rest(turned), ball, 0.0).clear) << gap << " away, " << speed;
+    }
+  }
+}
+
 /// As boxes in a grid: which axis is the last has no answer, and any will do.
 TEST(Ties, two_axes_alike) {
   const Moving<Box> still = at_rest(Box{V::Zero(), V::Constant(0.5)});
