@@ -1,6 +1,7 @@
 #pragma once
 /// Shapes with any number in any of their fields: what every query must survive, and answer as it promises.
 
+#include <concepts>
 #include <limits>
 #include <string>
 #include <vector>
@@ -40,14 +41,18 @@ template <class S> Obb<S> usual(TypeTag<Obb<S>>) {
 template <class S> Triangle<S> usual(TypeTag<Triangle<S>>) { return {{-1, 0, 0}, {1, 0, 0.5}, {0, 1, -0.5}}; }
 template <class S> Capsule<S> usual(TypeTag<Capsule<S>>) { return {{-1, 0, 0}, {1, 0.25, 0}, 0.5}; }
 
-/// visit() with each special number in turn in each field of `thing`, which is then put back.
+/// visit(), or visit(name, number), with each special number in turn in each field of `thing`, which is then put back.
 template <class S, class Thing, class Visit> void with_every_number(Thing& thing, const Visit& visit) {
   each_number(thing, [&](const std::string& name, S& number) {
     const S usual_number = number;
     for (const S& special : special_numbers<S>()) {
       SCOPED_TRACE(name + " is " + std::to_string(static_cast<double>(special)));
       number = special;
-      visit();
+      if constexpr (std::invocable<const Visit&, const std::string&, const S&>) {
+        visit(name, special);
+      } else {
+        visit();
+      }
     }
     number = usual_number;
   });

@@ -27,10 +27,6 @@ struct NearShot : PortableDraw {
   Moving<Ball> ball;
 
   explicit NearShot(std::uint64_t seed) : PortableDraw(seed) {
-    const auto any = [this](double low, double high) {
-      const double x = between(low, high), y = between(low, high);
-      return V(x, y, between(low, high));
-    };
     const auto length = [this] { return 1 + (below(17) - 8) * 0x1p-53; };
     const int side = below(3);
     V lengths;
@@ -39,7 +35,7 @@ struct NearShot : PortableDraw {
     halves[side] = std::ldexp(1.0, -below(8));
     box = at_rest(Obb<double>{V::Zero(), halves, Mat3<double>(lengths.asDiagonal())});
     upright = at_rest(Aabb<double>{V::Zero(), halves.cwiseProduct(lengths)});
-    V from = any(-3, 3), to = any(-6, 6);
+    V from = vector(-3, 3), to = vector(-6, 6);
     from[side] = (one_in(2) ? -1 : 1) * (halves[side] + 0x1p-4 + between(0.01, 0.3));
     to[side] = 0;
     ball = {{from, 0x1p-4}, to - from};

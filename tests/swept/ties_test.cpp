@@ -31,10 +31,10 @@ struct Tie : PortableDraw {
 
   Tie(std::uint64_t seed, Comes comes) : PortableDraw(seed), radius(comes == Comes::as_a_ball ? between(0.1, 0.5) : 0) {
     const int quick = below(3), slow = (quick + 1 + below(2)) % 3, other = 3 - quick - slow;
-    const V shift = one_in(2) ? any(-64, 64) : V(V::Zero());
-    box = {{any(-1, 1), any(0.2, 0.8)}, shift};
+    const V shift = one_in(2) ? vector(-64, 64) : V(V::Zero());
+    box = {{vector(-1, 1), vector(0.2, 0.8)}, shift};
     if (one_in(4)) box.shape.half_extents[slow] = 0;
-    half = comes == Comes::as_a_box ? any(0.1, 0.5) : V(V::Zero());
+    half = comes == Comes::as_a_box ? vector(0.1, 0.5) : V(V::Zero());
     const double time = between(0.1, 0.9);
     V beside;
     path[quick] = between(0.5, 2);
@@ -48,10 +48,6 @@ struct Tie : PortableDraw {
     beside[other] = between(-0.1, 0.1);
     start = box.shape.center + beside;
     path += shift;
-  }
-  V any(double low, double high) {
-    const double x = between(low, high), y = between(low, high);
-    return {x, y, between(low, high)};
   }
 };
 const std::uint64_t motions = thorough(slow_build ? 50 : 1000);
@@ -92,7 +88,8 @@ TEST(Ties, a_box_and_a_sphere) {
 TEST(Ties, a_box_and_a_capsule) {
   for (std::uint64_t seed = 0; seed < motions / 5; ++seed) {
     Tie tie(seed, Comes::as_a_ball);
-    const V away = (tie.start - tie.box.shape.center).cwiseSign(), end = tie.start + away.cwiseProduct(tie.any(0, 0.2));
+    const V away = (tie.start - tie.box.shape.center).cwiseSign(),
+            end = tie.start + away.cwiseProduct(tie.vector(0, 0.2));
     meets_the_contract(Moving{Capsule<double>{end, tie.start, tie.radius}, tie.path}, tie.box, seed);
   }
 }
