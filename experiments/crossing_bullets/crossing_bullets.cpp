@@ -52,9 +52,6 @@ std::optional<double> lateness_residual(const Row& row) {
   return (*late.mean() - theory.lateness_mean) / error;
 }
 
-double share_of(double part, std::int64_t whole) { return whole > 0 ? part / static_cast<double>(whole) : 0; }
-double share_of(std::int64_t part, std::int64_t whole) { return share_of(static_cast<double>(part), whole); }
-
 // What the tables show.
 
 Columns<Row> row_columns() {
@@ -306,26 +303,25 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows) {
 
 // What it says.
 
-std::string percent(double x) { return fmt::format("{:.1f} %", 100 * x); }
-
 std::string confirm_answer(const std::vector<Row>& rows, const Total& total) {
   const Tally& t = total.tally;
   std::string text = fmt::format(
       "Of {} true hits the tutorial's rule for two bodies misses {} (theory {}; {} to {} from cell to cell)",
-      grouped_text(t.touching), percent(share_of(t.missed, t.touching)),
-      percent(share_of(total.missed_theory, t.touching)), percent(total.least_missed), percent(total.most_missed));
+      grouped_text(t.touching), percent_text(share_of(t.missed, t.touching)),
+      percent_text(share_of(total.missed_theory, t.touching)), percent_text(total.least_missed),
+      percent_text(total.most_missed));
   for (const Row& row : rows) {
     if (row.cell == head_on && row.rule == total.rule) {
       text += fmt::format(", and {} where two bullets meet head-on",
-                          percent(share_of(row.tally.missed, row.tally.touching)));
+                          percent_text(share_of(row.tally.missed, row.tally.touching)));
     }
   }
   text += fmt::format(
       ". It looks once, when a ray from the faster center enters the slower one's track. In {} of the misses the ray, which "
       "has no radius, does not enter during the step; in {} it enters before the other ball arrives, in {} after that has "
       "gone, and in {} it starts inside the track and looks at the start alone. ",
-      percent(share_of(t.beside, t.missed)), percent(share_of(t.early, t.missed)), percent(share_of(t.late, t.missed)),
-      percent(share_of(t.inside, t.missed)));
+      percent_text(share_of(t.beside, t.missed)), percent_text(share_of(t.early, t.missed)),
+      percent_text(share_of(t.late, t.missed)), percent_text(share_of(t.inside, t.missed)));
   if (has_times(t)) {
     text += fmt::format("Its {} hits come {:.3g} of a step late on average, and up to {:.3g}. ",
                         grouped_text(t.lateness.count), *t.lateness.mean(), t.latest);
@@ -343,7 +339,7 @@ std::string answer_of(const std::vector<Row>& rows, const std::vector<Total>& to
           "Sweeping both and testing what they sweep misses {} of {} true hits, and calls {} of {} encounters that do not "
           "touch a hit ({}). ",
           grouped_text(t.missed), grouped_text(t.touching), grouped_text(t.false_hits), grouped_text(t.apart()),
-          percent(share_of(t.false_hits, t.apart())));
+          percent_text(share_of(t.false_hits, t.apart())));
     }
     if (total.rule == exact) {
       closed_form = fmt::format("The closed form of the relative motion is wrong on {} of {}.",

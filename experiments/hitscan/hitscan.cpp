@@ -39,11 +39,8 @@ constexpr auto true_hits = [](const auto& row) { return row.tally.touching; };
 constexpr auto false_hits = [](const auto& row) { return row.tally.false_hits; };
 constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 
-std::optional<double> quotient(auto part, auto whole) {
-  return whole > 0 ? std::optional(static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
-}
-std::optional<double> missed_share(const auto& row) { return quotient(missed(row), true_hits(row)); }
-std::optional<double> missed_share_theory(const Row& row) { return quotient(row.expected.missed, row.expected.touch); }
+std::optional<double> missed_share(const auto& row) { return share_of(missed(row), true_hits(row)); }
+std::optional<double> missed_share_theory(const Row& row) { return share_of(row.expected.missed, row.expected.touch); }
 
 double steps_late(const Row& row) { return row.tally.lateness.mean(time_unit(row.cell)) / row.cell.step; }
 
@@ -79,7 +76,7 @@ Columns<Row> row_columns() {
              share("false_share", "false_hits / reported; missing if nothing is reported.", false_hits, reported,
                    "false_"),
              value("false_theory", "1", "The share by theory.",
-                   [](const Row& r) { return quotient(r.expected.false_hits, r.expected.reported); }),
+                   [](const Row& r) { return share_of(r.expected.false_hits, r.expected.reported); }),
              value("path_error_mean", "m", "From the rule's path to the arc, where they cross the plane of the target.",
                    [](const Row& r) { return r.tally.path_error.mean(length_unit(r.cell)); }),
              value("path_error_theory", "m", "The same by theory.",
@@ -318,7 +315,6 @@ std::vector<Figure> figures_of(const Rows& rows) {
 
 // What it says.
 
-std::string percent(const std::optional<double>& x) { return x ? fmt::format("{:.1f} %", 100 * *x) : "-"; }
 std::string meters(double x) { return rounded_text(x, 3) + " m"; }
 
 std::string known_answer(const Rows& rows) {
@@ -326,8 +322,8 @@ std::string known_answer(const Rows& rows) {
   for (const Row& row : of_rule(rows, hitscan_ray)) {
     if (!is_known(row.cell)) continue;
     text += fmt::format("{}{} with a {} (theory {}, the arc {} off the line of fire)",
-                        text.empty() ? "Of the true hits the ray misses " : ", ", percent(missed_share(row)),
-                        known_name(row.cell), percent(missed_share_theory(row)), meters(deflection(row.cell)));
+                        text.empty() ? "Of the true hits the ray misses " : ", ", percent_text(missed_share(row)),
+                        known_name(row.cell), percent_text(missed_share_theory(row)), meters(deflection(row.cell)));
   }
   return text.empty() ? text : text + ". ";
 }
@@ -357,7 +353,7 @@ std::string ray_answer(const Rows& rows) {
   }
   if (thick > 0) {
     text += fmt::format("It has no radius: of the hits of a bullet of {:g} mm it misses {} and more. ", 1e3 * thick,
-                        percent(least));
+                        percent_text(least));
   }
   return text;
 }
@@ -367,7 +363,7 @@ std::string total_answer(const Total& t) {
     return fmt::format(
         "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; it "
         "misses {} of the true hits, and {} of its own are false. ",
-        t.lateness(), t.latest, percent(missed_share(t)), percent(quotient(false_hits(t), reported(t))));
+        t.lateness(), t.latest, percent_text(missed_share(t)), percent_text(share_of(false_hits(t), reported(t))));
   }
   if (t.rule == swept_steps.name) {
     return fmt::format(

@@ -25,9 +25,7 @@ bool has_unit(const Column& column) { return !column.unit.empty() && column.unit
 std::string title(const Column& column) {
   const std::string suffix = "_" + column.unit;
   const bool ends_in_unit = has_unit(column) && column.name.ends_with(suffix);
-  std::string name = column.name.substr(0, column.name.size() - (ends_in_unit ? suffix.size() : 0));
-  std::ranges::replace(name, '_', ' ');
-  return name;
+  return spaced(column.name.substr(0, column.name.size() - (ends_in_unit ? suffix.size() : 0)));
 }
 
 /// Every column but those that are the end of another's interval.

@@ -35,6 +35,11 @@ inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
 /// Source: derived in docs/tunneling_theory.md.
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
 
+/// The share that a part, counted or expected, is of the whole; nothing where that is none.
+std::optional<double> share_of(auto part, auto whole) {
+  return whole > 0 ? std::optional(static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
+}
+
 /// A share of counts with that interval; nothing where there is no trial.
 inline std::optional<Measured> measured_share(std::int64_t successes, std::int64_t trials) {
   if (trials <= 0) return std::nullopt;

@@ -44,6 +44,15 @@ std::string grouped_text(std::int64_t value) {
   return text;
 }
 
+std::string percent_text(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f} %", 100 * *share) : "-";
+}
+
+std::string spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 std::string plural_text(std::int64_t count, std::string_view noun) {
   return grouped_text(count).append(" ").append(noun).append(count == 1 ? "" : "s");
 }

@@ -25,8 +25,14 @@ std::string rounded_text(double value, int digits);
 /// Thousands apart: 12,000,000.
 std::string grouped_text(std::int64_t value);
 
+/// Of a share: `85.8 %`; `-` where there is none.
+std::string percent_text(const std::optional<double>& share);
+
 /// `1 trial`, `12,000 trials`.
 std::string plural_text(std::int64_t count, std::string_view noun);
+
+/// A name as a person writes it: `long double` for `long_double`.
+std::string spaced(std::string name);
 
 /// `a`, `a and b`, `a, b and c`.
 std::string listed(std::span<const std::string> parts);

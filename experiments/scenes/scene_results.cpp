@@ -102,8 +102,6 @@ Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& play
 
 namespace {
 
-double share_of(double part, std::size_t whole) { return whole == 0 ? 0 : part / static_cast<double>(whole); }
-
 /// Who met whom.
 template <class Row> Columns<Row> pair_columns(const Scene& scene) {
   return columns_of<Row>(
@@ -173,13 +171,13 @@ Table phases_table(const Playback& playback) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < phase_names.size(); ++i) rows.push_back({phase_names[i], playback.phases[i]});
   const double whole = playback.phases.back().total;
-  const auto columns =
-      columns_of<Row>(text("phase", "Part of a step; `step` is all of it.", &Row::phase),
-                      value("mean_us", "us", "Mean over the steps.",
-                            [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()); }),
-                      value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
-                      value("share", "1", "Part of the whole step.",
-                            [whole](const Row& row) { return whole > 0 ? row.time.total / whole : 0.0; }));
+  const auto columns = columns_of<Row>(
+      text("phase", "Part of a step; `step` is all of it.", &Row::phase),
+      value("mean_us", "us", "Mean over the steps.",
+            [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()).value_or(0); }),
+      value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
+      value("share", "1", "Part of the whole step.",
+            [whole](const Row& row) { return whole > 0 ? row.time.total / whole : 0.0; }));
   return in_report(timing(table("timings", "Time a step by phase, on this machine.", columns, rows)));
 }
 

@@ -17,6 +17,7 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 
@@ -99,8 +100,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> peer_nam
                                                                                        {"box2d3", "Box2D 3"},
                                                                                        {"thinwall", "thinwall"}}};
 
-std::string spaced(std::string text) {
-  std::ranges::replace(text, '_', ' ');
+std::string in_words(std::string text) {
+  text = spaced(std::move(text));
   std::ranges::replace(text, '/', ' ');
   for (const auto& [low, high] : {std::pair{"gjk", "GJK"}, {"mpr", "MPR"}}) {
     if (const std::size_t at = text.find(low); at != std::string::npos) text.replace(at, 3, high);
@@ -205,11 +206,11 @@ bool TimedWay::must_be_right() const { return kind == "time_of_impact" && is_fro
 std::string TimedWay::name() const {
   if (is_front_door()) return "thinwall, front door";
   if (way == "plain") return "plain form";
-  if (program != peers_program) return "thinwall, " + spaced(way);
+  if (program != peers_program) return "thinwall, " + in_words(way);
   for (const auto& [prefix, name] : peer_names) {
     if (!way.starts_with(prefix)) continue;
     const std::string rest = way.substr(prefix.size());
-    return rest.empty() ? std::string(name) : std::string(name) + "," + spaced(rest);
+    return rest.empty() ? std::string(name) : std::string(name) + "," + in_words(rest);
   }
   return way;
 }

@@ -10,6 +10,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -326,18 +327,11 @@ Figure pass_figure(const std::vector<PassRow>& rows, const std::vector<RodMethod
 
 // What it says.
 
-std::string percent(double x) { return fmt::format("{:.1f} %", 100 * x); }
-
-double share_of(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
-}
-
 /// The share that tunneled, and by theory where that is neither 0 nor 1.
 std::string tunneled_text(const Total& total) {
-  const double share = share_of(total.tally.tunneled, total.tally.trials);
-  if (!total.has_theory || total.expected == 0) return total.tally.tunneled == 0 ? "none" : percent(share);
-  return fmt::format("{} (theory {})", percent(share),
-                     percent(total.expected / static_cast<double>(total.tally.trials)));
+  const std::string share = percent_text(share_of(total.tally.tunneled, total.tally.trials));
+  if (!total.has_theory || total.expected == 0) return total.tally.tunneled == 0 ? "none" : share;
+  return fmt::format("{} (theory {})", share, percent_text(share_of(total.expected, total.tally.trials)));
 }
 
 std::string method_answer(const Total& wall, const Total& post) {
@@ -347,10 +341,10 @@ std::string method_answer(const Total& wall, const Total& post) {
   if (t.late == 0 && t.detected() > 0) text += ", and is never late at the wall";
   if (t.late > 0 && t.tunneled == 0) {
     text += fmt::format(", but finds {} of the rods too late, by up to {:.2g} of a step and {:.2g} m deep",
-                        percent(share_of(t.late, t.detected())), t.latest, -t.deepest);
+                        percent_text(share_of(t.late, t.detected())), t.latest, -t.deepest);
   }
   if (t.false_hits > 0)
-    text += fmt::format("; {} of its hits are false", percent(share_of(t.false_hits, t.detected())));
+    text += fmt::format("; {} of its hits are false", percent_text(share_of(t.false_hits, t.detected())));
   return text + ". ";
 }
 

@@ -362,10 +362,6 @@ Figure race_figure(const StiffResults& results) {
 
 // What it says.
 
-std::string percent(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? fmt::format("{:.1f} %", 100 * static_cast<double>(part) / static_cast<double>(whole)) : "-";
-}
-
 /// Undamped (or least damped), at the greatest stiffness, at the poses: at up to four of the steps below 2, or at the last of them.
 std::vector<Row> told_rows(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
@@ -418,7 +414,7 @@ std::string stiff_answer(const StiffResults& results) {
   const std::vector<Passage> all = passages(results, {ratio});
   const auto share = [&](std::string_view method) {
     const auto found = std::ranges::find(all, method, [](const Passage& p) { return method_of(p.sum); });
-    return percent(found->sum.tally.escaped, found->sum.tally.bounces());
+    return percent_text(share_of(found->sum.tally.escaped, found->sum.tally.bounces()));
   };
   if (!all.empty()) {
     text += fmt::format(
@@ -433,8 +429,9 @@ std::string stiff_answer(const StiffResults& results) {
 
 std::string passages_text(const StiffResults& results) {
   const auto share = [](std::string name, std::int64_t ContactTally::*count) {
-    return text(std::move(name), "",
-                [count](const Passage& p) { return percent(p.sum.tally.*count, p.sum.tally.bounces()); });
+    return text(std::move(name), "", [count](const Passage& p) {
+      return percent_text(share_of(p.sum.tally.*count, p.sum.tally.bounces()));
+    });
   };
   const auto columns =
       columns_of<Passage>(fields(&Passage::sum, {"scheme", "detection"}),

@@ -1,14 +1,12 @@
 #include <thinwall/experiments/swept_bounds/bounds.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <type_traits>
-
-#include <fmt/format.h>
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/type_list.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
@@ -28,70 +26,65 @@ template <Shape A> bool meet_in_the_step(const Moving<A>& moving, const Ball& ba
 }
 
 /// What every bound but the last two does: make a volume, and ask whether it overlaps the ball.
-struct OverlapBound {
+template <FittedBody body_of(const Sweep&)> struct OverlapBound {
   static constexpr bool makes_volume = true;
+  static FittedBody body(const Sweep& s) { return body_of(s); }
+  static FittedBody drawn_around(const Sweep& s) { return body_of(s); }
   template <Shape Volume> static bool reports(const Volume& volume, const Ball& ball) { return overlaps(volume, ball); }
 };
 
-struct EnclosingSphere : OverlapBound {
+struct EnclosingSphere : OverlapBound<enclosing_sphere_body> {
   static constexpr std::string_view name = "enclosing_sphere";
-  static FittedBody body(const Sweep& s) { return enclosing_sphere_body(s); }
   static Ball around(const MovingBall& m) { return enclosing_sphere(m); }
   static Ball around(const MovingBox& m) { return enclosing_sphere(ball_around(m)); }
 };
 
-struct EnclosingAabb : OverlapBound {
+struct EnclosingAabb : OverlapBound<enclosing_aabb_body> {
   static constexpr std::string_view name = "enclosing_aabb";
-  static FittedBody body(const Sweep& s) { return enclosing_aabb_body(s); }
   static Aabb<double> around(const MovingBall& m) { return swept_bounds(m); }
   static Aabb<double> around(const MovingBox& m) { return enclosing_aabb(m); }
 };
 
-struct SweptCapsule : OverlapBound {
+struct SweptCapsule : OverlapBound<capsule_body> {
   static constexpr std::string_view name = "capsule";
-  static FittedBody body(const Sweep& s) { return capsule_body(s); }
   static Capsule<double> around(const MovingBall& m) { return swept_volume(m); }
   static Capsule<double> around(const MovingBox& m) { return swept_volume(ball_around(m)); }
 };
 
-struct OrientedBox : OverlapBound {
+struct OrientedBox : OverlapBound<oriented_box_body> {
   static constexpr std::string_view name = "oriented_box";
-  static FittedBody body(const Sweep& s) { return oriented_box_body(s); }
   static Obb<double> around(const MovingBox& m) { return swept_volume(m); }
   /// Of two rectangles that mirror each other rounding picks one: balls are drawn around the one that was picked.
   static FittedBody drawn_around(const Sweep& s) { return box_around(exact_body(s), swept_volume(moving_box(s)).axes); }
 };
 
-/// Seen from the box the ball moves, and sweeps a capsule: exact, but without a time.
-struct RelativeCapsule {
-  static constexpr std::string_view name = "relative_capsule";
+struct ExactBound {
   static constexpr bool makes_volume = false;
   static FittedBody body(const Sweep& s) { return exact_body(s); }
+  static FittedBody drawn_around(const Sweep& s) { return exact_body(s); }
+};
+
+/// Seen from the box the ball moves, and sweeps a capsule: exact, but without a time.
+struct RelativeCapsule : ExactBound {
+  static constexpr std::string_view name = "relative_capsule";
   static MovingBox around(const MovingBox& m) { return m; }
   static bool reports(const MovingBox& m, const Ball& ball) {
     return overlaps(swept_volume(MovingBall{ball, -m.displacement}), m.shape);
   }
 };
 
-struct ExactMotion {
+struct ExactMotion : ExactBound {
   static constexpr std::string_view name = "closed_form";
-  static constexpr bool makes_volume = false;
-  static FittedBody body(const Sweep& s) { return exact_body(s); }
   template <Shape A> static Moving<A> around(const Moving<A>& m) { return m; }
   template <Shape A> static bool reports(const Moving<A>& m, const Ball& ball) { return meet_in_the_step(m, ball); }
 };
-
-template <class Bound, class Motion> constexpr bool serves_motion = requires(const Motion& m) { Bound::around(m); };
-
-/// Tells the optimizer that the value is used, and that all memory may have changed: what comes next is done anew.
-template <class T> void use(const T& value) { asm volatile("" : : "r"(&value) : "memory"); }
 
 /// How many of the balls `answers` is true of, over all passes.
 template <class Answers> std::int64_t go_through(std::span<const Ball> balls, int passes, const Answers& answers) {
   std::int64_t count = 0;
   for (int pass = 0; pass < passes; ++pass) {
     for (const Ball& ball : balls) count += answers(ball) ? 1 : 0;
-    use(balls);
+    keep(balls);
   }
   return count;
 }
@@ -99,10 +92,10 @@ template <class Answers> std::int64_t go_through(std::span<const Ball> balls, in
 template <class Bound, class Motion>
 std::int64_t repeat_work(TimedWork work, const Motion& motion, std::span<const Ball> balls, int passes) {
   const auto bound = Bound::around(motion);
-  use(motion);
-  use(bound);
+  keep(motion);
+  keep(bound);
   const auto build = [&](const Ball&) {
-    use(Bound::around(motion));
+    keep(Bound::around(motion));
     return true;
   };
   const auto test = [&](const Ball& ball) { return Bound::reports(bound, ball); };
@@ -116,43 +109,33 @@ std::int64_t repeat_work(TimedWork work, const Motion& motion, std::span<const B
 
 using Bounds = TypeList<EnclosingSphere, EnclosingAabb, SweptCapsule, OrientedBox, RelativeCapsule, ExactMotion>;
 
-/// Calls `ask` with the moving shape, which the bound serves.
-template <class Bound, class Result, class Ask> Result ask_shape(const Sweep& s, const Ask& ask) {
-  return with_shape(s, [&]<class Motion>(const Motion& motion) -> Result {
-    if constexpr (serves_motion<Bound, Motion>) {
-      return ask(motion);
-    } else {
-      throw std::logic_error(fmt::format("{} does not serve a {}", Bound::name, thinwall::name(s.form)));
-    }
-  });
+/// Every bound serves boxes.
+template <class Bound> constexpr bool serves_balls = requires(const MovingBall& m) { Bound::around(m); };
+
+/// Calls `ask` with the moving shape, which the bound serves, as the type it is.
+template <class Bound> auto ask_shape(const Sweep& s, const auto& ask) {
+  if constexpr (serves_balls<Bound>) {
+    if (s.form == SweptForm::sphere) return ask(moving_ball(s));
+  }
+  return ask(moving_box(s));
 }
 
 template <class Bound> SweptBound erased() {
   return {
       .name = std::string(Bound::name),
       .makes_volume = Bound::makes_volume,
-      .serves =
-          [](SweptForm form) {
-            return form == SweptForm::sphere ? serves_motion<Bound, MovingBall> : serves_motion<Bound, MovingBox>;
-          },
+      .serves = [](SweptForm form) { return serves_balls<Bound> || form != SweptForm::sphere; },
       .body = Bound::body,
-      .drawn_around =
-          [](const Sweep& s) {
-            if constexpr (requires { Bound::drawn_around(s); }) {
-              return Bound::drawn_around(s);
-            } else {
-              return Bound::body(s);
-            }
-          },
+      .drawn_around = Bound::drawn_around,
       .reports =
           [](const Sweep& s) {
-            return ask_shape<Bound, BallTest>(s, [](const auto& motion) {
+            return ask_shape<Bound>(s, [](const auto& motion) -> BallTest {
               return [bound = Bound::around(motion)](const Ball& ball) { return Bound::reports(bound, ball); };
             });
           },
       .repeat =
           [](TimedWork work, const Sweep& s, std::span<const Ball> balls, int passes) {
-            return ask_shape<Bound, std::int64_t>(
+            return ask_shape<Bound>(
                 s, [&](const auto& motion) { return repeat_work<Bound>(work, motion, balls, passes); });
           },
   };

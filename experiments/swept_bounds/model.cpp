@@ -180,8 +180,7 @@ Sphere<double> grazing_ball(const Sweep& s, const Mat3<double>& axes, const Rand
   const Vec3<double> half = half_extents(s), half_path = path(s) / 2;
   const Vec3<double> outward = outward_direction(is_box ? half : Vec3<double>::Ones(), axes, stream, trial);
   Vec3<double> reach = half_path.dot(outward) < 0 ? Vec3<double>(-half_path) : half_path;
-  double radius = ball_radius(s);
-  if (!is_box) radius += s.width / 2;
+  const double radius = ball_radius(s) + (is_box ? 0 : s.width / 2);
   for (int i = 0; is_box && i < 3; ++i) reach[i] += outward[i] < 0 ? -half[i] : half[i];
   return {half_path + (reach + outward * radius) * (1 - inward), ball_radius(s)};
 }

@@ -48,11 +48,6 @@ Moving<Sphere<double>> moving_ball(const Sweep& s);  ///< starts at the origin
 Moving<Aabb<double>> moving_box(const Sweep& s);
 RandomStream random_stream(const Sweep& s, std::uint64_t seed);  ///< from the physical factors alone
 
-/// Calls `visit` with the moving shape as the type it is.
-template <class Visit> auto with_shape(const Sweep& s, const Visit& visit) {
-  return s.form == SweptForm::sphere ? visit(moving_ball(s)) : visit(moving_box(s));
-}
-
 /// The cells, and which of them is drawn and timed: along x and y alike, among balls as wide as the shape, and as fast as
 /// the bullet, or what the settings have nearest to that.
 struct SweepPlan {

@@ -208,23 +208,15 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const std::vector<S
 
 // What it says.
 
-std::string percent(double x) { return fmt::format("{:.1f} %", 100 * x); }
-
-std::string spoken(std::string text) {
-  if (text == "enclosing_aabb") return "enclosing AABB";
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
-
 /// "enclosing sphere 85.8 % (theory 85.9 %), capsule 0.0 % (theory 0.0 %)", of the bounds that are volumes.
 std::string diagonal_answer(const std::vector<Row>& rows, const Sweep& diagonal) {
   std::vector<std::string> shares;
   for (const Row& row : rows) {
-    const Tally& t = row.tally;
-    if (row.sweep != diagonal || !row.bound->makes_volume || t.reported == 0) continue;
-    shares.push_back(fmt::format("{} {} (theory {})", spoken(row.bound->name),
-                                 percent(static_cast<double>(t.false_hits) / static_cast<double>(t.reported)),
-                                 percent(row.theory.false_fraction)));
+    const std::optional<double> false_share = share_of(row.tally.false_hits, row.tally.reported);
+    if (row.sweep != diagonal || !row.bound->makes_volume || !false_share) continue;
+    const std::string bound = row.bound->name == "enclosing_aabb" ? "enclosing AABB" : spaced(row.bound->name);
+    shares.push_back(
+        fmt::format("{} {} (theory {})", bound, percent_text(false_share), percent_text(row.theory.false_fraction)));
   }
   return fmt::format("{}", fmt::join(shares, ", "));
 }

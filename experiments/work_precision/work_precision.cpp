@@ -321,8 +321,8 @@ std::string turning_answer(const std::vector<Heat>& heats) {
         times.size(), races, std::ranges::max(errors), std::ranges::min(times), std::ranges::max(times));
   }
   if (touching > 0) {
-    text += fmt::format(" A sweep that leaves the turn out misses {:.1f} % of the contacts.",
-                        100 * static_cast<double>(missed) / static_cast<double>(touching));
+    text += fmt::format(" A sweep that leaves the turn out misses {} of the contacts.",
+                        percent_text(share_of(missed, touching)));
   }
   return text;
 }

@@ -35,6 +35,12 @@ TEST(RoundedText, keeps_the_digits_asked_for) {
   EXPECT_EQ(rounded_text(0, 4), "0");
 }
 
+TEST(PercentText, is_a_share_to_a_tenth_and_a_dash_where_there_is_none) {
+  EXPECT_EQ(percent_text(0.8576), "85.8 %");
+  EXPECT_EQ(percent_text(std::nullopt), "-");
+  EXPECT_EQ(spaced("long_double"), "long double");
+}
+
 TEST(GroupedText, sets_thousands_apart) {
   EXPECT_EQ(grouped_text(0), "0");
   EXPECT_EQ(grouped_text(999), "999");
