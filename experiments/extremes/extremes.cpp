@@ -31,11 +31,7 @@ std::string_view precision_name(std::size_t precision) { return all_precisions()
 std::string_view pairs_name(PairSet pairs) { return pairs == PairSet::rounded ? "with a ball" : "two boxes"; }
 
 /// "long double", "50 digits".
-std::string title_of(std::size_t precision) {
-  std::string title(precision_name(precision));
-  std::ranges::replace(title, '_', ' ');
-  return title;
-}
+std::string title_of(std::size_t precision) { return spaced(std::string(precision_name(precision))); }
 
 /// How far a method gets along each arm, on pairs with a ball or on two boxes.
 struct Rung : ExtremeContender {
@@ -417,7 +413,7 @@ std::string in_precision(std::size_t precision) {
 std::string closed_form_answer(const std::vector<Row>& rows, const std::vector<LadderTest>& tests) {
   std::optional<double> forward;
   for (const LadderTest& t : tests) {
-    if (t.what == "closed_form_forward") forward = std::max(forward.value_or(0), t.measured);
+    if (t.what.starts_with("closed_form_forward")) forward = std::max(forward.value_or(0), t.measured);
   }
   if (!forward) return "";
   std::vector<std::string> breaks;

@@ -26,6 +26,11 @@ double contact_share(const Place& place) {
 /// How far the path is from the last that touches, over R: below some u rounding decides, and time is not linear in it.
 double grazing_share(const Place& place) { return place.axis == ExtremeAxis::grazing ? place.value : 1; }
 
+/// Coordinates are turned into a box's axes, which are orthonormal to this precision alone, and no wider scalar has the last word.
+bool is_turned_alone(const ExtremeRow& row, std::size_t precision) {
+  return row.pair->name.find("obb") != std::string_view::npos && all_precisions()[precision].name != "double";
+}
+
 /// Counts the cell, and keeps it if it is the worst.
 void note(LadderTest& test, const ExtremeRow& row, double measured) {
   ++test.cells;
@@ -34,16 +39,16 @@ void note(LadderTest& test, const ExtremeRow& row, double measured) {
   test.where = fmt::format("{}, {} {}", row.pair->name, info(row.place.axis).name, rounded_text(row.place.value, 6));
 }
 
-/// The contract, wherever a contact lasts.
+/// The contract, wherever a contact lasts, of the rows that are `turned` alone or of the others.
 template <class Measure>
 void add_contract(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& rows, std::size_t precision,
-                  std::string_view what, double most, const Measure& measure) {
-  LadderTest test{.what = std::string(what), .precision = precision, .most = most};
+                  std::string_view what, double most, bool turned, const Measure& measure) {
+  LadderTest test{.what = fmt::format("{}{}", what, turned ? "_turned" : ""), .precision = precision, .most = most};
   const double least = least_contact * unit_of(precision);
   for (const ExtremeRow& row : rows) {
     if (!ExtremeContender{closed_form, precision, PairSet::all}.has(row) || contact_share(row.place) < least) continue;
     if (what == forward && grazing_share(row.place) < least) continue;
-    note(test, row, measure(row.tally));
+    if (is_turned_alone(row, precision) == turned) note(test, row, measure(row.tally));
   }
   if (test.cells > 0) tests.push_back(test);
 }
@@ -90,12 +95,16 @@ void add_threshold(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>
 std::vector<LadderTest> ladder_tests(const std::vector<ExtremeRow>& rows, const LossTheory& theory) {
   std::vector<LadderTest> tests;
   for (const std::size_t p : precisions_of(rows)) {
-    add_contract(tests, rows, p, forward, 4, [](const ExtremeTally& t) { return t.forward_max; });
-    add_contract(tests, rows, p, "closed_form_backward", 4, [](const ExtremeTally& t) { return t.backward_max; });
-    add_contract(tests, rows, p, "closed_form_verdicts", break_verdict,
-                 [](const ExtremeTally& t) { return t.worst_wrong; });
-    add_contract(tests, rows, p, "closed_form_no_answer", 0,
-                 [](const ExtremeTally& t) { return static_cast<double>(t.gave_up + t.invalid); });
+    for (const bool turned : {false, true}) {
+      const double most = turned ? 8 : 4;
+      add_contract(tests, rows, p, forward, most, turned, [](const ExtremeTally& t) { return t.forward_max; });
+      add_contract(tests, rows, p, "closed_form_backward", most, turned,
+                   [](const ExtremeTally& t) { return t.backward_max; });
+      add_contract(tests, rows, p, "closed_form_verdicts", break_verdict, turned,
+                   [](const ExtremeTally& t) { return t.worst_wrong; });
+      add_contract(tests, rows, p, "closed_form_no_answer", 0, turned,
+                   [](const ExtremeTally& t) { return static_cast<double>(t.gave_up + t.invalid); });
+    }
     add_loss(tests, rows, p, theory);
     add_threshold(tests, rows, p);
   }
