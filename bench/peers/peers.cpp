@@ -74,7 +74,7 @@ using thinwall::bench::Peer;
 
 constexpr std::string_view by_npm = "`npm ci` in experiments/engines/npm";
 
-constexpr std::array<Peer, 10> peers = {{
+constexpr auto peers = std::to_array<Peer>({
     {"thinwall", "", &thinwall::bench::add_thinwall},
     {"Bullet", "libbullet-dev", &thinwall::bench::add_bullet},
     {"ODE", "libode-dev", &thinwall::bench::add_ode},
@@ -85,7 +85,7 @@ constexpr std::array<Peer, 10> peers = {{
     {"PhysX", by_npm, [] { return thinwall::bench::add_npm("physx"); }},
     {"Havok", by_npm, [] { return thinwall::bench::add_npm("havok"); }},
     {"Box2D 3", by_npm, [] { return thinwall::bench::add_npm("box2d3"); }},
-}};
+});
 
 }  // namespace
 

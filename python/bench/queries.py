@@ -17,7 +17,7 @@ import thinwall as tw
 
 
 def scene(rows, order):
-    """Half of them hit. `order` F: a column after the other, C: a row after the other."""
+    """A fifth of them hit. `order` F: a column after the other, C: a row after the other."""
     rng = np.random.default_rng(1)
     array = lambda low, high: np.array(rng.uniform(low, high, (rows, 3)), order=order)
     center, half, motion = array(-1, 1), array(0.2, 0.6), array(-2, 2)

@@ -122,7 +122,7 @@ def _ask(query, a, b, threads, out=None, kind=None, method="", options=None):
     kind_b, arrays_b = b._side()
     if not _queries.ask(kind, kind_a, arrays_a, kind_b, arrays_b, out, threads, method, options or _queries.Options()):
         by = f" by {method!r}" if method else ""
-        raise ValueError(f"{query}: {kind_a} with {kind_b} is not served{by}; docs/pairs.md and docs/methods.md say which pairs are")
+        raise ValueError(f"{query}: {kind_a} with {kind_b} is not served{by}; docs/pairs.md says which pairs are")
     return out[()] if rows is None else out
 
 

@@ -52,7 +52,7 @@ def read(folder: str | os.PathLike[str]) -> Result:
     Examples
     --------
     >>> result = tw.read("results/mine")                      # doctest: +SKIP
-    >>> result["methods"][["method", "tunneled", "share"]]    # doctest: +SKIP
+    >>> result["methods"][["method", "tunneled", "worst_residual"]]    # doctest: +SKIP
     """
     return Result(folder)
 
