@@ -33,7 +33,7 @@ template <Scalar S> S magnitude(const Obb<S>& box) {
 template <Scalar S> bool has_valid_sizes(const Obb<S>& box) { return box.half_extents.minCoeff() >= S(0); }
 /// True if the axes are unit and at right angles: what their six products are off by adds up to 2^-30 (1e-9) at most in double
 /// and 2^-13 (1e-4) in float. That is four sevenths of the digits, beyond what the roundings of a million turns in double, or of
-/// hundreds in float, add up to; and its square is rounding, so that one step of Newton's method mends it (with_true_axes()).
+/// hundreds in float, add up to; and its square is rounding, so that one step of Newton's method mends it (widened()).
 /// Scalars wider than double take axes made in double. A mirrored frame will do: a box is its own mirror image. False for NaN.
 template <Scalar S> bool has_valid_axes(const Obb<S>& box) {
   constexpr int digits = std::min(std::numeric_limits<S>::digits, std::numeric_limits<double>::digits);
@@ -52,6 +52,18 @@ template <Scalar S> Obb<S> scaled(const Obb<S>& box, int e) {
 }
 template <Scalar T, Scalar S> Obb<T> cast(const Obb<S>& box) {
   return {box.center.template cast<T>(), box.half_extents.template cast<T>(), box.axes.template cast<T>()};
+}
+/// What is orthonormal to the rounding of S alone is a slanted box in W: this one has the orthonormal axes that are nearest to its axes, half
+/// as far off as their transpose, and the true lengths of its edges to the square of that. Steps of Newton's method without a division
+/// (Newton-Schulz) for the polar factor of the axes, each of which squares what is off.
+template <Scalar W, Scalar S> Obb<W> widened(const Obb<S>& box) {
+  Obb<W> straight = cast<W>(box);
+  for (int digits = std::numeric_limits<S>::digits; digits < std::numeric_limits<W>::digits; digits *= 2) {
+    const Mat3<W> gram = straight.axes.transpose() * straight.axes;
+    straight.axes = straight.axes * (Mat3<W>::Identity() * W(3) - gram) / W(2);
+    for (int i = 0; i < 3; ++i) straight.half_extents[i] *= (gram(i, i) + W(1)) / W(2);
+  }
+  return straight;
 }
 template <Scalar S> Obb<S> moved(const Obb<S>& box, const Vec3<S>& by) {
   return {box.center + by, box.half_extents, box.axes};

@@ -32,6 +32,9 @@ concept Shape = Scalar<typename T::Scalar> && std::same_as<decltype(T::rank), co
 
 template <class T> bool has_valid_axes(const T&) { return true; }
 
+/// The same shape in a wider scalar; of a box, also as true to its axes as that scalar can be.
+template <Scalar W, Shape A> auto widened(const A& shape) { return cast<W>(shape); }
+
 /// True if every length of a shape of doubles, divided by 2^e, is a double: nothing is lost below the range.
 template <class T> bool divides_exactly(const T& shape, int e) {
   const T back = scaled(scaled(shape, -e), e);

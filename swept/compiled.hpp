@@ -38,7 +38,6 @@ THINWALL_OF_SCALAR(long double);
   THINWALL_OF_PAIR(S, T, Capsule, Triangle)
 
 THINWALL_OF_SCALARS(float, float);
-THINWALL_OF_SCALARS(float, double);
 THINWALL_OF_SCALARS(double, double);
 THINWALL_OF_SCALARS(long double, long double);
 #undef THINWALL_OF_SCALARS

@@ -31,5 +31,8 @@ template <Shape A> Moving<A> scaled(const Moving<A>& m, int e) {
 template <Scalar T, Shape A> auto cast(const Moving<A>& m) {
   return Moving<decltype(cast<T>(m.shape))>{cast<T>(m.shape), m.displacement.template cast<T>()};
 }
+template <Scalar W, Shape A> auto widened(const Moving<A>& m) {
+  return Moving{widened<W>(m.shape), Vec3<W>(m.displacement.template cast<W>())};
+}
 
 }  // namespace thinwall

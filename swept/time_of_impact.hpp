@@ -26,8 +26,8 @@ THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const 
   using S = typename A::Scalar;
   const bool has_valid_option = method.min_separation >= 0 && is_finite(method.min_separation);
   const Magnitudes sizes = magnitudes_of(S(magnitude(a) + magnitude(b) + S(method.min_separation)), a, b);
-  if (sizes == Magnitudes::invalid || !has_valid_option) return {ToiStatus::invalid, 0, nan_vector<S>()[0]};
-  if constexpr (std::is_same_v<S, float>) {
+  if (sizes == Magnitudes::invalid || !has_valid_option) return invalid_toi<S>();
+  if constexpr (std::is_same_v<S, float>) {  // boxes as they are: by other axes, what is never late might be
     return cast<float>(impact(method, cast<double>(a), cast<double>(b)));
   } else {
     return sizes == Magnitudes::ordinary ? impact(method, a, b) : impact_scaled_down(method, a, b);
@@ -60,9 +60,6 @@ template <Shape A, Shape B>
 template <Shape A, Shape B>
 [[gnu::noinline]] Toi<float> impact_in_double(const ClosedForm<float>& method, const Moving<A>& a, const Moving<B>& b);
 
-/// In a wider scalar the shape is what it was: a box's axes are orthonormal to the rounding of their own.
-template <class A> inline constexpr bool has_exact_cast = !requires(const A& shape) { shape.axes; };
-
 /// The closed form's ladder. The clear rung answers in plain arithmetic what no rounding can decide (swept/clear/, discrete/clear/):
 /// nearly everything. The rest is asked of the careful rung (swept/closed_form/), which asks itself once more in a wider scalar
 /// where even it is in doubt. A float's query climbs in double. docs/closed_forms.md draws it.
@@ -76,7 +73,7 @@ THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, cons
     if (answer.clear) [[likely]]
       return answer.toi();
     return turn(careful_impact(method, a, b));
-  } else if constexpr (std::is_same_v<Method, ClosedForm<float>> && has_exact_cast<A> && has_exact_cast<B>) {
+  } else if constexpr (std::is_same_v<Method, ClosedForm<float>>) {
     return turn(impact_in_double(method, a, b));
   } else {
     return turn(checked_impact(method, a, b));
@@ -85,7 +82,9 @@ THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, cons
 
 template <Shape A, Shape B>
 Toi<float> impact_in_double(const ClosedForm<float>& method, const Moving<A>& a, const Moving<B>& b) {
-  return cast<float>(impact_by_ladder(ClosedForm<double>{method.min_separation}, cast<double>(a), cast<double>(b)));
+  if (!has_valid_axes(a) || !has_valid_axes(b)) return invalid_toi<float>();  // in double they would be mended
+  const ClosedForm<double> in_double{method.min_separation};
+  return cast<float>(impact_by_ladder(in_double, widened<double>(a), widened<double>(b)));
 }
 
 /// When A and B first touch during the step, by `method`.

@@ -1,6 +1,8 @@
 #pragma once
 /// The answer of every way to find a time of impact.
 
+#include <limits>
+
 #include <thinwall/discrete/scalar.hpp>
 
 namespace thinwall {
@@ -20,6 +22,9 @@ template <Scalar S> struct Toi {
   Vec3<S> normal = Vec3<S>::Zero();  ///< unit, from A to B
   Vec3<S> point = Vec3<S>::Zero();   ///< [length] where they touch, in world space
 };
+
+/// The answer to what is no question.
+template <Scalar S> Toi<S> invalid_toi() { return {ToiStatus::invalid, 0, std::numeric_limits<S>::quiet_NaN()}; }
 
 /// The same answer with A and B passed the other way round.
 template <Scalar S> Toi<S> flipped(const Toi<S>& toi) {

@@ -26,8 +26,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const NearPath<T> path(sphere.shape.center - shape.a, motion, reach + largest(core));
   Entry<T> entry = rounded_segment_entry<T>(path.start, motion, core, reach);
   entry.come_later(path.base_time);
-  return toi_of_walk(method, capsule, sphere, entry,
-                     [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_or_wider(method, capsule, sphere, entry,
+                      [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 template <Scalar S, Scalar T>
@@ -45,7 +45,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& a, const Mo
     entry = core_entry_at_any_scale(&closest_on_parallelogram<T>, path.start, motion, reach, core_a, core_b);
     entry.come_later(path.base_time);
   }
-  return toi_of_walk(method, a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
+  return toi_or_wider(method, a, b, entry, [&](const T& time) { return middle_point(a, b, time); });
 }
 
 template <Scalar S, Scalar T>
@@ -59,7 +59,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
   Entry<T> entry = flipped(own);
   entry.come_later(path.base_time);
-  return toi_of_walk(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
+  return toi_or_wider(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            (point_on_box<T>(path.start + motion * own.time, core, h) + own.normal * (gap / 2));
   });
@@ -98,8 +98,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
     entry = capsule_triangle_entry<T>(path.start, motion, reach, core, e1, e2);
     entry.come_later(path.base_time);
   }
-  return toi_of_walk(method, capsule, triangle, flipped(entry),
-                     [&](const T& time) { return middle_point(capsule, triangle, time); });
+  return toi_or_wider(method, capsule, triangle, flipped(entry),
+                      [&](const T& time) { return middle_point(capsule, triangle, time); });
 }
 
 }  // namespace thinwall

@@ -93,34 +93,18 @@ Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<
   return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
 }
 
-/// What the wider scalar asks about: the shape itself, and of a box, whose axes are orthonormal to the narrower scalar's
-/// rounding only, one with the nearest orthonormal axes and the true lengths of its edges: half as far off as its transpose.
-template <class A> const A& with_true_axes(const A& shape) { return shape; }
-template <Scalar W> Obb<W> with_true_axes(const Obb<W>& box) {
-  Obb<W> upright =
-      box;  // one step of Newton's method for the polar factor of the axes, and the lengths it takes from them
-  const Mat3<W> gram = box.axes.transpose() * box.axes;
-  upright.axes = box.axes * (Mat3<W>::Identity() * W(3) - gram) / W(2);
-  for (int i = 0; i < 3; ++i) upright.half_extents[i] *= (gram(i, i) + W(1)) / W(2);
-  return upright;
-}
-
 /// The whole question in the wider scalar.
 template <class Method, class A, class B, Scalar T>
 THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   using W = Wider<T>;
-  const auto wide = [](const auto& moving) {
-    const auto exact = cast<W>(moving);
-    return Moving{with_true_axes(exact.shape), exact.displacement};
-  };
-  return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, wide(a), wide(b)));
+  return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, widened<W>(a), widened<W>(b)));
 }
 
-/// The same for what is round and not turned, which a miss by little leaves in doubt, or which of two parts is met slowly; not where that is
-/// long after the step.
+/// The answer of a pair whose coordinates are not turned; from the wider scalar where a miss by little leaves it in doubt, or which of two
+/// parts is met slowly, but not where that is long after the step.
 template <class Method, class A, class B, Scalar T, class Point>
-Toi<T> toi_of_walk(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
-                   const Point& point) {
+Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
+                    const Point& point) {
   if constexpr (has_wider<T>) {
     const bool is_late = is_finite(found.time) && found.time > T(2);
     if (found.graze && !is_late) return toi_by_wider<Method, A, B, T>(method, a, b);

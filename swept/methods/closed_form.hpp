@@ -35,21 +35,21 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& box, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
   const Entry<T> entry = upright_box_entry<Sphere<T>, T>(box, sphere, Vec3<T>::Zero(), sphere.shape.radius + gap);
-  return toi_of_walk(method, box, sphere, entry,
-                     [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_or_wider(method, box, sphere, entry,
+                      [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Aabb<T>>& a, const Moving<Aabb<T>>& b) {
   const Entry<T> entry = upright_box_entry<Aabb<T>, T>(a, b, b.shape.half_extents, T(method.min_separation));
-  return toi_of_walk(method, a, b, entry,
-                     [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
-                       const Vec3<T> middle_a = a.shape.center + a.displacement * time,
-                                     middle_b = b.shape.center + b.displacement * time;
-                       return ((middle_a - a.shape.half_extents).cwiseMax(middle_b - b.shape.half_extents) +
-                               (middle_a + a.shape.half_extents).cwiseMin(middle_b + b.shape.half_extents)) /
-                              T(2);
-                     });
+  return toi_or_wider(method, a, b, entry,
+                      [&](const T& time) -> Vec3<T> {  // the middle of what they share, or of the gap, axis by axis
+                        const Vec3<T> middle_a = a.shape.center + a.displacement * time,
+                                      middle_b = b.shape.center + b.displacement * time;
+                        return ((middle_a - a.shape.half_extents).cwiseMax(middle_b - b.shape.half_extents) +
+                                (middle_a + a.shape.half_extents).cwiseMin(middle_b + b.shape.half_extents)) /
+                               T(2);
+                      });
 }
 
 template <Scalar S, Scalar T>
@@ -141,8 +141,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Triangle<T>>& triangle, 
     entry = sphere_triangle_entry<T>(path.start, motion, reach, e1, e2);
     entry.come_later(path.base_time);
   }
-  return toi_of_walk(method, triangle, sphere, entry,
-                     [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
+  return toi_or_wider(method, triangle, sphere, entry,
+                      [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
 }  // namespace thinwall

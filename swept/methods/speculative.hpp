@@ -27,7 +27,7 @@ template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
 Toi<typename A::Scalar> impact(const Speculative<S>& method, const Moving<A>& a, const Moving<B>& b) {
   using T = typename A::Scalar;
-  if (!(method.margin >= S(0)) || !is_finite(method.margin)) return invalid_option<T>();
+  if (!(method.margin >= S(0)) || !is_finite(method.margin)) return invalid_toi<T>();
   const T min_separation(method.min_separation);
   if (overlaps_unchecked(a.shape, b.shape, min_separation)) return overlapping_at_start(a, b, 1);
   const Vec3<T> path = relative_displacement(a, b);

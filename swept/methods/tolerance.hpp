@@ -17,9 +17,6 @@ template <Scalar S> bool is_tolerance(const S& tolerance) {
   return tolerance >= std::numeric_limits<S>::epsilon() && tolerance <= S(1);
 }
 
-/// The answer to an option out of its range.
-template <Scalar T> Toi<T> invalid_option() { return {ToiStatus::invalid, 0, std::numeric_limits<T>::quiet_NaN()}; }
-
 /// A time >= 0 that S holds and that is at most `time`. The front door computes a float query in double and rounds the
 /// answer to the nearest float, which may be later: a method that promises never to be late answers with one of these.
 template <Scalar S, Scalar T> T rounded_down_to(const T& time) {

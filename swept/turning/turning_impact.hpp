@@ -47,7 +47,7 @@ Toi<typename A::Scalar> time_of_impact(const Method& method, const Turning<A>& a
     return flipped(time_of_impact(method, b, a));
   } else {
     const bool has_valid_option = method.min_separation >= 0 && is_finite(method.min_separation);
-    if (!has_valid_option || !valid(a) || !valid(b)) return invalid_option<S>();
+    if (!has_valid_option || !valid(a) || !valid(b)) return invalid_toi<S>();
     if constexpr (std::is_same_v<S, float>) {
       return cast<float>(turning_impact_in_range(method, cast<double>(a), cast<double>(b)));
     } else {

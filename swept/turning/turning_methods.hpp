@@ -17,7 +17,7 @@ namespace thinwall {
 /// Sweeps the shapes as they stand at the start, and leaves their spin out: a linear shape cast, which is what the continuous collision
 /// detection of most engines asks.
 /// Claims: nothing. Misses what comes round within the step, hits what has turned away, early or late by any time.
-/// Error: none in the straight motion where the pair has a closed form, the default tolerance where it has not (triangle and capsule).
+/// Error: none in the straight motion.
 template <Scalar S> struct LinearSweep {
   static constexpr std::string_view name = "linear_sweep";
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
@@ -29,11 +29,11 @@ Toi<typename A::Scalar> impact(const LinearSweep<S>& method, const Turning<A>& a
   using T = typename A::Scalar;
   const Moving<A> straight_a{a.shape, a.displacement};
   const Moving<B> straight_b{b.shape, b.displacement};
-  if constexpr (serves<ClosedForm<T>, A, B>) {
-    return impact_by_ladder(ClosedForm<T>{T(method.min_separation)}, straight_a, straight_b);
-  } else {
-    return impact(ConservativeAdvancement<T>{.min_separation = T(method.min_separation)}, straight_a, straight_b);
-  }
+  const ClosedForm<T> closed_form{T(method.min_separation)};
+  // The ladder would refuse a float's boxes, whose axes are no better than float: the front door has judged them.
+  const bool is_question = has_valid_axes(a) && has_valid_axes(b);
+  return is_question ? impact_by_ladder(closed_form, straight_a, straight_b)
+                     : impact(closed_form, straight_a, straight_b);
 }
 
 template <Scalar S, Shape A, Shape B>
@@ -54,7 +54,7 @@ template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
 Toi<typename A::Scalar> impact(const Speculative<S>& method, const Turning<A>& a, const Turning<B>& b) {
   using T = typename A::Scalar;
-  if (!(method.margin >= S(0)) || !is_finite(method.margin)) return invalid_option<T>();
+  if (!(method.margin >= S(0)) || !is_finite(method.margin)) return invalid_toi<T>();
   const T min_separation(method.min_separation);
   if (overlaps_unchecked(a.shape, b.shape, min_separation)) return overlapping_at_start(a, b, 1);
   const TurningPair<T> pair(a, b, min_separation);

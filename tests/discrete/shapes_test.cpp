@@ -319,6 +319,31 @@ TYPED_TEST(ObbAxes, are_orthonormal_to_more_than_half_the_digits) {
   }
 }
 
+/// A box in S whose axes are off is one in W whose axes are not, with edges as long as they were.
+template <class S, class W> void expect_orthonormal_when_widened(const S& off) {
+  const W rounding = 8 * std::numeric_limits<W>::epsilon(), allowed = 2 * W(off) * W(off) + rounding;
+  const auto expect_near = [&](const W& is, const W& should_be) { EXPECT_LE(std::abs(is - should_be), allowed); };
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      Obb<S> slanted{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity()};
+      slanted.axes(row, column) += off;
+      const Obb<W> box = widened<W>(slanted);
+      const Mat3<W> gram = box.axes.transpose() * box.axes;
+      EXPECT_LE((gram - Mat3<W>::Identity()).cwiseAbs().maxCoeff(), rounding);
+      if (row != column) {
+        expect_near(box.axes(row, column), off / 2);
+        expect_near(box.axes(column, row), -off / 2);
+      }
+      for (int i = 0; i < 3; ++i) expect_near(box.half_extents[i], i == row && i == column ? 1 + W(off) : W(1));
+    }
+  }
+}
+
+TEST(ObbAxesWidened, are_orthonormal_to_the_rounding_of_the_wider_scalar) {
+  expect_orthonormal_when_widened<float, double>(0x1p-15F);
+  expect_orthonormal_when_widened<double, long double>(0x1p-32);
+}
+
 TYPED_TEST(ObbAxes, that_mirror_describe_the_same_box) {
   using S = TypeParam;
   const Obb<S> box{{0, 0, 0}, {1, 2, 3}, Mat3<S>::Identity()};

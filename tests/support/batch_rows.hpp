@@ -68,19 +68,13 @@ template <class A, class B> struct BatchRows {
       a.push_back(motion.a);
       b.push_back(motion.b);
       const Toi<S> toi = time_of_impact(motion.a, motion.b);
-      const Toi<double> fine = toi.status == ToiStatus::hit ? in_double(motion) : Toi<double>{};
+      const Toi<double> fine = toi.status == ToiStatus::hit
+                                   ? time_of_impact(widened<double>(motion.a), widened<double>(motion.b))
+                                   : Toi<double>{};
       truth.push_back({toi.status, 0, fine.time, fine.normal, fine.point});
     }
   }
 
-  /// Axes that are at right angles in float need not be in double, which the front door asks for.
-  static Toi<double> in_double(const Motion<A, B>& motion) {
-    if constexpr (std::is_same_v<S, double>) {
-      return time_of_impact(motion.a, motion.b);
-    } else {
-      return impact(ClosedForm<double>{}, cast<double>(motion.a), cast<double>(motion.b));
-    }
-  }
   bool has_every_status() const {
     std::array<int, 5> seen{};
     for (const Toi<double>& toi : truth) ++seen[static_cast<std::size_t>(toi.status)];

@@ -2,6 +2,7 @@
 
 #include <thinwall/swept/methods.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
 
 #include "support/any_number.hpp"
 
@@ -101,6 +102,16 @@ TEST(AnyNumberInMotion, boxes_in_float_have_axes_as_good_as_float) {  // though 
   expect_hit_and_overlap(EndOfStep<float>{});
   expect_hit_and_overlap(CentreRay<float>{});
   expect_hit_and_overlap(Inclusion<float>{});
+}
+
+TEST(AnyNumberInMotion, boxes_in_float_that_turn_have_too) {
+  Obb<float> box{{0, 0, 0}, {1, 1, 1}, Mat3<float>::Identity()};
+  box.axes(0, 1) = 0x1p-14F;
+  const Turning shot{Sphere<float>{{-4, 0.25F, 0}, 1}, {4, 0, 0}, {0, 0, 1}};
+  EXPECT_EQ(time_of_impact(LinearSweep<float>{}, shot, at_rest(box)).status, ToiStatus::hit);
+  EXPECT_EQ(time_of_impact(shot, at_rest(box)).status, ToiStatus::hit);
+  box.axes(0, 1) = 0x1p-12F;
+  expect_invalid(time_of_impact(shot, at_rest(box)));
 }
 
 TEST(AnyNumberInMotion,
