@@ -22,14 +22,16 @@ using Point = Sphere<double>;
 
 enum class Comes { as_a_box, as_a_point, as_a_ball };
 
-/// A box at rest, and one or a point of half extents `half`, or a ball, that comes beside its faces across two axes at one time but for
-/// rounding, half of them through a shift that both have. The axes are any, and every fourth box is a plate.
+/// A box at rest, and one or a point of half extents `half`, or a ball, every second a speck, that comes beside its faces across two axes at
+/// one time but for rounding, half of them through a shift that both have. The axes are any, and every fourth box is a plate.
 struct Tie : PortableDraw {
   Moving<Box> box;
   V half, start, path;
   double radius;
 
-  Tie(std::uint64_t seed, Comes comes) : PortableDraw(seed), radius(comes == Comes::as_a_ball ? between(0.1, 0.5) : 0) {
+  Tie(std::uint64_t seed, Comes comes)
+      : PortableDraw(seed),
+        radius(comes == Comes::as_a_ball ? std::ldexp(between(0.1, 0.5), one_in(2) ? 0 : -below(48)) : 0) {
     const int quick = below(3), slow = (quick + 1 + below(2)) % 3, other = 3 - quick - slow;
     const V shift = one_in(2) ? vector(-64, 64) : V(V::Zero());
     box = {{vector(-1, 1), vector(0.2, 0.8)}, shift};
