@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +73,23 @@ template <class A, class B, class Ask> auto in_order(const Shot<A, B>& q, const 
 
 double time_of(const Toi<D>& toi) { return toi.status == ToiStatus::apart ? never : toi.time; }
 
+/// The front door, asked the same in float: it answers in double.
+template <class A, class B> void add_in_float(const std::string& name, const Shots<A, B>& (*set)()) {
+  const auto in_float = [](const Shot<A, B>& q) { return std::pair(cast<float>(q.a), cast<float>(q.b)); };
+  const auto count = counted_once([set, in_float] {
+    return errors_of(set(), [in_float](const Shot<A, B>& q) {
+      const auto [a, b] = in_float(q);
+      return time_of(cast<D>(time_of_impact(a, b)));
+    });
+  });
+  add(name, [set, in_float, count](benchmark::State& state) {
+    std::vector<decltype(in_float(set().queries[0]))> queries;
+    std::ranges::transform(set().queries, std::back_inserter(queries), in_float);
+    time_queries(state, queries, [](const auto& q) { return time_of_impact(q.first, q.second); });
+    count(state);
+  });
+}
+
 /// Front door, careful rung and plain form of one time of impact. `plain` returns the time, or over 1 for a miss.
 template <class A, class B, class Plain>
 void add_impact(const std::string& pair, double goal, const Shots<A, B>& (*set)(), const Operations& least,
@@ -84,6 +102,7 @@ void add_impact(const std::string& pair, double goal, const Shots<A, B>& (*set)(
   add_timed(
       name + "/front_door", set, least, [](const Query& q) { return time_of_impact(q.a, q.b); },
       [](const Query& q) { return time_of(time_of_impact(q.a, q.b)); });
+  add_in_float(name + "/in_float", set);
   const auto careful = [](const Query& q) {
     return in_order(q, [](const auto& a, const auto& b) { return careful_impact({}, a, b); });
   };
@@ -245,15 +264,15 @@ std::string percent(double share) {
 class TableReporter : public MedianTimes {
  public:
   void Finalize() override {
-    std::printf("\n%-36s %10s %10s %10s %10s %9s %9s %6s %8s\n", "[ns, this run]", "front door", "careful", "plain",
-                "to careful", "to plain", "to floor", "goal", "clear");
+    std::printf("\n%-36s %10s %10s %10s %10s %10s %9s %9s %6s %8s\n", "[ns, this run]", "front door", "in float",
+                "careful", "plain", "to careful", "to plain", "to floor", "goal", "clear");
     for (const Row& row : rows) {
       const double front = time(row.name + "/front_door"), careful = time(row.name + "/careful");
       const double form = time(row.name + "/plain");
       if (front == 0) continue;
-      std::printf("%-36s %10.1f %10.1f %10.1f %10.2f %9.2f %9.1f %6.1f ", row.name.c_str(), front, careful, form,
-                  careful > 0 ? front / careful : 0, form > 0 ? front / form : 0, to_floor(row.name + "/front_door"),
-                  row.goal);
+      std::printf("%-36s %10.1f %10.1f %10.1f %10.1f %10.2f %9.2f %9.1f %6.1f ", row.name.c_str(), front,
+                  time(row.name + "/in_float"), careful, form, careful > 0 ? front / careful : 0,
+                  form > 0 ? front / form : 0, to_floor(row.name + "/front_door"), row.goal);
       std::printf("%8s\n", row.clear ? percent(row.clear()).c_str() : "");
     }
     std::printf("Floor: to read a query where so many stay, or a hit's division and square root, whichever is more.\n");
