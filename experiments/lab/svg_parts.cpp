@@ -86,7 +86,7 @@ double room_for_names(const std::vector<Panel>& panels) {
   for (const Panel& panel : panels) {
     for (const Tic& tic : panel.y_tics) longest = std::max(longest, tic.label.size());
   }
-  return longest == 0 ? 0 : 56 + letter_width * static_cast<double>(longest);
+  return longest == 0 ? 0 : 56 + widest_letter * static_cast<double>(longest);
 }
 
 double letters_of_longest(const std::vector<SeriesStyle>& styles) {
