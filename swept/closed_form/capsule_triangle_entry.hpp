@@ -18,24 +18,65 @@ Entry<S> capsule_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, 
   return core_entry_at_any_scale<S>(closest, p, v, R, d, e1, e2);
 }
 
-/// The same without a radius, to the end of the step.
-/// Error: the verdict is that of the given numbers' faces exactly, unless a product underflows; p + d is rounded.
+/// The first face of the prism that is met; `leaves` if the motion comes out of it there.
+template <Scalar S> struct PrismFace {
+  Entry<S> entry;
+  bool leaves = false;
+};
+
+template <Scalar S>
+PrismFace<S> first_face_of_prism(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& e1,
+                                 const Vec3<S>& e2) {
+  PrismFace<S> first;
+  const auto meet = [&](FlatShape shape, const Vec3<S>& from, const Vec3<S>& side1, const Vec3<S>& side2,
+                        const Vec3<S>& inward) {
+    if (first.entry.inside) return;
+    const Entry<S> entry = flat_entry<S>(shape, from, v, side1, side2, S(1));
+    const bool is_first = entry.time < first.entry.time || (entry.time == first.entry.time && first.leaves);
+    if (entry.inside || is_first) first = {entry, entry.normal.dot(inward) > S(0)};
+  };
+  meet(FlatShape::triangle, p, e1, e2, -d);
+  meet(FlatShape::triangle, p + d, e1, e2, d);
+  meet(FlatShape::parallelogram, p, e1, -d, e2);
+  meet(FlatShape::parallelogram, p, e2, -d, e1);
+  meet(FlatShape::parallelogram, p - e1, e2 - e1, -d, -e1);
+  return first;
+}
+
+/// x to a multiple of a unit so large that sums of two such vectors no greater than `most` are exact.
+template <Scalar S> Vec3<S> with_exact_sums(const Vec3<S>& x, const S& most) {
+  using std::floor;
+  const int e = binary_exponent(most) + 2 - std::numeric_limits<S>::digits;
+  const auto rounded = [&](const S& c) {
+    return times_power_of_two(S(floor(times_power_of_two(c, -e) + S(1) / S(2))), e);
+  };
+  return {rounded(x[0]), rounded(x[1]), rounded(x[2])};
+}
+
+/// The same without a radius, to the end of the step. Faces that share a rim are asked with sums, each rounded for itself, and between them
+/// there may be a gap of a rounding: where the first face met is one the motion leaves by, or none is and the end meets the triangle, it came
+/// in there. Then all is asked again with the last digits rounded, so that no sum is, and the faces close.
+/// Error: the verdict is that of the given numbers' faces exactly, unless a product underflows or a sum is rounded; else of numbers that are
+/// off by 2 u of the largest.
 template <Scalar S>
 Entry<S> sharp_segment_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& e1,
                                       const Vec3<S>& e2) {
-  Entry<S> first;
-  first.inside = segment_meets_triangle(p, d, e1, e2);
-  const auto meet = [&](FlatShape shape, const Vec3<S>& from, const Vec3<S>& side1, const Vec3<S>& side2) {
-    if (first.inside) return;
-    const Entry<S> entry = flat_entry<S>(shape, from, v, side1, side2, S(1));
-    if (entry.inside || entry.time < first.time) first = entry;
-  };
-  meet(FlatShape::triangle, p, e1, e2);
-  meet(FlatShape::triangle, p + d, e1, e2);
-  meet(FlatShape::parallelogram, p, e1, -d);
-  meet(FlatShape::parallelogram, p, e2, -d);
-  meet(FlatShape::parallelogram, p - e1, e2 - e1, -d);
-  return first;
+  Entry<S> at_start;
+  at_start.inside = segment_meets_triangle(p, d, e1, e2);
+  if (at_start.inside) return at_start;
+  const PrismFace<S> first = first_face_of_prism(p, v, d, e1, e2);
+  const bool is_met = first.entry.inside || first.entry.time <= S(1);
+  if (is_met ? !first.leaves : !segment_meets_triangle<S>(p + v, d, e1, e2)) return first.entry;
+  const S most = largest(p, d, e1, e2);
+  const auto on_grid = [&](const Vec3<S>& x) { return with_exact_sums(x, most); };
+  const Vec3<S> start = on_grid(p), core = on_grid(d), edge1 = on_grid(e1), edge2 = on_grid(e2);
+  Entry<S> entry = first_face_of_prism(start, v, core, edge1, edge2).entry;
+  if (entry.inside || segment_meets_triangle(start, core, edge1, edge2)) {  // by a rounding: it does not touch yet
+    entry.inside = false;
+    entry.time = S(0);
+    entry.normal = -safe_unit(v);
+  }
+  return entry;
 }
 
 }  // namespace thinwall
