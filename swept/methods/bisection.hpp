@@ -59,16 +59,18 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     const Separation<T> closest = separation_unchecked(pose_at(a, time), pose_at(b, time));
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
+  // The direction of a gap is off by rounding, S's of the axes too, over its length; and its slope by that part of the path.
+  const T noise(gap_noise(S(magnitude(a) + magnitude(b)))), slope_noise = noise * safe_norm(path);
+  const auto approaches_for_sure = [&](const GapSample<T>& s) { return s.closing * s.closest.distance > slope_noise; };
+  const auto recedes_for_sure = [&](const GapSample<T>& s) { return s.closing * s.closest.distance < -slope_noise; };
   GapSample<T> before = sample(T(0));
-  // The direction of a gap within rounding, S's of the axes too, is none, and its slope proves nothing.
-  const T noise(gap_noise(S(magnitude(a) + magnitude(b))));
   bool has_slope = before.closing > T(0);
-  if (!has_slope && before.gap > noise) return {ToiStatus::apart, evaluations};
+  if (recedes_for_sure(before)) return {ToiStatus::apart, evaluations};
   GapSample<T> after = sample(T(1));
   constexpr int rounds = 2 * std::numeric_limits<S>::digits;  // half of them halve
   for (int k = 0; after.gap > T(0); ++k) {
     const T at_start = after.gap + after.closing * after.time;  // the tangent, which leads up from there
-    const bool stays_apart = after.closing >= T(0) || (!has_slope && at_start > -noise);
+    const bool stays_apart = approaches_for_sure(after) || (!has_slope && at_start > -noise);
     if (stays_apart || k == rounds) return {ToiStatus::apart, evaluations};
     const TangentCrossing<T> crossing(before, after);
     if (has_slope && crossing.lowest > T(0)) return {ToiStatus::apart, evaluations};
