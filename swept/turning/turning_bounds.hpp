@@ -41,7 +41,7 @@ template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Turning<A>& m) {
   using S = typename A::Scalar;
   using std::ceil, std::sin;
   if (m.rotation == Vec3<S>::Zero()) return swept_bounds(Moving<A>{m.shape, m.displacement});
-  const S size = magnitude(m);
+  const S size = extent(m);
   const int e = is_finite(size) ? binary_exponent(size) : std::numeric_limits<S>::max_exponent;
   if (e < -64 || e > 64) {  // squares would leave the range
     const Aabb<S> box = swept_bounds(scaled(m, -e));
@@ -55,7 +55,8 @@ template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Turning<A>& m) {
   const Vec3<S> end = body.center + body.path, orbit = body.axis.cwiseAbs() * on_axis + across_axis;
   const Vec3<S> orbit_low = body.center.cwiseMin(end) - orbit, orbit_high = body.center.cwiseMax(end) + orbit;
   Vec3<S> low = orbit_low, high = orbit_high;
-  if (constexpr S full_turn = 2 * std::numbers::pi_v<S>; body.angle < full_turn) {
+  constexpr S full_turn = 2 * std::numbers::pi_v<S>;
+  if (body.angle < full_turn) {
     const int pieces = 1 + static_cast<int>(body.angle * S(16) / full_turn);
     const S piece = body.angle / S(pieces), half_sine = sin(piece / S(4));
     const Mat3<S> onward = rotation_about(body.axis, piece);
@@ -69,7 +70,7 @@ template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Turning<A>& m) {
     low = (low - bulge).cwiseMax(orbit_low);
     high = (high + bulge).cwiseMin(orbit_high);
   }
-  const S slack = 64 * std::numeric_limits<S>::epsilon() * (S(1) + body.angle / S(4));
+  const S slack = 64 * std::numeric_limits<S>::epsilon() * (S(1) + std::min(body.angle, full_turn) / S(4));
   const Vec3<S> outward = Vec3<S>::Constant(body.radius + slack * (size + orbit.sum()));
   return {(low + high) / S(2), (high - low) / S(2) + outward};
 }

@@ -25,7 +25,7 @@ template <class Method, Shape A, Shape B>
 Toi<typename A::Scalar> turning_impact_in_range(Method method, const Turning<A>& a, const Turning<B>& b) {
   using S = typename A::Scalar;
   using std::ldexp;
-  const S size = std::max(std::max(S(magnitude(a)), S(magnitude(b))), S(method.min_separation));
+  const S size = std::max(std::max(extent(a), extent(b)), S(method.min_separation));
   const int e = is_finite(size) ? binary_exponent(size) : std::numeric_limits<S>::max_exponent;
   if (e >= -64 && e <= 64) return impact(method, a, b);
   method.min_separation = ldexp(method.min_separation, -e);

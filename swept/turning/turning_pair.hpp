@@ -123,7 +123,7 @@ template <Scalar S> struct TurningBody {
     if (m.rotation == Vec3<S>::Zero()) return;
     rotation = m.rotation;
     angle = safe_norm(rotation);
-    axis = rotation / angle;
+    axis = safe_unit(rotation);
     for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k) swings[k] = swing(core.v[k]);
     CoreVectors<S> ahead = core;
     for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k) ahead.v[k] = swings[k].ahead;
@@ -171,7 +171,7 @@ template <Scalar S> struct TurningPair {
         path(b.path - a.path),
         reach(a.radius + b.radius + min_separation),
         turn(a.angle + b.angle),
-        speed(norm(path) + a.angle * a.off_axis + b.angle * b.off_axis) {
+        speed(safe_norm(path) + a.angle * a.off_axis + b.angle * b.off_axis) {
     S size = reach;
     for (const TurningBody<S>* body : {&a, &b}) {
       size += body->center.cwiseAbs().sum() + body->path.cwiseAbs().sum();
