@@ -75,17 +75,10 @@ template <Shape A, Shape B> Manifold<typename A::Scalar> manifold(const A& a, co
   if constexpr (A::rank < B::rank) {
     return flipped(manifold(b, a));
   } else {
-    const auto unchecked = [](const A& x, const B& y) {
-      return overlaps_unchecked(x, y, S(0)) ? touching_manifold(x, y) : Manifold<S>{};
-    };
-    switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
-      case Magnitudes::ordinary: return unchecked(a, b);
-      case Magnitudes::huge:
-        return changed(unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent)),
-                       [](const Contact<S>& c) { return scaled(c, huge_exponent); });
-      case Magnitudes::invalid: break;
-    }
-    return {};
+    if (!overlaps(a, b)) return {};
+    if (is_ordinary(S(magnitude(a) + magnitude(b)))) return touching_manifold(a, b);
+    return changed(touching_manifold(scaled(a, -huge_exponent), scaled(b, -huge_exponent)),
+                   [](const Contact<S>& c) { return scaled(c, huge_exponent); });
   }
 }
 

@@ -37,15 +37,16 @@ template <Scalar S> Contact<S> seen_from_a(const BoxPair<S>& pair, const Contact
 
 /// The manifold of boxes that touch or overlap, in A's axes. Requires lengths whose products of two are in range.
 template <Scalar S> Manifold<S> boxes_manifold_in_range(const BoxPair<S>& pair) {
-  const CoreGap<S> gap = box_gap(pair);
-  const BoxFace face = face_along(pair, gap.normal, parallel_sine<S>());
+  const LeastOverlap<S> least = least_overlap(pair);
+  const BoxFace face = face_along(pair, least.normal, parallel_sine<S>());
   if (face.axis >= 0) {
     const Manifold<S> manifold = face_manifold(face.of_b ? seen_from_b(pair) : pair, face.axis, face.negative);
     if (!manifold.empty() && !face.of_b) return manifold;
     if (!manifold.empty()) return changed(manifold, [&](const Contact<S>& c) { return seen_from_a(pair, c); });
   }
+  const BoxPoints<S> points = deepest_points(pair, least.axis_a, least.axis_b, least.normal);
   Manifold<S> point;
-  point.contacts[0] = {gap.local_a, gap.local_b, gap.normal, std::max(S(0), S(-gap.distance))};
+  point.contacts[0] = {points.on_a, points.on_b - pair.between, least.normal, std::max(S(0), least.overlap)};
   point.count = 1;
   return point;
 }

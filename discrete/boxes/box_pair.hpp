@@ -384,7 +384,7 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
 }
 
 /// The deepest points of boxes that part along the unit vector n, found on the axes (i, j). Edges whose product is
-/// normal to a face, to rounding, meet on that face.
+/// normal to a face, to rounding, meet on that face; and edges all but parallel where they do not meet along n, on the face nearest to it.
 template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, int j, const Vec3<S>& n) {
   BoxFace face;
   if (j < 0) {
@@ -394,7 +394,13 @@ template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, i
   } else {
     face = face_along(pair, n, gap_noise(S(1)));
   }
-  if (face.axis < 0) return closest_on_edges(pair, i, j, n);
+  if (face.axis < 0) {
+    const BoxPoints<S> points = closest_on_edges(pair, i, j, n);
+    const Vec3<S> way = points.on_b - points.on_a;
+    const bool lie_along_n = largest(Vec3<S>(way - n * way.dot(n))) <= box_noise(pair);
+    if (!lie_along_n) face = face_along(pair, n, parallel_sine<S>());
+    if (face.axis < 0) return points;
+  }
   if (!face.of_b) return deepest_points_on_face(pair, face.axis, face.negative);
   const BoxPoints<S> seen = deepest_points_on_face(seen_from_b(pair), face.axis, face.negative);
   return {pair.between + pair.axes * seen.on_b, pair.between + pair.axes * seen.on_a};
