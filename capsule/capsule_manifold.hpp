@@ -4,6 +4,8 @@
 /// may be skew by half the digits of S; the two points of an end then lie on one line along the normal to that.)
 /// Source: derived here.
 
+#include <algorithm>
+
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/boxes/box_manifold.hpp>
 
@@ -94,6 +96,11 @@ template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& capsule, con
     if (inward.dot(corners[(k + 2) % 3] - corner) < S(0)) inward = -inward;
     stretch = stretch.inside(inward.dot(start - corner), inward.dot(start + core - corner), noise);
   }
+  // Past the tip of a needle, whose sides are all but parallel, rounding would let a core that runs along it out.
+  const Vec3<S> ahead = safe_unit(core);
+  const auto [low, high] = std::minmax({S(0), S(ahead.dot(corners[1])), S(ahead.dot(corners[2]))});
+  const S from = ahead.dot(start), to = ahead.dot(start + core);
+  stretch = stretch.inside(from - low, to - low, noise).inside(high - from, high - to, noise);
   const Vec3<S> middle = center(triangle) - triangle.a;
   const Manifold<S> ends = ends_of_stretch<S>(capsule, S(0), normal, stretch, noise, [&](const S& s) -> FacingPoint<S> {
     const Vec3<S> point = start + core * s;

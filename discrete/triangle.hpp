@@ -97,7 +97,7 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
 
 /// The unit normal of the plane, on the side of +x, then +y, then +z; zero for a triangle of no area.
 template <Scalar S> Vec3<S> plane_normal(const Triangle<S>& t) {
-  return towards_positive<S>(safe_unit(cross(safe_unit<S>(t.b - t.a), safe_unit<S>(t.c - t.a))));
+  return towards_positive<S>(safe_unit(accurate_cross<S>(safe_unit<S>(t.b - t.a), safe_unit<S>(t.c - t.a))));
 }
 
 /// The part of the triangle that is closest to x, relative to corner a, at any scale; the part's `gap` alone is set.

@@ -92,7 +92,8 @@ Toi<float> impact_in_double(const ClosedForm<float>& method, const Moving<A>& a,
 /// negative min_separation.
 /// Degenerate: touching at the start is `overlapping` with time 0, whatever the motion (but EndOfStep and Substeps look
 /// only at the poses they sample); no relative motion is `apart`, or `overlapping` if they touch.
-/// Passing A and B the other way round flips the normal and changes nothing else.
+/// Passing A and B the other way round flips the normal and changes nothing else; where both are of one kind, the time may differ by the
+/// method's error.
 template <class Method, Shape A, Shape B>
 THINWALL_HOT Toi<typename A::Scalar> time_of_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   static_assert(std::same_as<typename A::Scalar, typename B::Scalar>, "both shapes must have the same scalar");

@@ -40,7 +40,7 @@ inline constexpr int unbounded_class = 1001;     ///< sides of 2^1000 and more: 
 
 /// The number of the cell that holds x, never falling as x grows.
 inline std::int64_t cell_at(double x, double origin, double per_cell) {
-  const double cells = (x - origin) * per_cell;
+  const double way = x - origin, cells = is_finite(way) ? way * per_cell : (x / 2 - origin / 2) * per_cell * 2;
   const double near = cells < farthest_cell ? (cells > -farthest_cell ? cells : -farthest_cell) : farthest_cell;
   const auto toward_zero = static_cast<std::int64_t>(near);
   return toward_zero - (near < static_cast<double>(toward_zero) ? 1 : 0);
