@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <thinwall/capsule/clear_segment_box.hpp>
 #include <thinwall/capsule/clear_segment_entry.hpp>
 #include <thinwall/capsule/clear_segments.hpp>
 #include <thinwall/capsule/ray_capsule.hpp>
@@ -115,7 +116,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& a, const Capsule<S>& b
     gap.normal = safe_unit(closest.gap);
     return gap;
   }
-  const Vec3<S> across = cross(safe_unit(core_a), safe_unit(core_b));
+  const Vec3<S> across = accurate_cross<S>(safe_unit(core_a), safe_unit(core_b));
   gap.along = core_a == Vec3<S>::Zero() ? core_b : core_a;
   if (largest(across) <= gap_noise(S(1))) return gap;
   gap.normal = towards_positive<S>(safe_unit(across));
@@ -180,8 +181,8 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangl
   gap.distance = closest.part.distance();
   gap.local_a = core * (closest.s - S(1) / S(2));
   gap.local_b = closest.on_triangle - (center(triangle) - triangle.a);
-  gap.along = core;
   const Vec3<S> x = capsule.a - triangle.a, e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+  gap.along = core != Vec3<S>::Zero() ? core : largest(e1) < largest(e2) ? e2 : e1;
   const S noise = gap_noise(largest(x, core, e1, e2));
   const bool clear = closest.part.depth > S(0) || gap.distance > noise;
   gap.normal = clear ? Vec3<S>(-safe_unit(closest.part.gap)) : parting_normal(x, core, e1, e2, noise);
@@ -240,6 +241,35 @@ THINWALL_HOT ClearContact clear_contact(const Capsule<double>& first, const Caps
   const packed::Lanes on_a = core.d * all(nearest.place), on_b = on_a - nearest.at;  // from their starts
   contact.local_a = (on_a - core.d * all(0.5)) + contact.normal * all(first.radius);
   contact.local_b = (on_b - core.e * all(0.5)) - contact.normal * all(second.radius);
+  return contact;
+}
+
+/// In the box's own axes, from the box to the capsule. Not clear if the core pierces the box, or lies along what is nearest to it, all but level:
+/// then where they touch is for rounding to say.
+template <class Frame>
+THINWALL_HOT ClearContact clear_box_capsule(const Frame& frame, const Vec3<double>& center, const Vec3<double>& half,
+                                            const Capsule<double>& capsule) {
+  using packed::all, packed::lanes, packed::both;
+  const packed::Lanes a = lanes(capsule.a), d = lanes(capsule.b) - a, h = lanes(half);
+  const packed::Lanes x = frame.into(a - lanes(center));
+  const ClearSegmentBox core(frame.into(d), h, all(0));
+  const ClearNearest nearest = core.part(x).nearest;
+  ClearContact contact = clear_core_contact(core, nearest, x, 0, capsule.radius);
+  const packed::Lanes gap = abs(nearest.gap), out = keep(all(largest_of(gap)) < gap * all(0x1p20), core.d);
+  const bool leans = all_of(dot(d, d) * both(0x1p-40) <= dot(out, out));
+  contact.clear = both(both(contact.clear, frame.clear()), both(leans, all_of(all(0) <= h)));
+  contact.normal = frame.out_of(contact.normal);
+  contact.local_a = frame.out_of(nearest.at + core.d * all(nearest.place));
+  contact.local_b = d * all(nearest.place - both(0.5)) - contact.normal * all(capsule.radius);
+  return contact;
+}
+THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Capsule<double>& capsule) {
+  return clear_box_capsule(ClearFrame(box.axes), box.center, box.half_extents, capsule);
+}
+/// Its contact acts at the box's center.
+THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Capsule<double>& capsule) {
+  ClearContact contact = clear_box_capsule(ClearUpright{}, box.center, box.half_extents, capsule);
+  contact.local_a = packed::all(0);
   return contact;
 }
 

@@ -158,14 +158,29 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Aabb<double
   const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
   const ClearWayOut out(x, h);
   const packed::LanesMask in_range = (abs(x) + h <= all(packed::most_length)) & (zero <= min(half_a, half_b));
-  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal, out.depth, false};
+  return {all_of(in_range), all_of(abs(x) <= h), zero, zero, out.normal, out.depth};
+}
+THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Aabb<double>& b) {
+  using packed::Lanes, packed::Pair, packed::all, packed::both;
+  const Lanes x = packed::lanes(b.center) - packed::lanes(a.center), half_a = packed::lanes(a.half_extents);
+  const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
+  const Lanes excess = x - max(min(x, h), zero - h), low = max(zero - half_a, x - half_b),
+              high = min(half_a, x + half_b);
+  const Pair square = dot(excess, excess), distance = root(square);
+  ClearContact gap = clear_contact(a, b);
+  const bool has_square = all_of(both(packed::least_square) <= square) || gap.touching;
+  gap.clear = both(gap.clear, has_square);
+  if (!gap.touching) gap.normal = excess / all(distance), gap.depth = both(0) - distance;
+  const packed::LanesMask faces = zero < abs(gap.normal);
+  gap.local_b = select(faces, against(half_b, gap.normal), (low + high) * all(0.5) - x);
+  return gap;
 }
 
-THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<double>& sphere) {
+/// The sphere at x and the box [-h, h], whose contact acts at its center.
+THINWALL_HOT ClearContact clear_contact_in_box(const packed::Lanes& x, const packed::Lanes& h, double radius) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
-  const Lanes x = packed::lanes(sphere.center) - packed::lanes(box.center), h = packed::lanes(box.half_extents);
   const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
-  const Pair r = both(sphere.radius), rr = r * r, square = dot(excess, excess), distance = root(square);
+  const Pair r = both(radius), rr = r * r, square = dot(excess, excess), distance = root(square);
   const PairMask inside = square <= both(0);
   const bool has_square = all_of(both(packed::least_square) <= square) || all_of(abs(x) <= h);
   const PairMask in_range = (both(packed::least_square) <= rr) & (max(rr, square) <= both(packed::most_square)) &
@@ -178,6 +193,10 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<do
           (zero - outward) * all(r),
           outward,
           r + select(inside, out.depth, both(0) - distance)};
+}
+THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<double>& sphere) {
+  return clear_contact_in_box(packed::lanes(sphere.center) - packed::lanes(box.center), packed::lanes(box.half_extents),
+                              sphere.radius);
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double>& box) {

@@ -7,7 +7,7 @@
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/boxes/box_pair.hpp>
-#include <thinwall/discrete/clear/clear_box_axes.hpp>
+#include <thinwall/discrete/clear/clear_box_gap.hpp>
 #include <thinwall/discrete/entry/near_path.hpp>
 
 namespace thinwall {
@@ -137,34 +137,6 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 
 // ---- The clear rung (clear/clear_entry.hpp).
 
-/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often.
-struct ClearFrame {
-  static constexpr bool is_turned = true;
-  const double* numbers;
-  packed::Lanes x, y, z;
-  packed::Vectors<packed::Lanes> rows;  ///< of each of the world's axes, what the box's have along it
-  packed::Lanes squares;                ///< of the axes' lengths
-
-  THINWALL_HOT explicit ClearFrame(const Mat3<double>& m)
-      : numbers(m.data()),
-        x(packed::lanes(numbers)),
-        y(packed::lanes(numbers + 3)),
-        z(packed::lanes(numbers + 6)),
-        rows(packed::transposed(x, y, z)),
-        squares(dot(rows, rows)) {}
-  THINWALL_HOT bool clear() const {
-    const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
-    return all_of(abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(0x1p-49));
-  }
-  /// Vectors in the box's own axes, and one of these in the world's.
-  THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return dot(rows, spread(v)); }
-  THINWALL_HOT packed::Lanes out_of(const packed::Lanes& v) const {
-    const packed::Vectors<packed::Lanes> part = spread(v);
-    return (x * part.x + y * part.y) + z * part.z;
-  }
-  THINWALL_HOT packed::Lanes axis(int i) const { return packed::lanes(numbers + 3 * static_cast<std::ptrdiff_t>(i)); }
-};
-
 /// Two boxes whose centers are `between` apart in the first one's axes; `orthonormal` if all axes are clear.
 THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const packed::Lanes& between,
                                               const packed::Lanes& size, bool orthonormal) {
@@ -172,7 +144,7 @@ THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const p
   const packed::Vectors<Lanes> d = spread(between);
   LanesMask apart = all(1) < all(0), within = all(0) <= min(boxes.a, boxes.b);
   const LanesMask in_range = within & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
-  boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise) {
+  boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise, const Lanes&) {
     const Lanes distance = abs(along(d));
     apart = apart | (reach + noise < distance);
     within = within & (distance <= reach - noise);
@@ -194,6 +166,63 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& b, const Aabb<double>
   const ClearFrame of_b(b.axes);
   return clear_boxes_overlap({of_b.rows, ha, hb, size * packed::all(0x1p-46)}, between, size, of_b.clear());
 }
+
+THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& box, const Sphere<double>& sphere) {
+  using packed::Lanes, packed::Pair, packed::all, packed::both;
+  const ClearFrame frame(box.axes);
+  const Lanes from_box = packed::lanes(sphere.center) - packed::lanes(box.center);
+  const Lanes x = frame.into(from_box), h = packed::lanes(box.half_extents), excess = x - max(min(x, h), all(0) - h);
+  const Pair r = both(sphere.radius), distance = root(dot(excess, excess)), size = sum(abs(from_box) + h) + r;
+  const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
+  const packed::PairMask decided = size * both(0x1p-46) < abs(distance - r);
+  return {both(both(all_of(in_range & decided), frame.clear()), both(all_of(all(0) <= h), sphere.radius >= 0)),
+          all_of(distance < r)};
+}
+/// In the box's own axes, made of unit length. Clear where no rounding of turning decides, nor says which way out is shortest, or where the
+/// box faces.
+THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<double>& sphere) {
+  using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
+  const ClearFrame frame(box.axes);
+  const Lanes per_length = frame.per_length();
+  const Lanes from_box = packed::lanes(sphere.center) - packed::lanes(box.center);
+  const Lanes x = frame.into(from_box) * per_length, h = packed::lanes(box.half_extents) / per_length;
+  ClearContact contact = clear_contact_in_box(x, h, sphere.radius);
+  const Pair r = both(sphere.radius), noise = sum(abs(from_box) + h) * both(0x1p-46);
+  const Lanes depths = h - abs(x);
+  const unsigned ways_out = bits(depths <= all(smallest_of(depths) + noise));
+  const PairMask wide = noise * both(0x1p26) < r - contact.depth;  // the distance from the box
+  const bool one_way = both(all_of(all(noise) < depths), (ways_out & (ways_out - 1)) == 0);
+  contact.clear =
+      both(both(contact.clear, frame.clear()), both(all_of(noise < abs(contact.depth)), all_of(wide) || one_way));
+  const Lanes on_box = x - contact.normal * all(r - contact.depth);
+  contact.normal = frame.out_of(contact.normal * per_length);
+  contact.local_a = frame.out_of(on_box * per_length);
+  contact.local_b = (all(0) - contact.normal) * all(r);
+  return contact;
+}
+
+template <bool apart_too> THINWALL_HOT ClearContact clear_boxes_gap(const Obb<double>& a, const Obb<double>& b) {
+  const ClearFrame of_a(a.axes), of_b(b.axes);
+  return clear_boxes_gap<apart_too>(of_a, a.half_extents, of_b, b.half_extents,
+                                    {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)},
+                                    packed::lanes(b.center) - packed::lanes(a.center));
+}
+template <bool apart_too> THINWALL_HOT ClearContact clear_boxes_gap(const Aabb<double>& a, const Obb<double>& b) {
+  const ClearFrame of_b(b.axes);
+  return clear_boxes_gap<apart_too>(ClearUpright{}, a.half_extents, of_b, b.half_extents, of_b.rows,
+                                    packed::lanes(b.center) - packed::lanes(a.center));
+}
+THINWALL_HOT ClearContact clear_contact(const Obb<double>& a, const Obb<double>& b) {
+  return clear_boxes_gap<false>(a, b);
+}
+THINWALL_HOT ClearContact clear_gap(const Obb<double>& a, const Obb<double>& b) { return clear_boxes_gap<true>(a, b); }
+/// Its contact acts at the center of the one that is not turned.
+THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Obb<double>& b) {
+  ClearContact contact = clear_boxes_gap<false>(a, b);
+  contact.local_a = packed::all(0);
+  return contact;
+}
+THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Obb<double>& b) { return clear_boxes_gap<true>(a, b); }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {
   using packed::Lanes, packed::all, packed::both;

@@ -64,8 +64,8 @@ template <Shape A, Shape B> CoreGap<typename A::Scalar> core_gap_either_way(cons
   }
 }
 
-/// separation() of valid shapes of ordinary size, as overlaps_unchecked().
-template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
+/// The careful rung of a separation, of valid shapes of ordinary size.
+template <Shape A, Shape B> Separation<typename A::Scalar> separation_of_cores(const A& a, const B& b) {
   using S = typename A::Scalar;
   const CoreGap<S> gap = core_gap_either_way(a, b);
   const Vec3<S> normal = gap.normal == Vec3<S>::Zero() ? arbitrary_normal(gap.along) : gap.normal;
@@ -169,15 +169,20 @@ template <Shape A, Shape B> THINWALL_HOT std::optional<Contact<typename A::Scala
 template <Shape A, Shape B, class Otherwise>
 THINWALL_HOT Separation<typename A::Scalar> clear_separation_or(const A& a, const B& b, const Otherwise& otherwise) {
   if constexpr (HasClearContact<A, B>) {
-    const ClearContact answer = clear_contact(a, b);
-    if (answer.clear && answer.has_gap) [[likely]]
+    const ClearContact answer = clear_gap(a, b);
+    if (answer.clear) [[likely]]
       return answer.separation(center(b));
   } else if constexpr (HasClearContact<B, A>) {
-    const ClearContact answer = clear_contact(b, a);
-    if (answer.clear && answer.has_gap) [[likely]]
+    const ClearContact answer = clear_gap(b, a);
+    if (answer.clear) [[likely]]
       return flipped(answer.separation(center(a)));
   }
   return otherwise();
+}
+
+/// separation() of valid shapes of ordinary size, as overlaps_unchecked().
+template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
+  return clear_separation_or(a, b, [&] { return separation_of_cores(a, b); });
 }
 
 /// The careful rung of separation(): any input, at any scale.
@@ -195,9 +200,9 @@ template <Shape A, Shape B>
     }
   }
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
-    case Magnitudes::ordinary: return separation_unchecked(a, b);
+    case Magnitudes::ordinary: return separation_of_cores(a, b);
     case Magnitudes::huge:
-      return scaled(separation_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
+      return scaled(separation_of_cores(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
     case Magnitudes::invalid: break;
   }
   return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};

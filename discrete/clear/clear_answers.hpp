@@ -20,12 +20,11 @@ template <class Held> THINWALL_HOT void keep_if(bool holds, std::optional<Held>&
 #endif
 }
 
-/// Contact data from A to B, if whether they touch is clear; of no meaning unless they do, but for those that have a gap.
+/// Contact data from A to B, if whether they touch is clear; of no meaning unless they do, but for a gap's.
 struct ClearContact {
   bool clear, touching;
   packed::Lanes local_a, local_b, normal;
-  packed::Pair depth;   ///< [length]
-  bool has_gap = true;  ///< `depth` is below 0 apart, by the distance, and `local_b` the nearest point of B
+  packed::Pair depth;  ///< [length]
 
   THINWALL_HOT std::optional<Contact<double>> contact() const {
     std::optional<Contact<double>> made(std::in_place);  // written whatever the verdict: nothing waits for it
@@ -90,6 +89,14 @@ template <class A, class B>
 concept HasClearOverlap = requires(const A& a, const B& b) { clear_overlap(a, b); };
 template <class A, class B>
 concept HasClearContact = requires(const A& a, const B& b) { clear_contact(a, b); };
+
+/// The gap from A to B: contact data of which, apart, `depth` is below 0 by the distance, and `local_b` the nearest point of B. Of shapes
+/// that are round it is that of clear_contact().
+template <class A, class B>
+  requires HasClearContact<A, B>
+THINWALL_HOT ClearContact clear_gap(const A& a, const B& b) {
+  return clear_contact(a, b);
+}
 template <class A>
 concept HasClearRaycast = requires(const Ray<double>& ray, const A& shape) { clear_raycast(ray, shape); };
 

@@ -5,10 +5,6 @@
 /// is one beyond all bounds. Of a hit the bounds say which axis is the last to be shared, and nothing comes near it; its time is
 /// computed once more, by division, from the axis itself.
 
-#include <array>
-#include <bit>
-#include <cstddef>
-
 #include <thinwall/discrete/obb.hpp>
 
 namespace thinwall {
@@ -27,46 +23,6 @@ struct ClearTimes {
   THINWALL_HOT friend ClearTimes shared(const ClearTimes& a, const ClearTimes& b) {
     return {max(a.in_least, b.in_least), max(a.in_most, b.in_most), min(a.out_least, b.out_least),
             min(a.out_most, b.out_most)};
-  }
-};
-
-/// One of the fifteen axes, without a jump: 0 to 2 are those of a, 3 to 5 those of b, then their products, first by a's.
-struct ClearAxis {
-  double own, its;          ///< 1 if it is one of a's own, or of b's
-  unsigned edge_a, edge_b;  ///< the bits of a's axis and of b's for a product, else 0
-  int a, b;                 ///< the axes of a and of b, from 0
-  bool alone;               ///< not of the last, which stands for several at once
-
-  /// The axis of the one bit set in `axes`; not `alone` if there are more, or none.
-  THINWALL_HOT static const ClearAxis& of(unsigned axes) {
-    static constexpr auto all_of_them = [] {
-      std::array<ClearAxis, 16> of_k{};
-      for (unsigned k = 0; k < 15; ++k) {
-        const unsigned i = k < 6 ? k % 3 : k / 3 - 2, j = k % 3;
-        const bool product = k >= 6;
-        of_k[k] = {k < 3 ? 1.0 : 0.0,
-                   k >= 3 && k < 6 ? 1.0 : 0.0,
-                   product ? 1U << i : 0U,
-                   product ? 1U << j : 0U,
-                   static_cast<int>(i),
-                   static_cast<int>(j),
-                   true};
-      }
-      return of_k;
-    }();
-    const bool alone = (axes & (axes - 1U)) == 0U;
-    return all_of_them[alone ? static_cast<unsigned>(std::countr_zero(axes | 1U << 15U)) : 15U];
-  }
-};
-
-/// A box that is not turned, as ClearFrame is one that is.
-struct ClearUpright {
-  static constexpr bool is_turned = false;
-  THINWALL_HOT static bool clear() { return true; }
-  THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
-  THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }
-  THINWALL_HOT static packed::Lanes axis(int i) {
-    return keep(packed::lowest(1U << static_cast<unsigned>(i)), packed::all(1));
   }
 };
 
@@ -94,7 +50,7 @@ struct ClearBoxes {
                      until};  // in_most may be before the start: then they overlap
     Lanes entered[5];
     int group = 0;
-    boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise) {
+    boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise, const Lanes&) {
       const ClearTimes of_axes = ClearTimes::of(along(D), along(V), reach, noise);
       times = shared(of_axes, times);
       entered[group++] = of_axes.in_most;
