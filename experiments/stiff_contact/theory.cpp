@@ -139,7 +139,7 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
             only(undamped,
                  [&](const ContactRow& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
             [&](const ContactRow& r) {
-              const Row& split = twin_of(results.bounces, r);
+              const ContactRow& split = twin_of(results.bounces, r);
               const double most = slack(r) * std::max(1.0, r.tally.fastest);
               return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
                      std::abs(r.tally.fastest - split.tally.fastest) <= most;
