@@ -31,7 +31,7 @@ bool has_returned(const Row& row) { return row.tally.returned > 0; }
 bool all_returned(const Row& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
 double mean_speed(const Row& row) { return row.tally.mean_speed(); }
 double rms_error(const Row& row) { return row.tally.rms_error(); }
-double spread(const Row& row) { return row.tally.spread(); }
+double spread(const Row& row) { return row.tally.fastest - row.tally.slowest; }
 double ratio_of(const Row& row) { return row.contact.damping_ratio; }
 std::string method_of(const Row& row) {
   return fmt::format("{} {}", name(row.contact.scheme), name(row.contact.detection));
