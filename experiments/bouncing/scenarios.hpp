@@ -52,8 +52,7 @@ struct BounceScenario {
   }
 };
 
-/// Bounces that pile up; a ball that rests on the floor, for each policy; walls hit at one instant; ping-pong in a gap; masses far
-/// apart; a cradle; the billiard that counts the digits of pi. What each must do is derived in docs/bouncing.md.
+/// What happens in each, and what must, is told in docs/bouncing.md.
 inline constexpr std::array<std::string_view, 7> scenario_groups = {"zeno",   "rest",   "walls", "gap",
                                                                     "masses", "cradle", "digits"};
 

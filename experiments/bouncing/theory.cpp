@@ -74,9 +74,9 @@ double random_phase_sigma(const BouncePolicy& policy, const BounceCell& cell, do
   return std::sqrt(random_phase_mean(policy, cell, bounces) * bounces) * delta(cell) * sigma;
 }
 
-Interval mean_interval(const BounceRow& row) {
+Measured measured_mean(const BounceRow& row) {
   const double half = normal_95 * row.tally.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
-  return {row.tally.mean - half, row.tally.mean + half};
+  return {row.tally.mean, {row.tally.mean - half, row.tally.mean + half}};
 }
 
 std::optional<double> mean_residual(const BounceRow& row) {
