@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 namespace thinwall {
 
 namespace {
@@ -276,10 +274,7 @@ std::optional<double> range_of_missed(const HitscanCell& c, double share) {
   double farthest = 2 * c.speed * std::sqrt(c.target / arc.pull);
   if (arc.drag > 0) farthest = std::min(farthest, 0.9 * c.speed / arc.drag);
   if (too_many(farthest) < 0) return std::nullopt;
-  const boost::math::tools::eps_tolerance<double> tolerance(40);
-  std::uintmax_t most = 200;
-  const auto bracket = boost::math::tools::toms748_solve(too_many, 0.0, farthest, tolerance, most);
-  return bracket.first + (bracket.second - bracket.first) / 2;
+  return root(too_many, 0.0, farthest, 40);
 }
 
 std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,
