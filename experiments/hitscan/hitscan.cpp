@@ -109,9 +109,7 @@ struct Total {
 std::vector<Total> totals_of(const Rows& rows) {
   std::vector<Total> totals;
   for (const Group<Row>& group : group_by(rows, rule_name)) {
-    Total& total = totals.emplace_back();
-    total.rule = group[0]->rule.name;
-    total.tally = total_of(group, &Row::tally);
+    Total& total = totals.emplace_back(Total{group[0]->rule.name, total_of(group, &Row::tally)});
     for (const Row* row : group) {
       const Tally& t = row->tally;
       total.missed_theory += row->expected.missed * static_cast<double>(t.shots);

@@ -75,21 +75,17 @@ struct FlightPiece {
 std::vector<FlightPiece> flight_pieces(FlightPath path, const HitscanCell& c, double phase) {
   if (path == FlightPath::line) return {{{0, 0, 0}, {2 * c.range, 0, 0}, 0, 0}};  // past the target, wherever it is hit
   const Arc<double> arc = arc_of<double>(c);
-  const Vec3<double> ahead(1, 0, 0), pull = pull_direction(c);
+  const auto in_plane = [pull = pull_direction(c)](double x, double s) -> Vec3<double> {
+    return Vec3<double>(1, 0, 0) * x + pull * s;
+  };
   const std::vector<double> frames = frames_near_target(c, phase);
   std::vector<FlightPiece> pieces;
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
     const double from = frames[i], until = frames[i + 1];
-    const auto here = after(arc, from);
-    const Vec3<double> start = ahead * here.x + pull * here.s;
-    if (path == FlightPath::tangents) {
-      const Vec3<double> velocity = ahead * here.vx + pull * here.vs;
-      pieces.push_back({start, velocity * (until - from), from, until});
-    } else {
-      const auto next = after(arc, until);
-      const Vec3<double> end = ahead * next.x + pull * next.s;
-      pieces.push_back({start, end - start, from, until});
-    }
+    const auto here = after(arc, from), next = after(arc, until);
+    const Vec3<double> start = in_plane(here.x, here.s);
+    const Vec3<double> tangent = in_plane(here.vx, here.vs) * (until - from), chord = in_plane(next.x, next.s) - start;
+    pieces.push_back({start, path == FlightPath::tangents ? tangent : chord, from, until});
   }
   return pieces;
 }
