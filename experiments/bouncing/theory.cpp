@@ -105,8 +105,7 @@ bool BounceTest::passed() const {
 std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
   std::vector<BounceTest> tests;
   for (const Group<BounceRow>& group : group_by(rows, &BounceRow::policy)) {
-    BounceTest& test = tests.emplace_back();
-    test.policy = group[0]->policy;
+    BounceTest& test = tests.emplace_back(BounceTest{group[0]->policy});
     for (const BounceRow* row : group) add(test, *row);
   }
   return tests;
