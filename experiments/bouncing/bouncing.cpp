@@ -51,11 +51,14 @@ struct WorkRow {
   Tally errors = {};          ///< [g h / V] no chance in it
   Measured nanoseconds = {};  ///< a bounce, from apex to apex: median over the rounds
 
-  static constexpr std::int64_t phases = 32;
-  std::int64_t bounces() const { return phases * passes; }
-  Tally bounce() const {
+  static constexpr int phases = 32;  ///< in the middle of equal parts of a step
+  std::int64_t bounces() const { return std::int64_t{phases} * passes; }
+  Tally bounce() const {  ///< of a single pass: all are alike
     Tally tally;
-    for (int pass = 0; pass < passes; ++pass) tally = even_bounces(policy, cell, phases);
+    for (int pass = 0; pass < passes; ++pass) {
+      tally = {};
+      for (int i = 0; i < phases; ++i) tally.add(error_at(policy, cell, (i + 0.5) / phases));
+    }
     return tally;
   }
   double mean_error() const { return errors.mean * delta(cell); }  ///< [1] of the energy, a bounce
@@ -64,7 +67,6 @@ struct WorkRow {
 };
 
 struct Results {
-  std::vector<BouncePolicy> policies;
   std::vector<Row> rows, lively;  ///< lively: at the highest restitution that was asked for, usually 1
   std::vector<BounceTest> tests;
   std::vector<Scenario> scenarios;
@@ -73,7 +75,6 @@ struct Results {
   std::vector<WorkRow> work;
 
   std::int64_t scenarios_passed() const { return std::ranges::count(scenarios, true, &Scenario::passed); }
-  bool scenarios_pass() const { return scenarios_passed() == std::ssize(scenarios); }
 };
 
 /// The last row of each policy.
@@ -89,7 +90,7 @@ auto policy_column() {
   return text("policy", "What is done in a step.", [](const auto& row) { return row.policy.name; });
 }
 auto step_column() {
-  return value("step", "s", "Time step h.", [](const auto& row) { return row.cell.step; });
+  return bounce_factors().columns([](const auto& row) { return row.cell; }, {"step"});
 }
 auto delta_column() {
   return value("delta", "1", "g h / V: what gravity adds in a step, over the impact speed V.",
@@ -98,15 +99,10 @@ auto delta_column() {
 
 Columns<Row> row_columns() {
   return columns_of<Row>(
-      policy_column(), step_column(), delta_column(),
-      value("restitution", "1", "Speed after over speed before.", [](const Row& r) { return r.cell.restitution; }),
+      policy_column(), step_column(), delta_column(), bounce_factors().columns(&Row::cell, {"restitution"}),
       fields(&Row::tally, {"bounces"}),
-      measured(
-          "mean", unit, "Mean change of the flight's energy, beyond that of the restitution.",
-          [](const Row& r) {
-            return Measured{r.tally.mean, mean_interval(r)};
-          },
-          "mean_"),
+      measured("mean", unit, "Mean change of the flight's energy, beyond that of the restitution.", measured_mean,
+               "mean_"),
       value("theory", unit, "The same by theory.", [](const Row& r) { return r.theory.mean(); }),
       value("first_order", unit, "The theory for short steps.",
             [](const Row& r) { return bounce_theory(r.policy.name, 0, r.cell.restitution).mean(); }),
@@ -274,8 +270,9 @@ Figure long_figure(const std::vector<LongRow>& rows, const Table& runs, double s
           .panels = {means, sigmas}};
 }
 
-Figure heights_figure(Cell cell, const std::vector<BouncePolicy>& policies) {
+Figure heights_figure(const std::vector<Row>& rows) {
   constexpr double flights = 5, elapsed = 1.0 / 3;
+  Cell cell = rows.front().cell;
   cell.restitution = 1;
   Figure figure = {
       .name = "heights",
@@ -293,16 +290,12 @@ Figure heights_figure(Cell cell, const std::vector<BouncePolicy>& policies) {
   };
   const auto columns =
       columns_of<Moment>(value("time", "s", "", &Moment::time), value("height", "m", "", &Moment::height));
-  for (const BouncePolicy& policy : policies) {
+  for (const BouncePolicy& policy : distinct(rows, &Row::policy)) {
     std::vector<Moment> flight;
     for (const double gap : heights(policy, cell, elapsed, static_cast<std::int64_t>(end / cell.step - elapsed)))
       flight.push_back({(elapsed + static_cast<double>(flight.size())) * cell.step, gap});
-    figure.panels.push_back(joined(plot(columns, flight)
-                                       .x("time")
-                                       .y("height")
-                                       .label(std::string(policy.name))
-                                       .height(0.45)
-                                       .curve("true flight", truth, 0, end, Mark::dashes)));
+    Plot panel = plot(columns, flight).x("time").y("height").label(std::string(policy.name)).height(0.45);
+    figure.panels.push_back(joined(panel.curve("true flight", truth, 0, end, Mark::dashes)));
   }
   return figure;
 }
@@ -376,7 +369,7 @@ std::string summary_of(const Results& results, const Table& dropped) {
                   {"policy", "step", "bounces", "mean", "random_mean", "sigma", "random_sigma"}) +
          "\n" + terminal(dropped) + crowd_lines(results) +
          fmt::format("\nSelf-test: energies {}, crowds {}.\n", verdict_text(all_passed(results.tests)),
-                     verdict_text(results.scenarios_pass()));
+                     verdict_text(all_passed(results.scenarios)));
 }
 
 Outcome outcome_of(const Results& results, double long_step) {
@@ -403,10 +396,9 @@ Outcome outcome_of(const Results& results, double long_step) {
                          table("timings", "Time a bounce, from apex to apex, on this machine with every core at work.",
                                timing_columns(), results.work)))},
           .figures = {energy_figure(results.lively, means), work_figure(results.work),
-                      long_figure(results.long_rows, runs, long_step),
-                      heights_figure(results.rows.front().cell, results.policies)},
+                      long_figure(results.long_rows, runs, long_step), heights_figure(results.rows)},
           .sections = {{"Self-test", verdicts}},
-          .self_test_passed = all_passed(results.tests) && results.scenarios_pass()};
+          .self_test_passed = all_passed(results.tests) && all_passed(results.scenarios)};
 }
 
 // What is run.
@@ -415,9 +407,10 @@ Outcome outcome_of(const Results& results, double long_step) {
 std::vector<BouncePolicy> policies_asked(const Settings& settings) {
   std::vector<std::string_view> names;
   std::ranges::transform(all_bounce_policies, std::back_inserter(names), &BouncePolicy::name);
-  const std::vector<std::string> asked = settings.choices_or_all("policy", names);
-  return only(std::vector(all_bounce_policies.begin(), all_bounce_policies.end()),
-              [&](const BouncePolicy& policy) { return std::ranges::count(asked, policy.name) > 0; });
+  std::vector<BouncePolicy> policies;
+  for (const std::string& name : settings.choices_or_all("policy", names))
+    policies.push_back(*std::ranges::find(all_bounce_policies, name, &BouncePolicy::name));
+  return policies;
 }
 
 /// In the order asked for.
@@ -436,7 +429,7 @@ std::vector<WorkRow> timed_of(const std::vector<Cell>& cells, const std::vector<
   for (const Group<Cell>& group : group_by(cells, &Cell::step)) {
     Cell cell = *group[0];
     cell.restitution = 1;
-    const double steps = 2 / delta(cell) * static_cast<double>(WorkRow::phases);
+    const double steps = 2 / delta(cell) * WorkRow::phases;
     for (const BouncePolicy& policy : policies)
       timed.push_back({policy, cell, std::max(1, static_cast<int>(steps_a_round / steps))});
   }
@@ -493,7 +486,6 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const auto finish = [=](const Done<std::vector<Scenario>>& crowds, const Done<Tally>& tallies,
                           const Done<std::vector<LongRunPoint>>& long_runs, const Done<Tally>& times) {
     Results results;
-    results.policies = policies;
     results.scenarios = flat(crowds.results);
     results.work = work_of(timed, times);
     for (const Cell& cell : cells) {

@@ -121,14 +121,6 @@ BounceTally random_bounces(const BouncePolicy& policy, const BounceCell& cell, s
   return tally;
 }
 
-BounceTally even_bounces(const BouncePolicy& policy, const BounceCell& cell, std::int64_t count) {
-  BounceTally tally;
-  for (std::int64_t i = 0; i < count; ++i) {
-    tally.add(error_at(policy, cell, (static_cast<double>(i) + 0.5) / static_cast<double>(count)));
-  }
-  return tally;
-}
-
 std::vector<LongRunPoint> long_run(const BouncePolicy& policy, const BounceCell& cell, std::uint64_t seed,
                                    std::int64_t runs, std::int64_t bounces) {
   const RandomStream stream = bounce_factors().stream(cell, seed);

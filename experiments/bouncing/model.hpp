@@ -4,8 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/bouncing/policies.hpp>
@@ -66,9 +64,6 @@ std::vector<double> heights(const BouncePolicy& policy, const BounceCell& cell, 
 
 /// `trials` bounces at random phases: independent, the same for every policy.
 BounceTally random_bounces(const BouncePolicy& policy, const BounceCell& cell, std::uint64_t seed, std::int64_t trials);
-
-/// `count` bounces at phases in the middle of `count` equal parts: no chance, and the means of a parabola but for 1 / count^2.
-BounceTally even_bounces(const BouncePolicy& policy, const BounceCell& cell, std::int64_t count);
 
 /// One ball that bounces on and on, whose phases are not random: each follows from the one before.
 struct LongRunPoint {

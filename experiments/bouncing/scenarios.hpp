@@ -18,8 +18,7 @@ namespace thinwall {
 /// A ball, or a wall that nothing moves out of its way.
 template <class Shape> struct FlyingBody {
   Shape shape;
-  Vec3<double> velocity;                                          ///< [m/s]
-  Moving<Shape> motion() const { return {shape, velocity * 1}; }  ///< in a second
+  Vec3<double> velocity;  ///< [m/s]
   void fly(double seconds) { shape = moved(shape, Vec3<double>(velocity * seconds)); }
 };
 using FlyingBall = FlyingBody<Sphere<double>>;
@@ -27,7 +26,7 @@ using FlyingWall = FlyingBody<Aabb<double>>;
 
 /// The next impact within a second of bodies that approach each other; a pair in touch that parts is none.
 template <class A, class B> std::optional<Toi<double>> next_impact(const FlyingBody<A>& a, const FlyingBody<B>& b) {
-  const Toi<double> toi = time_of_impact(a.motion(), b.motion());
+  const Toi<double> toi = time_of_impact(Moving{a.shape, a.velocity}, Moving{b.shape, b.velocity});
   const bool meets = toi.status == ToiStatus::hit || toi.status == ToiStatus::overlapping;
   if (!meets || !((a.velocity - b.velocity).dot(toi.normal) > 0)) return std::nullopt;
   return toi;
@@ -52,8 +51,7 @@ struct BounceScenario {
   }
 };
 
-/// Bounces that pile up; a ball that rests on the floor, for each policy; walls hit at one instant; ping-pong in a gap; masses far
-/// apart; a cradle; the billiard that counts the digits of pi. What each must do is derived in docs/bouncing.md.
+/// What happens in each, and what must, is told in docs/bouncing.md.
 inline constexpr std::array<std::string_view, 7> scenario_groups = {"zeno",   "rest",   "walls", "gap",
                                                                     "masses", "cradle", "digits"};
 

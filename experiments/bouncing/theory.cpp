@@ -74,9 +74,9 @@ double random_phase_sigma(const BouncePolicy& policy, const BounceCell& cell, do
   return std::sqrt(random_phase_mean(policy, cell, bounces) * bounces) * delta(cell) * sigma;
 }
 
-Interval mean_interval(const BounceRow& row) {
+Measured measured_mean(const BounceRow& row) {
   const double half = normal_95 * row.tally.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
-  return {row.tally.mean - half, row.tally.mean + half};
+  return {row.tally.mean, {row.tally.mean - half, row.tally.mean + half}};
 }
 
 std::optional<double> mean_residual(const BounceRow& row) {
@@ -105,8 +105,7 @@ bool BounceTest::passed() const {
 std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
   std::vector<BounceTest> tests;
   for (const Group<BounceRow>& group : group_by(rows, &BounceRow::policy)) {
-    BounceTest& test = tests.emplace_back();
-    test.policy = group[0]->policy;
+    BounceTest& test = tests.emplace_back(BounceTest{group[0]->policy});
     for (const BounceRow* row : group) add(test, *row);
   }
   return tests;

@@ -40,7 +40,7 @@ struct BounceRow {
   BounceTheory theory = bounce_theory(policy.name, delta(cell), cell.restitution);
 };
 
-Interval mean_interval(const BounceRow& row);  ///< [g h / V] 95 % normal interval around the measured mean
+Measured measured_mean(const BounceRow& row);  ///< [g h / V] with its 95 % normal interval
 /// Standard errors between the mean and theory, where the two differ by more than rounding; nothing where every bounce is the same.
 std::optional<double> mean_residual(const BounceRow& row);
 /// The same of the variance, whose standard error follows from the kurtosis; nothing below 100 trials.

@@ -7,9 +7,11 @@
 /// Derived in docs/hitscan.md.
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <boost/math/special_functions/log1p.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace thinwall {
 
@@ -64,6 +66,16 @@ template <class Real> ArcPoint<Real> at_distance(const Arc<Real>& arc, const Rea
 /// [s] From the muzzle to distance x >= 0. Requires drag * x < speed.
 template <class Real> Real time_to(const Arc<Real>& arc, const Real& x) {
   return dragged_time(arc.drag, Real(x / arc.speed));
+}
+
+/// Where a function that is negative at the one end and positive at the other is zero, to so many binary digits.
+template <class Real, class Function>
+Real root(const Function& f, const Real& lower, const Real& upper,
+          unsigned digits = std::numeric_limits<Real>::digits - 2) {
+  const boost::math::tools::eps_tolerance<Real> tolerance(digits);
+  std::uintmax_t most = 200;
+  const auto bracket = boost::math::tools::toms748_solve(f, lower, upper, tolerance, most);
+  return bracket.first + (bracket.second - bracket.first) / 2;
 }
 
 }  // namespace thinwall

@@ -30,7 +30,6 @@ using Cell = HitscanCell;
 using Row = HitscanRow;
 using Rows = std::vector<Row>;
 using Tally = HitscanTally;
-using Spread = HitscanSpread;
 
 // Of a row, or of a total.
 constexpr auto is_timed = [](const auto& row) { return row.tally.lateness.count > 0; };
@@ -51,59 +50,49 @@ Rows of_rule(const Rows& rows, const HitscanRule& rule) {
 // What the tables show.
 
 Columns<Row> row_columns() {
-  const auto extreme = [](Spread Tally::*spread, double Spread::*end) {
-    return [=](const Row& r) { return r.tally.*spread.*end; };
-  };
-  const auto steps = [](double Spread::*end) {
-    return [=](const Row& r) { return r.tally.lateness.*end / r.cell.step; };
-  };
-  return columns_of<Row>(
-             text("rule", "How a hit is found.", rule_name),
-             text("shot", "Which of the known shots it is; empty for the others.",
-                  [](const Row& r) { return known_name(r.cell); }),
-             hitscan_factors().columns(&Row::cell),
-             value("flight_time", "s", "From the muzzle to the range.",
-                   [](const Row& r) { return flight_time(r.cell); }),
-             value("deflection", "m", "Of the arc from the line of fire, at the range, by gravity and wind.",
-                   [](const Row& r) { return deflection(r.cell); }),
-             fields(&Row::tally, {"shots", "touching"}),
-             value("touching_theory", "1", "Expected number of them.",
-                   [](const Row& r) { return r.expected.touch * static_cast<double>(r.tally.shots); }),
-             fields(&Row::tally, {"missed"}),
-             share("missed_share", "missed / touching; missing if nothing touches.", missed, true_hits, "missed_"),
-             value("missed_theory", "1", "The share by theory.", missed_share_theory),
-             value("reported", "1", "Hits that the rule reports.", reported), fields(&Row::tally, {"false_hits"}),
-             share("false_share", "false_hits / reported; missing if nothing is reported.", false_hits, reported,
-                   "false_"),
-             value("false_theory", "1", "The share by theory.",
-                   [](const Row& r) { return share_of(r.expected.false_hits, r.expected.reported); }),
-             value("path_error_mean", "m", "From the rule's path to the arc, where they cross the plane of the target.",
-                   [](const Row& r) { return r.tally.path_error.mean(length_unit(r.cell)); }),
-             value("path_error_theory", "m", "The same by theory.",
-                   [](const Row& r) { return r.expected.path_error.mean; }),
-             value("path_error_max", "m", "The largest.", extreme(&Tally::path_error, &Spread::most)),
-             value("path_error_bound", "m", "The largest possible, by theory.",
-                   [](const Row& r) { return r.expected.path_error_most; }),
-             where(
-                 is_timed,
-                 columns_of<Row>(
-                     value(
-                         "point_error_mean", "m",
-                         "From the reported point on the target to the true one, of the true hits it reports; missing if "
-                         "there are none.",
-                         [](const Row& r) { return r.tally.point_error.mean(length_unit(r.cell)); }),
-                     value("point_error_max", "m", "The largest.", extreme(&Tally::point_error, &Spread::most)),
-                     value("lateness_mean", "step", "From first contact to the report, of the same hits; < 0 is early.",
-                           steps_late))),
-             value("lateness_theory", "step", "The same by theory, of next_frame.",
-                   [](const Row& r) -> std::optional<double> {
-                     if (!r.expected.lateness) return std::nullopt;
-                     return r.expected.lateness->mean / r.cell.step;
-                   }),
-             where(is_timed,
-                   columns_of<Row>(value("lateness_min", "step", "The earliest report.", steps(&Spread::least)),
-                                   value("lateness_max", "step", "The latest.", steps(&Spread::most)))))
-      .without({"aim"});
+  const auto columns = columns_of<Row>(
+      text("rule", "How a hit is found.", rule_name),
+      text("shot", "Which of the known shots it is; empty for the others.",
+           [](const Row& r) { return known_name(r.cell); }),
+      hitscan_factors().columns(&Row::cell),
+      value("flight_time", "s", "From the muzzle to the range.", [](const Row& r) { return flight_time(r.cell); }),
+      value("deflection", "m", "Of the arc from the line of fire, at the range, by gravity and wind.",
+            [](const Row& r) { return deflection(r.cell); }),
+      fields(&Row::tally, {"shots", "touching"}),
+      value("touching_theory", "1", "Expected number of them.",
+            [](const Row& r) { return r.expected.touch * static_cast<double>(r.tally.shots); }),
+      fields(&Row::tally, {"missed"}),
+      share("missed_share", "missed / touching; missing if nothing touches.", missed, true_hits, "missed_"),
+      value("missed_theory", "1", "The share by theory.", missed_share_theory),
+      value("reported", "1", "Hits that the rule reports.", reported), fields(&Row::tally, {"false_hits"}),
+      share("false_share", "false_hits / reported; missing if nothing is reported.", false_hits, reported, "false_"),
+      value("false_theory", "1", "The share by theory.",
+            [](const Row& r) { return share_of(r.expected.false_hits, r.expected.reported); }),
+      value("path_error_mean", "m", "From the rule's path to the arc, where they cross the plane of the target.",
+            [](const Row& r) { return r.tally.path_error.mean(length_unit(r.cell)); }),
+      value("path_error_theory", "m", "The same by theory.", [](const Row& r) { return r.expected.path_error.mean; }),
+      value("path_error_max", "m", "The largest.", [](const Row& r) { return r.tally.path_error.most; }),
+      value("path_error_bound", "m", "The largest possible, by theory.",
+            [](const Row& r) { return r.expected.path_error_most; }),
+      where(is_timed,
+            columns_of<Row>(
+                value("point_error_mean", "m",
+                      "From the reported point on the target to the true one, of the true hits it reports; missing if "
+                      "there are none.",
+                      [](const Row& r) { return r.tally.point_error.mean(length_unit(r.cell)); }),
+                value("point_error_max", "m", "The largest.", [](const Row& r) { return r.tally.point_error.most; }),
+                value("lateness_mean", "step", "From first contact to the report, of the same hits; < 0 is early.",
+                      steps_late))),
+      value("lateness_theory", "step", "The same by theory, of next_frame.",
+            [](const Row& r) -> std::optional<double> {
+              if (!r.expected.lateness) return std::nullopt;
+              return r.expected.lateness->mean / r.cell.step;
+            }),
+      where(is_timed, columns_of<Row>(value("lateness_min", "step", "The earliest report.",
+                                            [](const Row& r) { return r.tally.lateness.least / r.cell.step; }),
+                                      value("lateness_max", "step", "The latest.",
+                                            [](const Row& r) { return r.tally.lateness.most / r.cell.step; }))));
+  return columns.without({"aim"});
 }
 
 /// A rule over all of its cells.
@@ -120,9 +109,7 @@ struct Total {
 std::vector<Total> totals_of(const Rows& rows) {
   std::vector<Total> totals;
   for (const Group<Row>& group : group_by(rows, rule_name)) {
-    Total& total = totals.emplace_back();
-    total.rule = group[0]->rule.name;
-    total.tally = total_of(group, &Row::tally);
+    Total& total = totals.emplace_back(Total{group[0]->rule.name, total_of(group, &Row::tally)});
     for (const Row* row : group) {
       const Tally& t = row->tally;
       total.missed_theory += row->expected.missed * static_cast<double>(t.shots);
@@ -181,12 +168,6 @@ Table reach_table(const std::vector<Cell>& cells) {
             columns, bullets));
 }
 
-Table counts_test_table(const std::vector<SelfTest>& tests) {
-  return self_test_table(tests,
-                         "Counts of independent shots against theory, over all cells of a rule and event at once.",
-                         {"rule", "How a hit is found."}, {"event", "What is counted."});
-}
-
 Table moments_table(const std::vector<HitscanMomentTest>& tests) {
   using T = HitscanMomentTest;
   const auto columns = columns_of<T>(
@@ -228,7 +209,7 @@ Plot drawn(const Rows& rows) {
       where(is_timed, columns_of<Row>(measured("late", "", "", lateness, "late_"),
                                       value("early", "", "", [](const Row& r) { return -steps_late(r); }))),
       value("flight", "", "", [](const Row& r) { return flight_time(r.cell) / r.cell.step; }));
-  return plot(table("drawn", "", columns, rows));
+  return plot(columns, rows);
 }
 
 std::set<double> radii_of(const Rows& rows) {
@@ -262,7 +243,7 @@ Figure missed_figure(const Rows& rays, double target) {
           .panels = {unseen, wrong, over_deflection("residual", "residual of the misses [standard errors]", 1)}};
 }
 
-/// Of every rule, one radius and air.
+/// Of one radius and air, and of every rule but hitscan_ball, whose path is the ray's.
 Figure path_error_figure(const Rows& rows) {
   return {.name = "path_error",
           .title = "How far each rule's path is from the arc at the range",
@@ -282,10 +263,10 @@ Figure lateness_figure(const Rows& timed) {
   return {.name = "lateness",
           .title = "When a hit is reported",
           .caption =
-              "Above, the mean time from first contact to the report of next_frame, with 95 % "
-              "intervals, and the theory: half a step, and the time from where the ball touches to "
-              "where its center does; flights of a step or more. Below, how much too early hitscan "
-              "reports: the whole flight, until it hits nothing the bullet hits.",
+              "Above, the mean time from first contact to the report of next_frame, with 95 % intervals, and the "
+              "theory: half a step, and the time from where the ball touches to where its center does; flights of a "
+              "step or more. Below, how much too early hitscan reports: the whole flight, until it hits nothing the "
+              "bullet hits.",
           .panels = {drawn(framed)
                          .x("speed_there", Axis::log, "speed at the target [m/s]")
                          .y("late", Axis::linear, "mean lateness of next_frame [steps]")
@@ -398,6 +379,9 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
                              "lateness_min", "lateness_max"}),
             only(rows, [](const Row& r) { return is_known(r.cell); })));
   const Table rules = rules_table(totals);
+  const Table counts_table =
+      self_test_table(counts, "Counts of independent shots against theory, over all cells of a rule and event at once.",
+                      {"rule", "How a hit is found."}, {"event", "What is counted."});
   return {.answer = answer_of(rows, totals),
           .summary = terminal(known, {"shot", "rule", "missed_share", "missed_theory", "false_share", "false_theory",
                                       "path_error_mean", "lateness_mean"}) +
@@ -406,7 +390,7 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
                                       "false_expected", "lateness_mean", "path_error_max"}) +
                      fmt::format("\nSelf-test: counts {}, errors {}.\n", verdict_text(all_passed(counts)),
                                  verdict_text(all_passed(moments))),
-          .tables = {known, reach_table(cells), rules, counts_test_table(counts), moments_table(moments), all},
+          .tables = {known, reach_table(cells), rules, counts_table, moments_table(moments), all},
           .figures = figures_of(rows),
           .sections = {{"Self-test", self_test_text(counts)}},
           .self_test_passed = all_passed(counts) && all_passed(moments)};

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
@@ -45,14 +44,6 @@ void check(const Settings& settings, const HitscanCell& c) {
 
 using Real = long double;
 
-/// Where a function that is negative at the one end and positive at the other is zero.
-template <class Function> Real root(const Function& f, const Real& lower, const Real& upper) {
-  const boost::math::tools::eps_tolerance<Real> tolerance(std::numeric_limits<Real>::digits - 2);
-  std::uintmax_t most = 200;
-  const auto bracket = boost::math::tools::toms748_solve(f, lower, upper, tolerance, most);
-  return bracket.first + (bracket.second - bracket.first) / 2;
-}
-
 /// The arc, seen from the target's center: in its plane, and how far beside that plane the center is.
 struct ArcFromTarget {
   Arc<Real> arc;
@@ -84,21 +75,17 @@ struct FlightPiece {
 std::vector<FlightPiece> flight_pieces(FlightPath path, const HitscanCell& c, double phase) {
   if (path == FlightPath::line) return {{{0, 0, 0}, {2 * c.range, 0, 0}, 0, 0}};  // past the target, wherever it is hit
   const Arc<double> arc = arc_of<double>(c);
-  const Vec3<double> ahead(1, 0, 0), pull = pull_direction(c);
+  const auto in_plane = [pull = pull_direction(c)](double x, double s) -> Vec3<double> {
+    return Vec3<double>(1, 0, 0) * x + pull * s;
+  };
   const std::vector<double> frames = frames_near_target(c, phase);
   std::vector<FlightPiece> pieces;
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
     const double from = frames[i], until = frames[i + 1];
-    const auto here = after(arc, from);
-    const Vec3<double> start = ahead * here.x + pull * here.s;
-    if (path == FlightPath::tangents) {
-      const Vec3<double> velocity = ahead * here.vx + pull * here.vs;
-      pieces.push_back({start, velocity * (until - from), from, until});
-    } else {
-      const auto next = after(arc, until);
-      const Vec3<double> end = ahead * next.x + pull * next.s;
-      pieces.push_back({start, end - start, from, until});
-    }
+    const auto here = after(arc, from), next = after(arc, until);
+    const Vec3<double> start = in_plane(here.x, here.s);
+    const Vec3<double> tangent = in_plane(here.vx, here.vs) * (until - from), chord = in_plane(next.x, next.s) - start;
+    pieces.push_back({start, path == FlightPath::tangents ? tangent : chord, from, until});
   }
   return pieces;
 }
@@ -118,18 +105,6 @@ double report_time(ReportTime report, const FlightPiece& piece, double part) {
     case ReportTime::in_step: break;
   }
   return piece.from + part * (piece.until - piece.from);
-}
-
-void note(const HitscanAnswer& answer, const TrueImpact& truth, const HitscanCell& c, const Vec3<double>& center,
-          const Vec3<double>& arc_at_range, HitscanTally& tally) {
-  ++tally.shots;
-  tally.touching += truth.touches ? 1 : 0;
-  tally.missed += truth.touches && !answer.hit ? 1 : 0;
-  tally.false_hits += !truth.touches && answer.hit ? 1 : 0;
-  tally.path_error.add((answer.at_range - arc_at_range).norm(), length_unit(c));
-  if (!truth.touches || !answer.hit) return;
-  tally.lateness.add(answer.time - truth.time, time_unit(c));
-  tally.point_error.add((answer.point - contact_point(c, truth, center)).norm(), length_unit(c));
 }
 
 }  // namespace
@@ -294,9 +269,19 @@ std::vector<HitscanTally> shoot(std::span<const HitscanRule> rules, const Hitsca
   std::vector<HitscanTally> tallies(rules.size());
   for (std::int64_t i = 0; i < shots; ++i) {
     const Placement placement = random_placement(c, stream, static_cast<std::uint64_t>(i));
-    const TrueImpact truth = true_impact(c, placement.target.center);
+    const Vec3<double>& center = placement.target.center;
+    const TrueImpact truth = true_impact(c, center);
     for (std::size_t k = 0; k < rules.size(); ++k) {
-      note(answer_of(rules[k], c, placement), truth, c, placement.target.center, arc_at_range, tallies[k]);
+      const HitscanAnswer answer = answer_of(rules[k], c, placement);
+      HitscanTally& tally = tallies[k];
+      ++tally.shots;
+      tally.touching += truth.touches ? 1 : 0;
+      tally.missed += truth.touches && !answer.hit ? 1 : 0;
+      tally.false_hits += !truth.touches && answer.hit ? 1 : 0;
+      tally.path_error.add((answer.at_range - arc_at_range).norm(), length_unit(c));
+      if (!truth.touches || !answer.hit) continue;
+      tally.lateness.add(answer.time - truth.time, time_unit(c));
+      tally.point_error.add((answer.point - contact_point(c, truth, center)).norm(), length_unit(c));
     }
   }
   return tallies;

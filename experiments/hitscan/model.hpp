@@ -139,19 +139,17 @@ struct HitscanSpread {
   double mean(double unit) const;   ///< requires count > 0
   static constexpr auto fields() {
     using S = HitscanSpread;
-    return record(
-        thinwall::sum("count", &S::count, "1", "How many."), kept("sum", &S::sum, "1", "In 2^-30 of the cell's unit."),
-        thinwall::least("least", &S::least, "1", "The least."), thinwall::most("most", &S::most, "1", "The largest."));
+    return record(thinwall::sum("count", &S::count, "1", "How many."), kept("sum", &S::sum),
+                  thinwall::least("least", &S::least, "1", "The least."),
+                  thinwall::most("most", &S::most, "1", "The largest."));
   }
-  bool operator==(const HitscanSpread&) const = default;
 };
 
 struct HitscanTally {
   std::int64_t shots = 0, touching = 0, missed = 0, false_hits = 0;
   HitscanSpread lateness = {};     ///< [s] from first contact to the report, of the true hits that are reported
   HitscanSpread point_error = {};  ///< [m] from the reported point on the target to the true one, of the same
-  HitscanSpread path_error =
-      {};  ///< [m] from the rule's path to the arc, where they cross the target's plane; of all shots
+  HitscanSpread path_error = {};   ///< [m] from the rule's path to the arc, at the range; of all shots
 
   std::int64_t reported() const { return touching - missed + false_hits; }
   static constexpr auto fields() {
@@ -162,7 +160,6 @@ struct HitscanTally {
                   sum("false_hits", &T::false_hits, "1", "Hits it reports of shots whose bullet does not touch."),
                   part(&T::lateness), part(&T::point_error), part(&T::path_error));
   }
-  bool operator==(const HitscanTally&) const = default;
 };
 
 /// The units of a cell's sums.

@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 namespace thinwall {
 
 namespace {
@@ -66,15 +64,12 @@ double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
   const auto arc = arc_of<double>(c);
   const double there = flight_time(c);
   const auto fallen = [&](double t) { return arc.pull * pull_factor(arc.drag, undragged_time(arc.drag, t)); };
-  if (rule.path == FlightPath::tangents) {
-    const FrameAt frame = first_frame(c, phase, there, [&](double, double since, double length) {
-      return undragged_time(arc.drag, since) <= length;
-    });
-    return fallen(there - frame.begins);
-  }
-  const FrameAt frame =
-      first_frame(c, phase, there, [](double, double since, double length) { return since <= length; });
+  const bool is_tangent = rule.path == FlightPath::tangents;  // which gets as far as a bullet without drag
+  const FrameAt frame = first_frame(c, phase, there, [&](double, double since, double length) {
+    return (is_tangent ? undragged_time(arc.drag, since) : since) <= length;
+  });
   const double since = there - frame.begins, length = frame.ends - frame.begins;
+  if (is_tangent) return fallen(since);
   const double part = undragged_time(arc.drag, since) / undragged_time(arc.drag, length);
   return part * fallen(length) - fallen(since);
 }
@@ -245,14 +240,14 @@ double lens_area(double radius_a, double radius_b, double apart) {
 
 HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c) {
   const Areas areas = areas_of(rule, c);
-  const double drawn = drawn_area(c);
-  HitscanExpected e = {areas.arc / drawn,
-                       areas.rule / drawn,
-                       std::max(0.0, areas.arc - areas.both) / drawn,
-                       std::max(0.0, areas.rule - areas.both) / drawn,
-                       path_errors(rule, c),
-                       path_error_bound(rule, c),
-                       std::nullopt};
+  const auto share = [drawn = drawn_area(c)](double area) { return std::max(0.0, area) / drawn; };
+  HitscanExpected e = {.touch = share(areas.arc),
+                       .reported = share(areas.rule),
+                       .missed = share(areas.arc - areas.both),
+                       .false_hits = share(areas.rule - areas.both),
+                       .path_error = path_errors(rule, c),
+                       .path_error_most = path_error_bound(rule, c),
+                       .lateness = {}};
   if (rule.report == ReportTime::end_of_step) e.lateness = next_frame_lateness(c);
   return e;
 }
@@ -276,10 +271,7 @@ std::optional<double> range_of_missed(const HitscanCell& c, double share) {
   double farthest = 2 * c.speed * std::sqrt(c.target / arc.pull);
   if (arc.drag > 0) farthest = std::min(farthest, 0.9 * c.speed / arc.drag);
   if (too_many(farthest) < 0) return std::nullopt;
-  const boost::math::tools::eps_tolerance<double> tolerance(40);
-  std::uintmax_t most = 200;
-  const auto bracket = boost::math::tools::toms748_solve(too_many, 0.0, farthest, tolerance, most);
-  return bracket.first + (bracket.second - bracket.first) / 2;
+  return root(too_many, 0.0, farthest, 40);
 }
 
 std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,

@@ -70,8 +70,7 @@ inline std::string_view rule_name(const HitscanRow& row) { return row.rule.name;
 std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,
                                      const std::vector<std::vector<HitscanTally>>& tallies);
 
-/// What is held against theory, as the self-test wants it: `method` is the rule, `scalar` the event, "reported",
-/// "missed" or "false"; the rule "exact arc" is the oracle.
+/// What is held against theory: of each rule "reported", "missed" and "false", of the oracle, "exact arc", "touching".
 std::vector<CellCount> counts_of(const std::vector<HitscanRow>& rows);
 
 /// A measured quantity of one rule, over all cells, against theory: means by chi-square, extremes by what geometry

@@ -92,8 +92,7 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
     if (result.blow_up_step == 0 && !(speed <= e.blow_up * e.speed)) result.blow_up_step = count;
     if (!std::isfinite(speed) || !std::isfinite(now)) return result;
     result.deepest = std::max(result.deepest, now + contact_distance);
-    const bool rests = ball.velocity == before.velocity && ball.shape.center == before.shape.center;
-    if (rests) return result;
+    if (ball.velocity == before.velocity && ball.shape.center == before.shape.center) return result;  // it rests
   }
   return result;
 }
@@ -129,9 +128,8 @@ namespace {
 
 // Growth is told from decay over ten decades of damping; see spring.hpp.
 constexpr double least_ratio = 1e-5, greatest_ratio = 1e5;
-constexpr double least_path =
-    0x1p-30;  // of the distance from first contact to the middle: 22 bits are left for the phase
-constexpr double least_reach = 1e-9;  // [m]
+constexpr double least_path = 0x1p-30;  // [reach] a step: 22 bits are left for the phase
+constexpr double least_reach = 1e-9;    // [m]
 
 std::vector<double> ascending(std::vector<double> list) {
   std::ranges::sort(list);
@@ -161,9 +159,6 @@ void check(const Settings& settings, const StiffPlan& plan) {
 }  // namespace
 
 StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
-  const auto positive = [](double upper, std::string_view unit) {
-    return Range{.lower = 0, .upper = upper, .lower_open = true, .unit = unit};
-  };
   const auto steps = [&](std::string_view key, double lower, double upper) {  // a bounce takes about pi / step
     return ascending(settings.numbers(key, {.lower = lower, .upper = upper, .unit = "1/omega"}));
   };
@@ -175,7 +170,7 @@ StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
   plan.stiffness = ascending(settings.numbers("stiffness", {.lower = 1e-12, .upper = 1e18, .unit = "N/m"}));
   plan.ratios = ascending(settings.numbers("damping_ratio", {.lower = 0, .upper = greatest_ratio}));
   plan.steps = steps("step", 1e-6, 1e6);
-  plan.approach.speed = settings.number("speed", positive(1e6, "m/s"));
+  plan.approach.speed = settings.number("speed", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m/s"});
   plan.approach.radius = settings.number("radius", {.lower = 0, .upper = 1e6, .unit = "m"});
   plan.approach.thickness = settings.number("thickness", {.lower = 0, .upper = 1e6, .unit = "m"});
   plan.approach.blow_up =
@@ -193,9 +188,8 @@ StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
 
 LimitRow measured_spring(const StiffPlan& plan, Scheme scheme, double stiffness, double ratio) {
   const Spring spring = spring_of(plan.approach.mass, stiffness, ratio);
-  LimitRow row = {
-      scheme, stiffness, ratio, step_limit(scheme, ratio), measured_limit(scheme, plan.approach.mass, stiffness, ratio),
-      {}};
+  LimitRow row = {scheme, stiffness, ratio, step_limit(scheme, ratio), {}, {}};
+  row.bracket = measured_limit(scheme, plan.approach.mass, stiffness, ratio);
   for (const double step : plan.steps) row.blow_ups.push_back(blow_up_step(scheme, spring, step / frequency(spring)));
   return row;
 }

@@ -104,7 +104,6 @@ struct ContactTally {
   std::int64_t bounces() const { return returned + escaped + unfinished; }
   double mean_speed() const { return speed_sum / static_cast<double>(returned); }
   double rms_error() const { return std::sqrt(square_error / static_cast<double>(returned)); }
-  double spread() const { return fastest - slowest; }
 };
 
 /// The phases: one in each of `count` equal parts of the step, at random. The same for every scheme and detection.

@@ -63,6 +63,7 @@ Power normalized(const Eigen::Matrix2d& m, int exponent) {
 
 Power product(const Power& a, const Power& b) { return normalized(a.m * b.m, a.exponent + b.exponent); }
 
+/// Two unit states, stepped once, are its columns: in units of energy, sqrt(k) depth and sqrt(m) speed.
 Power one_step(Scheme scheme, const Spring& spring, double step) {
   const double depth_unit = 1 / std::sqrt(spring.stiffness), speed_unit = 1 / std::sqrt(spring.mass);
   const Motion a = stepped(scheme, spring, Pull::both_ways, step, {depth_unit, 0});

@@ -45,9 +45,7 @@ enum class Pull {
 /// Source: derived in docs/stiff_contact.md.
 Motion stepped(Scheme scheme, const Spring& spring, Pull pull, double step, const Motion& motion);
 
-// Growth, measured on the scheme's own steps, without any formula for its limit. The step is linear, so two unit states, stepped
-// once, give its matrix (in units of energy: sqrt(k) depth, sqrt(m) speed), and squaring that n times runs 2^n steps. Scaled by
-// powers of two, nothing overflows.
+// Growth, measured on the scheme's own steps, without any formula for its limit: by squaring their matrix.
 
 enum class Fate {
   decays,  ///< the largest entry of the power falls below 2^-32
@@ -64,8 +62,7 @@ std::int64_t blow_up_step(Scheme scheme, const Spring& spring, double step);
 
 /// Where stable ends, in steps of 1/omega.
 struct LimitBracket {
-  double stable =
-      no_most;  ///< decays here, or holds if there is no damping; 0 if it grows at every step that was tried
+  double stable = no_most;     ///< decays here, or holds if undamped; 0 if it grows at every step that was tried
   double unstable = no_least;  ///< grows here; infinity if it grows at no step that was tried
 
   static constexpr auto fields() {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,7 +31,7 @@ bool has_returned(const Row& row) { return row.tally.returned > 0; }
 bool all_returned(const Row& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
 double mean_speed(const Row& row) { return row.tally.mean_speed(); }
 double rms_error(const Row& row) { return row.tally.rms_error(); }
-double spread(const Row& row) { return row.tally.spread(); }
+double spread(const Row& row) { return row.tally.fastest - row.tally.slowest; }
 double ratio_of(const Row& row) { return row.contact.damping_ratio; }
 std::string method_of(const Row& row) {
   return fmt::format("{} {}", name(row.contact.scheme), name(row.contact.detection));
@@ -111,13 +110,11 @@ Table stability_table(const StiffPlan& plan, const std::vector<LimitRow>& limits
 }
 
 Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
-  const auto square = [](double ContactTally::*speed) {
-    return [speed](const Row& r) { return r.tally.*speed * (r.tally.*speed); };
-  };
-  const auto of_returned =
-      columns_of<Row>(value("speed_mean", "1", "The mean of it.", mean_speed), fields(&Row::tally, {"speed_max"}),
-                      value("energy_min", "1", "The least energy out over energy in.", square(&ContactTally::slowest)),
-                      value("energy_max", "1", "The greatest.", square(&ContactTally::fastest)));
+  const auto of_returned = columns_of<Row>(
+      value("speed_mean", "1", "The mean of it.", mean_speed), fields(&Row::tally, {"speed_max"}),
+      value("energy_min", "1", "The least energy out over energy in.",
+            [](const Row& r) { return r.tally.slowest * r.tally.slowest; }),
+      value("energy_max", "1", "The greatest.", [](const Row& r) { return r.tally.fastest * r.tally.fastest; }));
   const auto columns = columns_of<Row>(
       fields(&Row::contact),
       value("path", "m", "How far the ball flies in a step.",
@@ -189,10 +186,8 @@ struct Point {
 };
 
 Plot plot_of(const std::vector<Point>& points, std::string x_label, std::string y_label) {
-  const bool has_bars = !points.empty() && points.back().lower;
   const auto columns = columns_of<Point>(
-      value("x", "", "", &Point::x),
-      ValueColumn{"y", "", "", &Point::y, has_bars ? "lower" : "", has_bars ? "upper" : ""},
+      value("x", "", "", &Point::x), ValueColumn{"y", "", "", &Point::y, "lower", "upper"},
       text("label", "", &Point::label), value("lower", "", "", &Point::lower), value("upper", "", "", &Point::upper));
   return plot(columns, points)
       .x("x", Axis::log, std::move(x_label))
@@ -210,12 +205,12 @@ Figure stability_figure(const StiffResults& results) {
       .caption = fmt::format("Points: what the steps of the map do, at {:g} N/m. Bars, thinner than the line: "
                              "the measured limit at every stiffness from {:g} to {:g} N/m.",
                              plan.stiffness.front(), plan.stiffness.front(), plan.stiffest())};
-  if (plan.ratios.back() == 0) return figure;  // which has no place on the axis
   const std::vector<MapStep> map = map_of(plan, results.limits);
   for (const Scheme scheme : all_schemes) {
     std::vector<Point> points;
     for (const MapStep& s : map) {
       const LimitRow& r = *s.spring;
+      // A ratio of 0 has no place on the axis.
       if (r.scheme == scheme && r.ratio != 0 && r.stiffness == plan.stiffness.front() && s.verdict != "undecided")
         points.push_back({r.ratio, s.step, s.verdict == "stable" ? "decays" : "grows"});
     }
@@ -260,7 +255,6 @@ Figure bounce_figure(const StiffResults& results) {
       points.push_back({r.contact.step, drawn(mean_speed(r)), fmt::format("damping ratio {:g}", ratio_of(r)),
                         drawn(r.tally.slowest), drawn(r.tally.fastest)});
     }
-    if (points.empty()) continue;
     Plot panel = plot_of(points, step_label, fmt::format("speed out / in [1], {}", name(scheme)));
     for (const double ratio : plan.bounce_ratios)
       panel.curve("continuous time", [ratio](double) { return restitution(ratio); });
@@ -330,7 +324,7 @@ Figure detection_figure(const StiffResults& results) {
     for (const Row& r : clean_rows(results)) {
       if (ratio_of(r) == ratio && read(r) > 0) points.push_back({r.contact.step, read(r), method_of(r)});
     }
-    if (!points.empty()) figure.panels.push_back(joined(plot_of(points, step_label, label)));
+    figure.panels.push_back(joined(plot_of(points, step_label, label)));
   };
   add_panel("speed ratio, greatest - least [1]", [&](const Row& r) { return std::max(least_spread, spread(r)); });
   add_panel("speed ratio, error [1]", rms_error);
@@ -353,7 +347,6 @@ Figure race_figure(const StiffResults& results) {
       const Interval time = time_interval(r);
       points.push_back({rms_error(r), time_of(r), method_of(r), time.lower, time.upper});
     }
-    if (points.empty()) continue;
     figure.panels.push_back(joined(plot_of(points, "root mean square error of speed out over speed in [1]",
                                            fmt::format("ns a bounce, damping ratio {:g}", ratio))));
   }
@@ -492,18 +485,15 @@ std::vector<Section> stiff_sections(const StiffResults& results, const std::vect
 
 Outcome outcome_of(const StiffResults& results) {
   const std::vector<StiffClaim> claims = stiff_claims(results);
-  Outcome outcome = {
-      .answer = stiff_answer(results),
-      .summary = stiff_summary(results, claims),
-      .tables = {claims_table(claims), limits_table(results.limits), stability_table(results.plan, results.limits),
-                 bounces_table(results.plan, results.bounces), detection_table(results), race_table(results.racers),
-                 times_table(results.racers)},
-      .figures = {stability_figure(results), bounce_figure(results), escape_figure(results), detection_figure(results),
-                  race_figure(results)},
-      .sections = stiff_sections(results, claims),
-      .self_test_passed = all_passed(claims)};
-  std::erase_if(outcome.figures, [](const Figure& figure) { return figure.panels.empty(); });
-  return outcome;
+  return {.answer = stiff_answer(results),
+          .summary = stiff_summary(results, claims),
+          .tables = {claims_table(claims), limits_table(results.limits), stability_table(results.plan, results.limits),
+                     bounces_table(results.plan, results.bounces), detection_table(results), race_table(results.racers),
+                     times_table(results.racers)},
+          .figures = only_measured({stability_figure(results), bounce_figure(results), escape_figure(results),
+                                    detection_figure(results), race_figure(results)}),
+          .sections = stiff_sections(results, claims),
+          .self_test_passed = all_passed(claims)};
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {

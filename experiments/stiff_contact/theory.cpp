@@ -50,9 +50,9 @@ double slack_of(const StiffPlan& plan, const PenaltyContact& c) {
   return pose * (std::numbers::pi + 2 * c.step) * (1 + c.step) * passed_on;
 }
 
-/// [1] The share of bounces whose first pose in contact, if there is one, is past the middle of the wall.
-double late_share(const StiffPlan& plan, const PenaltyContact& c) {
-  return std::max(0.0, 1 - reach(plan.approach) / step_path(plan.approach, c));
+/// [1] How wide the bracket is, over its stable end; 0 if it has not two ends.
+double width(const LimitBracket& bracket) {
+  return bracket.stable > 0 && std::isfinite(bracket.unstable) ? bracket.unstable / bracket.stable - 1 : 0;
 }
 
 /// `rows` are those that it speaks of.
@@ -69,21 +69,14 @@ bool holds_theory(const LimitRow& row) {
   return bracket.stable <= *row.theory && *row.theory <= bracket.unstable;
 }
 
-double bracket_width(const LimitRow& row) {
-  const LimitBracket& bracket = row.bracket;
-  return bracket.stable > 0 && std::isfinite(bracket.unstable) ? bracket.unstable / bracket.stable - 1 : 0;
-}
-
 std::vector<MapStep> map_of(const StiffPlan& plan, const std::vector<LimitRow>& rows) {
   std::vector<MapStep> map;
   for (const LimitRow& row : rows) {
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
       const double step = plan.steps[i];
       const bool undecided = row.bracket.stable < step && step < row.bracket.unstable;
-      map.push_back({&row, step, row.blow_ups[i],
-                     undecided             ? "undecided"
-                     : row.blow_ups[i] > 0 ? "unstable"
-                                           : "stable"});
+      const char* decided = row.blow_ups[i] > 0 ? "unstable" : "stable";
+      map.push_back({&row, step, row.blow_ups[i], undecided ? "undecided" : decided});
     }
   }
   return map;
@@ -118,7 +111,7 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   return {
       claim("the limit lies in the measured bracket", results.limits, holds_theory),
       claim("the bracket is at most 0.1 % wide", results.limits,
-            [](const LimitRow& row) { return bracket_width(row) <= wide; }),
+            [](const LimitRow& row) { return width(row.bracket) <= wide; }),
       claim("a step is stable below the limit and unstable above", decided,
             [](const MapStep& s) {
               return (s.verdict == "stable") == (!s.spring->theory || s.step < *s.spring->theory);
@@ -139,15 +132,16 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
             only(undamped,
                  [&](const ContactRow& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
             [&](const ContactRow& r) {
-              const Row& split = twin_of(results.bounces, r);
+              const ContactRow& split = twin_of(results.bounces, r);
               const double most = slack(r) * std::max(1.0, r.tally.fastest);
               return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
                      std::abs(r.tally.fastest - split.tally.fastest) <= most;
             }),
       claim("discrete: as many escape as are first seen past the middle, or more", only(results.bounces, discrete),
             [&](const ContactRow& r) {
-              const double late = static_cast<double>(r.tally.bounces()) * late_share(plan, r.contact);
-              return static_cast<double>(r.tally.escaped) >= std::floor(late) - 1;
+              const double late_share = std::max(0.0, 1 - reach(plan.approach) / step_path(plan.approach, r.contact));
+              const double least = std::floor(static_cast<double>(r.tally.bounces()) * late_share) - 1;
+              return static_cast<double>(r.tally.escaped) >= least;
             }),
       claim("implicit, split, stiff enough for continuous time: none escapes",
             only(results.bounces,

@@ -26,11 +26,8 @@ double deepest(double damping_ratio);
 /// Nothing for a step of 2 and more.
 std::optional<Interval> bounce_bounds(double step);
 
-/// The bracket does.
+/// The measured bracket holds the limit, or both have none.
 bool holds_theory(const LimitRow& row);
-
-/// [1] How wide the bracket is, over its stable end; 0 if it has not two ends.
-double bracket_width(const LimitRow& row);
 
 /// A step of the map.
 struct MapStep {
