@@ -169,9 +169,9 @@ Table bounce_table(const Totals& totals) {
 }
 
 Table bounce_self_test_table(const std::vector<SelfTest>& tests) {
-  Table table = self_test_table(tests);
+  Table table =
+      self_test_table(tests, "Counts that went through, tunneled or pushed out on the wrong side, against theory.");
   table.name = "bounce_self_test";
-  table.description = "Counts that went through, tunneled or pushed out on the wrong side, against theory.";
   return table;
 }
 
@@ -250,10 +250,7 @@ std::optional<Measured> lateness_share(const Row& row) {
 Plot points(const Rows& rows, const Abscissa& along, std::string_view y, std::string y_label) {
   const auto columns = columns_of<Row>(row_columns(), bounce_columns(), value("x", "", "", along.x),
                                        measured("lateness_share", "", "", lateness_share, "lateness_"));
-  return plot(table("drawn", "", columns, rows))
-      .x("x", Axis::log, along.label)
-      .y(y, Axis::linear, std::move(y_label))
-      .by("method");
+  return plot(columns, rows).x("x", Axis::log, along.label).y(y, Axis::linear, std::move(y_label)).by("method");
 }
 
 /// Methods that never tunnel would hide each other on the zero line: they take turns on it.
@@ -526,8 +523,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
       rows[i / each].tally += done.results[i];
       rows[i / each].seconds += done.seconds[i];
     }
-    Counts counts;
-    for (const Counts& of_cell : evenly.results) counts.insert(counts.end(), of_cell.begin(), of_cell.end());
+    const Counts counts = flat(evenly.results);
     auto next = counts.begin();
     for (Row& row : rows) {
       if (is_fired_evenly(row.cell, *row.method)) row.tunneled_evenly = *next++;
