@@ -5,6 +5,7 @@
 #include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>

@@ -33,6 +33,9 @@ std::string_view pairs_name(PairSet pairs) { return pairs == PairSet::rounded ? 
 /// "long double", "50 digits".
 std::string title_of(std::size_t precision) { return spaced(std::string(precision_name(precision))); }
 
+/// Of a row of whatever table, as a column reads it.
+constexpr auto its_precision = [](const auto& row) { return precision_name(row.precision); };
+
 /// How far a method gets along each arm, on pairs with a ball or on two boxes.
 struct Rung : ExtremeContender {
   double nanoseconds;          ///< a query: the median over pairs and places
@@ -93,8 +96,7 @@ template <class Text> void add_arms(Columns<Rung>& columns, const Text& text_of)
 Table ladder_table(const std::vector<Rung>& rungs) {
   auto columns =
       columns_of<Rung>(text("method", "Way to find the time of impact.", &Rung::method),
-                       text("precision", "Floating-point type the kernels ran in.",
-                            [](const Rung& r) { return precision_name(r.precision); }),
+                       text("precision", "Floating-point type the kernels ran in.", its_precision),
                        text("pairs", "With a ball, three pairs; or two boxes, which have no radius.",
                             [](const Rung& r) { return pairs_name(r.pairs); }),
                        value("nanoseconds", "ns", "A query; median over pairs and places.", &Rung::nanoseconds));
@@ -112,7 +114,7 @@ Table ladder_test_table(const std::vector<LadderTest>& tests) {
   const auto finite = [](double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; };
   const auto columns = columns_of<T>(
       text("what", "What theory says something about; docs/extremes.md has the units.", &T::what),
-      text("precision", "Floating-point type.", [](const T& t) { return precision_name(t.precision); }),
+      text("precision", "Floating-point type.", its_precision),
       value("cells", "1", "Cells it is held against.", &T::cells),
       value("measured", "1", "The worst of them; missing: there is none.",
             [=](const T& t) { return finite(t.measured); }),
@@ -162,8 +164,7 @@ Table breaks_table(const std::vector<Row>& rows, const std::vector<Rung>& rungs)
 
 Columns<Row> key_columns() {
   return columns_of<Row>(text("pair", "The two shapes.", [](const Row& r) { return r.pair->name; }),
-                         text("precision", "Floating-point type the kernels ran in.",
-                              [](const Row& r) { return precision_name(r.precision); }),
+                         text("precision", "Floating-point type the kernels ran in.", its_precision),
                          text("axis", "What is extreme.", [](const Row& r) { return info(r.place.axis).name; }),
                          value("value", "1", "How extreme: of lengths in sizes of the pair, R.",
                                [](const Row& r) { return r.place.value; }),
@@ -193,14 +194,12 @@ Table timings_table(const std::vector<Row>& asked) {
 
 /// A class of values and its color.
 struct HeatBin {
-  std::string label;
-  std::string color;  ///< #rrggbb
+  std::string label, color;  ///< the color as #rrggbb
 };
-using Bins = std::vector<HeatBin>;
 
 /// What is seen of all that the rows of a cell add up to: a bin, or nothing, which leaves it white.
 struct Look {
-  Bins bins;
+  std::vector<HeatBin> bins;
   std::function<std::optional<std::size_t>(const Tally&)> bin_of;
 };
 
@@ -209,27 +208,32 @@ struct HeatRow {
   std::function<bool(const Row&)> has;
 };
 
-/// In every list each bin is darker than the one before, so that the order holds in gray.
-const Bins share_bins = {{"none", "#e6eef6"},
-                         {"up to 1 %", "#f2b36b"},
-                         {"up to 10 %", "#e77a44"},
-                         {"up to half", "#d7301f"},
-                         {"more", "#7f0000"}};
-const Bins error_bins = {{"up to 1", "#e6eef6"},   {"up to 4", "#b4d6ee"},   {"up to 100", "#eaa838"},
-                         {"up to 1e4", "#dc741a"}, {"up to 1e8", "#b43f0a"}, {"more than 1e8", "#571c06"}};
-
 /// The first bin whose upper limit is not below x; the last has none.
 std::size_t bin_of(double x, const std::vector<double>& limits) {
   return static_cast<std::size_t>(std::ranges::lower_bound(limits, x) - limits.begin());
 }
+
+// The bins of a share, and of an error: each is darker than the one before, so that the order holds in gray.
+
 Look share_look(std::int64_t Tally::*part) {
-  return {share_bins, [part](const Tally& t) -> std::optional<std::size_t> {
+  return {{{"none", "#e6eef6"},
+           {"up to 1 %", "#f2b36b"},
+           {"up to 10 %", "#e77a44"},
+           {"up to half", "#d7301f"},
+           {"more", "#7f0000"}},
+          [part](const Tally& t) -> std::optional<std::size_t> {
             if (t.queries == 0) return {};
             return bin_of(static_cast<double>(t.*part) / static_cast<double>(t.queries), {0, 0.01, 0.1, 0.5});
           }};
 }
 Look error_look(double Tally::*error) {
-  return {error_bins, [error](const Tally& t) -> std::optional<std::size_t> {
+  return {{{"up to 1", "#e6eef6"},
+           {"up to 4", "#b4d6ee"},
+           {"up to 100", "#eaa838"},
+           {"up to 1e4", "#dc741a"},
+           {"up to 1e8", "#b43f0a"},
+           {"more than 1e8", "#571c06"}},
+          [error](const Tally& t) -> std::optional<std::size_t> {
             if (t.timed == 0) return {};
             return bin_of(t.*error, {1, 4, 100, 1e4, 1e8});
           }};
@@ -254,10 +258,9 @@ std::string power_text(double x, std::string_view times, double least, double mo
 }
 
 /// The columns of an axis are one apart, and two from those of the next.
-Panel heat_panel(const std::string& title, const std::vector<Row>& rows, const std::vector<HeatRow>& heat_rows,
-                 const Look& look, bool names_axes) {
+Panel heat_panel(const std::string& title, const std::vector<Place>& places, const std::vector<Row>& rows,
+                 const std::vector<HeatRow>& heat_rows, const Look& look, bool names_axes) {
   constexpr double row_height = 22.0 / 360;  // [1] of a panel of height 1
-  const std::vector<Place> places = places_of(rows);
   Panel panel = {.x_label = "value on the axis named above, all others as usual [1]",
                  .y_label = title,
                  .height = row_height * (static_cast<double>(heat_rows.size()) + 0.4)};
@@ -280,44 +283,42 @@ Panel heat_panel(const std::string& title, const std::vector<Row>& rows, const s
     }
     for (std::size_t j = 0; j < places.size(); ++j) {
       const std::optional<std::size_t> bin = look.bin_of(sums[j]);
-      if (!bin) continue;
-      panel.series[*bin].add(panel.x_tics[j].at, y);
+      if (bin) panel.series[*bin].add(panel.x_tics[j].at, y);
     }
   }
   return panel;
 }
 
-/// A panel a precision, with those of its rows that are asked.
-template <class RowsIn> std::vector<Panel> heat_panels(const std::vector<Row>& rows, const Look& look, RowsIn rows_in) {
+/// A panel a precision, with those of the heat rows that are asked there.
+std::vector<Panel> heat_panels(const std::vector<Row>& rows, const Look& look, const std::vector<HeatRow>& heat_rows) {
   std::vector<Panel> panels;
   for (const std::size_t p : precisions_of(rows)) {
-    std::vector<HeatRow> heat_rows = rows_in(p);
-    std::erase_if(heat_rows, [&](const HeatRow& row) { return std::ranges::none_of(rows, row.has); });
-    if (!heat_rows.empty()) panels.push_back(heat_panel(title_of(p), rows, heat_rows, look, panels.empty()));
+    const std::vector<Row> its = only(rows, [p](const Row& row) { return row.precision == p; });
+    const std::vector<HeatRow> asked =
+        only(heat_rows, [&](const HeatRow& row) { return std::ranges::any_of(its, row.has); });
+    if (!asked.empty()) panels.push_back(heat_panel(title_of(p), places_of(rows), its, asked, look, panels.empty()));
   }
   return panels;
 }
 
 /// A row a method.
-auto methods_on(PairSet pairs) {
-  return [pairs](std::size_t precision) {
-    std::vector<HeatRow> heat_rows;
-    for (const std::string_view method : extreme_method_names()) {
-      const ExtremeContender contender = {method, precision, pairs};
-      heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""),
-                           [contender](const Row& row) { return contender.has(row); }});
-    }
-    return heat_rows;
-  };
+std::vector<HeatRow> methods_on(PairSet pairs) {
+  std::vector<HeatRow> heat_rows;
+  for (const std::string_view method : extreme_method_names()) {
+    heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""), [=](const Row& row) {
+                           return ExtremeContender{method, row.precision, pairs}.has(row);
+                         }});
+  }
+  return heat_rows;
 }
 
 /// A row a pair, for the closed form.
-std::vector<HeatRow> every_pair(std::size_t precision) {
+std::vector<HeatRow> every_pair() {
   std::vector<HeatRow> heat_rows;
   for (const ExtremePair& pair : extreme_pairs()) {
     heat_rows.push_back(
-        {std::string(pair.name), [precision, &pair](const Row& row) {
-           return row.pair == &pair && ExtremeContender{"closed_form", precision, PairSet::all}.has(row);
+        {std::string(pair.name), [&pair](const Row& row) {
+           return row.pair == &pair && ExtremeContender{"closed_form", row.precision, PairSet::all}.has(row);
          }});
   }
   return heat_rows;
@@ -333,7 +334,7 @@ Figure changed_by_rounding(const std::vector<Row>& rows) {
       "Verdicts that rounding the input alone changes",
       "Share of the queries, drawn in doubles, whose true answer is another one once they are rounded to the precision. "
       "No method is at fault: every method is judged by the answer to the rounded query.",
-      {heat_panel("precision", rows, heat_rows, share_look(&Tally::changed), true)}};
+      {heat_panel("precision", places_of(rows), rows, heat_rows, share_look(&Tally::changed), true)}};
 }
 
 /// The foil's loss between two balls, with u (d/R)^2 / 2.
@@ -355,14 +356,15 @@ Figure loss_figure(const std::vector<Row>& rows) {
     }
     theory.push_back(line);
   }
-  const bool is_empty = panel.series.empty();
+  if (panel.series.empty()) return {};  // a figure without panels is left out
   panel.series.insert(panel.series.end(), theory.begin(), theory.end());
   return {
-      "textbook_loss", "What the textbook's quadratic loses between two balls",
+      "textbook_loss",
+      "What the textbook's quadratic loses between two balls",
       "Root mean square of the error of the place of contact along the normal, over the radius, where it finds one. The "
       "lines are u (d/R)^2 / 2, one a precision; points leave them where verdicts go wrong, at d/R = 1/sqrt(u). The "
       "closed form's stay at u d/R, whose slope is half.",
-      is_empty ? std::vector<Panel>() : std::vector{panel}};
+      {panel}};
 }
 
 std::vector<Figure> figures_of(const std::vector<Row>& rows) {
@@ -391,7 +393,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows) {
       {"closed_form_pairs", "The closed form on every pair: largest forward error [u kappa t]",
        "A row is a pair of shapes. White: no hit to time, or a value that does not concern the pair, or that the "
        "precision cannot hold.",
-       heat_panels(rows, forward, every_pair)}};
+       heat_panels(rows, forward, every_pair())}};
   if (!rows.empty()) figures.push_back(changed_by_rounding(rows));
   figures.push_back(loss_figure(rows));
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });

@@ -9,7 +9,7 @@ namespace thinwall {
 namespace {
 
 /// Allowed is what a query drawn in doubles can be: beyond 1e15 its own rounding would be all that is left of a radius.
-constexpr std::array<AxisInfo, axis_count> axes{{
+constexpr auto axes = std::to_array<AxisInfo>({
     {"scale", "scale", &Extreme::scale, {.lower = 1e-150, .upper = 1e150}},
     {"distance", "distance / R", &Extreme::distance, {.lower = 1, .upper = 1e15, .unit = "R"}},
     {"speed", "speed / R", &Extreme::speed, {.lower = 1e-12, .upper = 1e15, .unit = "R"}},
@@ -17,7 +17,7 @@ constexpr std::array<AxisInfo, axis_count> axes{{
     {"offset", "offset / R", &Extreme::offset, {.lower = 1, .upper = 1e12, .unit = "R"}},
     {"grazing", "grazing 1 - b/R", &Extreme::grazing, {.lower = 1e-15, .upper = 1, .upper_open = true}},
     {"ratio", "size ratio", &Extreme::ratio, {.lower = 1e-15, .upper = 1}},
-}};
+});
 
 bool is_in(const ExtremePair& pair, PairSet pairs) {
   if (pairs == PairSet::all) return true;
@@ -39,7 +39,7 @@ std::vector<Place> make_places(const Settings& settings) {
   for (const AxisInfo& axis : axes) names.push_back(axis.name);
   const std::vector<std::string> chosen = settings.choices_or_all("axis", names);
   std::vector<Place> places;
-  for (std::size_t i = 0; i < axis_count; ++i) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     std::vector<double> values = settings.numbers(names[i], axes[i].allowed);
     if (std::ranges::find(chosen, names[i]) == chosen.end()) continue;  // its values are checked all the same
     std::ranges::sort(values);
@@ -75,18 +75,14 @@ bool ExtremeContender::has(const ExtremeRow& row) const {
 }
 
 std::vector<std::size_t> precisions_of(const std::vector<ExtremeRow>& rows) {
-  std::vector<std::size_t> found;
-  for (std::size_t p = 0; p < precision_count; ++p) {
-    if (std::ranges::find(rows, p, &ExtremeRow::precision) != rows.end()) found.push_back(p);
-  }
+  std::vector<std::size_t> found = distinct(rows, &ExtremeRow::precision);
+  std::ranges::sort(found);
   return found;
 }
 
 std::vector<Place> places_of(const std::vector<ExtremeRow>& rows) {
-  std::vector<Place> places;
-  for (const ExtremeRow& row : rows) places.push_back(row.place);
+  std::vector<Place> places = distinct(rows, &ExtremeRow::place);
   std::ranges::sort(places);
-  places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }
 

@@ -19,7 +19,6 @@ namespace thinwall {
 class Settings;
 
 enum class ExtremeAxis { scale, distance, speed, thickness, offset, grazing, ratio };
-inline constexpr std::size_t axis_count = 7;
 
 /// What a query is made from. R is the size of the pair: the sum of the radii of the balls around its two shapes.
 struct Extreme {
@@ -118,7 +117,7 @@ struct ExtremePair {
   bool has_box;                                 ///< that can be thin
   std::array<AskExtreme, precision_count> ask;  ///< null: not in that precision
 
-  bool every_method() const { return ask.back() != nullptr; }  ///< or the closed form alone, in float and double
+  bool every_method() const { return ask.back() != nullptr; }  ///< or the closed form and the foil, in float and double
 };
 std::span<const ExtremePair> extreme_pairs();
 
@@ -138,7 +137,7 @@ enum class PairSet {
   rounded,  ///< of the four that every method is asked, those with a ball
   boxes,    ///< of the same, the two boxes
   four,     ///< both
-  all,      ///< the closed form's, too
+  all,      ///< those of the closed form and the foil alone, too
 };
 
 /// A method in a precision, on some of the pairs.

@@ -13,6 +13,10 @@ namespace {
 constexpr std::string_view closed_form = "closed_form", foil = "textbook", forward = "closed_form_forward";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// [u] The contract is held to where contact lasts longer than this share of the path until it; and the forward error to
+/// where the path is farther than this from the last that touches.
+constexpr double least_contact = 64;
+
 double unit_of(std::size_t precision) { return all_precisions()[precision].unit; }
 
 /// The share of the path until contact for which the contact lasts, at least: below some u of the precision no time can say

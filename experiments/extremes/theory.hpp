@@ -27,10 +27,6 @@ struct LossTheory {
   double spread = 4;  ///< [1] the largest root mean square of k over the least, from decade to decade
 };
 
-/// [u] The contract is held to where contact lasts longer than this share of the path until it; and the forward error to
-/// where the path is farther than this from the last that touches.
-inline constexpr double least_contact = 64;
-
 std::vector<LadderTest> ladder_tests(const std::vector<ExtremeRow>& rows, const LossTheory& theory = {});
 
 }  // namespace thinwall

@@ -9,15 +9,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <thinwall/experiments/lab/random.hpp>
-#include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 
 namespace thinwall {
-
-template <class Cell> class Factors;  // lab/factors.hpp
 
 enum class Wall { infinite, finite };
 
@@ -50,11 +47,6 @@ struct CellFault {
   std::string expected;
 };
 std::optional<CellFault> fault_of(const Cell& cell);
-
-const Factors<Cell>& cell_factors();  ///< all but the wall's size, which is the same in every finite wall
-
-/// The bullet first, then every combination of the settings' factors; `each` units come of one. Throws UsageError.
-std::vector<Cell> make_cells(const Settings& settings, std::size_t each = 1);
 
 double step_length(const Cell& cell);      ///< [m] s = speed * step
 double cosine(const Cell& cell);           ///< [1] of the angle of incidence, > 0

@@ -1,6 +1,7 @@
 /// How often does a fast ball pass through a thin wall, for each way of detecting the hit, and does theory agree? See
 /// docs/thin_wall.md.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,7 +15,7 @@
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
-#include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -168,9 +169,9 @@ Table bounce_table(const Totals& totals) {
 }
 
 Table bounce_self_test_table(const std::vector<SelfTest>& tests) {
-  Table table = self_test_table(tests);
+  Table table =
+      self_test_table(tests, "Counts that went through, tunneled or pushed out on the wrong side, against theory.");
   table.name = "bounce_self_test";
-  table.description = "Counts that went through, tunneled or pushed out on the wrong side, against theory.";
   return table;
 }
 
@@ -249,10 +250,7 @@ std::optional<Measured> lateness_share(const Row& row) {
 Plot points(const Rows& rows, const Abscissa& along, std::string_view y, std::string y_label) {
   const auto columns = columns_of<Row>(row_columns(), bounce_columns(), value("x", "", "", along.x),
                                        measured("lateness_share", "", "", lateness_share, "lateness_"));
-  return plot(table("drawn", "", columns, rows))
-      .x("x", Axis::log, along.label)
-      .y(y, Axis::linear, std::move(y_label))
-      .by("method");
+  return plot(columns, rows).x("x", Axis::log, along.label).y(y, Axis::linear, std::move(y_label)).by("method");
 }
 
 /// Methods that never tunnel would hide each other on the zero line: they take turns on it.
@@ -525,8 +523,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
       rows[i / each].tally += done.results[i];
       rows[i / each].seconds += done.seconds[i];
     }
-    Counts counts;
-    for (const Counts& of_cell : evenly.results) counts.insert(counts.end(), of_cell.begin(), of_cell.end());
+    const Counts counts = flat(evenly.results);
     auto next = counts.begin();
     for (Row& row : rows) {
       if (is_fired_evenly(row.cell, *row.method)) row.tunneled_evenly = *next++;
@@ -580,7 +577,41 @@ void add(Foretold& sum, const Row& row, const ThinWallFate& fate) {
   sum.expected += *chance * static_cast<double>(row.tally.shots);
 }
 
+/// The list of the two that is not the default, to complain about: the other is hardly to blame.
+std::string_view step_or_speed(const Settings& settings) {
+  const Settings defaults("", "defaults", embedded_toml("thin_wall"));
+  return settings.numbers("step", {}) == defaults.numbers("step", {}) ? "speed" : "step";
+}
+
+/// The bullet first, then every combination of the settings' factors; `each` units come of one. Throws UsageError.
+std::vector<Cell> make_cells(const Settings& settings, std::size_t each) {
+  const double size = settings.number("wall_size", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"});
+  const auto other_than_bullet = [&](Cell& cell) {
+    cell.wall_size = cell.wall == Wall::finite ? size : 0;
+    if (const std::optional<CellFault> fault = fault_of(cell))
+      settings.complain(fault->key == "speed" ? step_or_speed(settings) : fault->key, fault->expected);
+    return cell != bullet;
+  };
+  std::vector<Cell> cells = cell_factors().cells(settings, each, {}, other_than_bullet);
+  cells.insert(cells.begin(), bullet);
+  return cells;
+}
+
 }  // namespace
+
+const Factors<Cell>& cell_factors() {
+  static constexpr std::array<std::string_view, 2> walls = {"infinite", "finite"};
+  static const Factors<Cell> all =
+      factors(numbers("speed", &Cell::speed, allowed_speed, "Speed of the ball."),
+              numbers("step", &Cell::step, allowed_step, "Time between two poses."),
+              numbers("radius", &Cell::radius, allowed_radius, "Radius of the ball."),
+              numbers("thickness", &Cell::thickness, allowed_thickness, "Thickness of the wall."),
+              numbers("angle_deg", &Cell::angle_deg, allowed_angle,
+                      "Angle of incidence, between the motion and the wall's normal."),
+              choices("wall", &Cell::wall, walls, "Infinite, or a finite square."))
+          .first_fastest();
+  return all;
+}
 
 ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
   ShotPlan plan;

@@ -11,6 +11,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/explorer/explorer.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/thin_wall/methods.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 

@@ -68,7 +68,7 @@ template <class A, class S> A stretched(const A& a, const S& factor) {
 }
 
 /// The radius of a ball around the shape.
-inline double size_of(const Sphere<double>& s) { return s.radius; }
+double size_of(const Sphere<double>& s) { return s.radius; }
 template <class A> double size_of(const A& shape) { return safe_norm(half_widths(shape)); }
 
 template <class B>
@@ -150,13 +150,13 @@ template <class S, class A> bool holds(const Moving<A>& m) {
   return all;
 }
 
-template <class A, class B, class S> auto rounded_queries(const ExtremeInquiry& inquiry, std::int64_t count) {
+template <class A, class B, class S> auto rounded_queries(const ExtremeInquiry& inquiry) {
   using Query = ExtremeQuery<decltype(cast<S>(A{})), decltype(cast<S>(B{}))>;
   const std::array<double, 4> factors = {double{A::rank}, double{B::rank}, static_cast<double>(inquiry.place.axis),
                                          inquiry.place.value};
   const RandomStream stream = {inquiry.seed, stream_of(factors)};
   std::vector<Query> queries;
-  for (std::int64_t i = 0; i < count; ++i) {
+  for (std::int64_t i = 0; i < inquiry.queries; ++i) {
     QueryNumbers numbers(stream, static_cast<std::uint64_t>(i));
     const ExtremeQuery<A, B> q = draw_extreme<A, B>(numbers, extreme_at(inquiry.place));
     if (holds<S>(q.a) && holds<S>(q.b)) queries.push_back({rounded_to<S>(q.a), rounded_to<S>(q.b), q.meant_to_touch});
@@ -198,7 +198,7 @@ ExtremeTally judged(const std::vector<Query>& queries, std::vector<Truth<A, B>>&
     if (!number || toi.status == ToiStatus::gave_up) continue;
     const AnswerErrors errors = truths[i].errors(toi);
     tally.wrong += errors.wrong ? 1 : 0;
-    tally.far_wrong += errors.wrongness > 4 ? 1 : 0;
+    tally.far_wrong += errors.wrongness > break_verdict ? 1 : 0;
     tally.worst_wrong = std::max(tally.worst_wrong, errors.wrongness);
     if (errors.forward) forward.push_back(*errors.forward);
     if (errors.backward) backward.push_back(*errors.backward);
@@ -223,7 +223,7 @@ ExtremeTally judged(const std::vector<Query>& queries, std::vector<Truth<A, B>>&
 template <class A, class B, class S, class List> std::vector<ExtremeTally> ask_extreme(const ExtremeInquiry& inquiry) {
   using AS = decltype(cast<S>(A{}));
   using BS = decltype(cast<S>(B{}));
-  const auto queries = rounded_queries<A, B, S>(inquiry, inquiry.queries);
+  const auto queries = rounded_queries<A, B, S>(inquiry);
   using Real = typename Truth<AS, BS>::Real;
   std::vector<Truth<AS, BS>> truths;
   for (const auto& q : queries) {

@@ -36,6 +36,8 @@ template <class R> struct Sounding {
   R gap = 0;      ///< [length]
   R closing = 0;  ///< [length] per step; > 0 while it falls
   R scale = 0;    ///< [length] what one round-off is measured by
+
+  R margin() const { return scale > 0 ? R(gap / scale) : R(0); }  ///< [1] of it, the separation
 };
 
 /// Where the cores overlap: how far the nearest face of their Minkowski sum is. Nothing where it has no inside.
@@ -86,9 +88,8 @@ template <class R> R least_margin(const oracle::Problem<R>& problem, const R& to
   };
   const auto sample = [&](const R& time) { return Sample{time, sound(problem, time, tolerance)}; };
   Sample before = sample(R(0)), after = sample(R(1));
-  const auto margin = [](const Sample& s) { return R(s.there.scale > 0 ? R(s.there.gap / s.there.scale) : R(0)); };
-  if (!(before.there.closing > 0)) return margin(before);
-  if (after.there.closing > 0) return margin(after);
+  if (!(before.there.closing > 0)) return before.there.margin();
+  if (after.there.closing > 0) return after.there.margin();
   const int rounds = 4 * std::numeric_limits<R>::digits;
   for (int k = 0; k < rounds; ++k) {
     const Sample& best = before.there.gap < after.there.gap ? before : after;
@@ -103,7 +104,7 @@ template <class R> R least_margin(const oracle::Problem<R>& problem, const R& to
     const Sample between = sample(next);
     (between.there.closing > 0 ? before : after) = between;
   }
-  return margin(before.there.gap < after.there.gap ? before : after);
+  return (before.there.gap < after.there.gap ? before : after).there.margin();
 }
 
 /// Errors of one answer. Missing where there is nothing to measure.
@@ -161,10 +162,7 @@ template <class A, class B> class Truth {
   /// [1] What decides between hit and apart, or at the start; in long double where that is far from close.
   const Real& margin(bool about_start, const Real& u) {
     if (about_start || impact_.verdict == oracle::Verdict::overlapping) {
-      if (!at_start_) {
-        const Sounding<Real> start = sound(problem_, Real(0), tolerance());
-        at_start_ = start.scale > 0 ? Real(start.gap / start.scale) : Real(0);
-      }
+      if (!at_start_) at_start_ = sound(problem_, Real(0), tolerance()).margin();
       return *at_start_;
     }
     if (!over_step_) {
