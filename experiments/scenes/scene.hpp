@@ -18,13 +18,6 @@ namespace thinwall {
 
 // ---- The bodies that a scene file describes.
 
-/// What a scene may say of a length [m], a speed [m/s], an acceleration [m/s^2] or a mass [kg]: within the longest run no place
-/// leaves the world, and no energy the range of doubles.
-inline constexpr double most_of_a_scene = 1e30;
-inline constexpr Range scene_coordinate = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
-inline constexpr Range scene_speed = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
-inline constexpr Range scene_spin = {.lower = -1e6, .upper = 1e6, .unit = "rad/s"};
-
 /// Every [[body]] of the file, copies made: a grid, and random numbers that depend on the seed, on the body's own place,
 /// size and grid, and on the copy's place in it alone. Ids count up from 1, in the order of the file.
 /// Throws UsageError: a key out of range, missing, or not of the shape; more than two million bodies.
@@ -72,7 +65,6 @@ TimePolicy policy_named(std::string_view name);  ///< one of policy_names
 std::string trace_of(const Scene& scene);
 
 // ---- The referee of a scene: contacts that a step went through and did not see.
-//
 //
 // Between two steps a body that nothing touched moved straight, from where it was to where it is, and turned at the rate that it still
 // has. Of two such bodies, apart at both ends, the closed form says whether they touched on the way, or where one turns its sweep. If they did and the step told no contact of
