@@ -188,15 +188,8 @@ std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
 }
 
 Aabb<double> box_of(const Body& body) {
-  return std::visit(
-      [](const auto& held) -> Aabb<double> {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>) {
-          return {Vec3<double>::Zero(), Vec3<double>::Zero()};
-        } else {
-          return {center(held), half_widths(held)};
-        }
-      },
-      body.shape);
+  const Aabb<double> none = {Vec3<double>::Zero(), Vec3<double>::Zero()};
+  return of_shape(body.shape, none, [](const auto& held) -> Aabb<double> { return {center(held), half_widths(held)}; });
 }
 
 Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
