@@ -107,15 +107,15 @@ std::vector<Candidate> candidates(const Wish& wish) {
   const std::vector<std::string_view> names = method_names();
   const std::vector<std::string> methods(names.begin(), names.end());
   const std::array<std::string, 1> scalars = {"double"};
-  std::vector<Candidate> all;
-  for (const ThinWallMethod& m : thin_wall_methods(methods, offered_poses(wish), scalars)) {
-    all.push_back({m.name, m.poses_per_step, true, m.theory, m.ask});
-  }
-  all.push_back(certified_candidate());
-  return all;
+  return candidates_of(thin_wall_methods(methods, offered_poses(wish), scalars));
 }
 
-Candidate certified_candidate() { return {"certified", 0, false, certified_theory, ask_certified}; }
+std::vector<Candidate> candidates_of(std::span<const ThinWallMethod> methods) {
+  std::vector<Candidate> all;
+  for (const ThinWallMethod& m : methods) all.push_back({m.name, m.poses_per_step, true, m.theory, m.ask});
+  all.push_back({"certified", 0, false, certified_theory, ask_certified});
+  return all;
+}
 
 Advice advise(const Wish& wish) {
   if (!wish.rod) {

@@ -13,15 +13,17 @@
 
 namespace thinwall {
 
+namespace {
+
+/// `70 %`, `0`.
 std::string percent_text(double chance) { return chance <= no_chance ? "0" : rounded_text(100 * chance, 3) + " %"; }
 
+/// `no shot tunnels`, `1 % of the shots tunnel`.
 std::string tunnel_words(double chance) {
   if (chance <= no_chance) return "no shot tunnels";
   if (chance == 1) return "every shot tunnels";
   return percent_text(chance) + " of the shots tunnel";
 }
-
-namespace {
 
 std::string angle_words(const Cell& cell) {
   return cell.angle_deg == 0 ? "head-on" : fmt::format("at {} deg from its normal", exact_text(cell.angle_deg));
@@ -53,8 +55,7 @@ std::string rod_question_words(const Wish& wish) {
              number(contact.on_end), number(contact.mean)));
 }
 
-}  // namespace
-
+/// Two sentences, a line each: what flies, and its measures.
 std::string question_words(const Wish& wish) {
   if (wish.rod) return rod_question_words(wish);
   const Cell& cell = wish.cell;
@@ -77,6 +78,7 @@ std::string question_words(const Wish& wish) {
                              steps < 1 ? percent_text(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
 }
 
+/// `no shot tunnels, and ...`
 std::string wanted_words(const Wish& wish) {
   std::string text = wish.miss == 0   ? "no shot tunnels"
                      : wish.miss == 1 ? "whatever: any number of shots may tunnel"
@@ -84,6 +86,8 @@ std::string wanted_words(const Wish& wish) {
   if (wish.late) text += fmt::format(", and none is seen more than {} m past first contact", exact_text(*wish.late));
   return text;
 }
+
+}  // namespace
 
 std::string rounded_down_text(double value, int digits) {
   const double near = std::stod(rounded_text(value, digits));
