@@ -14,9 +14,6 @@ namespace thinwall {
 
 std::string figure_json(const Figure& figure);
 
-/// The figure that `figure_json` wrote, but for its caption. Throws UsageError in one line, which names `file`.
-Figure parse_figure(const std::string& text, const std::string& file);
-
 // ---- Another program as a function: what it said, and how it ended.
 
 struct ProcessResult {

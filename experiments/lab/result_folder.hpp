@@ -51,7 +51,6 @@ class ResultFolder {
   /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
   /// Throws std::runtime_error if the disk is full.
   ResultFolder(std::filesystem::path path, const RunIdentity& identity);
-  ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
 

@@ -12,9 +12,6 @@ namespace thinwall {
 
 // ---- The range of an axis, and where its tics stand.
 
-/// Significant digits of the ends of an axis in a script.
-inline constexpr int axis_digits = 6;
-
 struct DrawnAxis {
   bool log = false;
   double lower = 0, upper = 1;
@@ -39,25 +36,6 @@ struct SeriesStyle {
 
 /// One style for each label of the figure, in the order in which they first appear.
 std::vector<SeriesStyle> series_styles(const Figure& figure);
-
-// ---- Where the parts of a figure stand on its page, in pixels from the top left.
-
-struct PanelBox {
-  double top = 0, bottom = 0;
-};
-
-struct PlotLayout {
-  double width = 760, height = 0;
-  double left = 104, right = 736;        ///< of every panel: stacked panels are aligned
-  double title_y = 24;                   ///< middle of the title
-  double legend_x = 104, legend_y = 44;  ///< left and top of the legend: above the panels, or beside them if it is long
-  std::size_t legend_rows = 1;
-  double below = 50;     ///< from the panel's lower edge to the middle of its x label
-  bool shared_x = true;  ///< one x axis for all panels, labeled once
-  std::vector<PanelBox> panels;
-};
-
-PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& styles);
 
 // ---- A figure as a gnuplot script with its data, and as the SVG that gnuplot makes of them.
 

@@ -43,20 +43,7 @@ std::string padded(const std::string& text, std::size_t to, bool right) {
   return right ? spaces + text : text + spaces;
 }
 
-}  // namespace
-
-std::string wrapped(std::string_view text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const auto lines = broken(text.substr(at, end - at), terminal_width);
-    for (const std::string& line : lines) out += line + "\n";
-    if (lines.empty()) out += "\n";
-    at = end + 1;
-  }
-  return out;
-}
-
+/// The columns of these names alone, in this order, and the ends of their intervals.
 Table only_columns(const Table& table, std::initializer_list<std::string_view> names) {
   Table out = table;
   out.columns.clear();
@@ -71,6 +58,20 @@ Table only_columns(const Table& table, std::initializer_list<std::string_view> n
     const Column column = out.columns.back();
     if (!column.lower.empty()) take(column.lower);
     if (!column.upper.empty()) take(column.upper);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const auto lines = broken(text.substr(at, end - at), terminal_width);
+    for (const std::string& line : lines) out += line + "\n";
+    if (lines.empty()) out += "\n";
+    at = end + 1;
   }
   return out;
 }
