@@ -243,7 +243,7 @@ double World::energy() const {
   return static_cast<double>(sum);
 }
 
-/// Source: the 64-bit FNV-1a hash, by whole words.
+/// Source: the 64-bit FNV-1a hash, by words of 32 bits.
 std::uint64_t World::state_hash() const {
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };
