@@ -5,6 +5,7 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {
@@ -17,10 +18,8 @@ std::size_t width(std::string_view text) {
 
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (end > at) words.emplace_back(text.substr(at, end - at));
-    at = end + 1;
+  for (const std::string_view word : split(text, ' ')) {
+    if (!word.empty()) words.emplace_back(word);
   }
   return words;
 }

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <thinwall/discrete/broad_phase/proxy.hpp>
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -42,9 +42,9 @@ struct Scene {
   std::string name;          ///< letters, digits, _ and -
   std::vector<Body> bodies;  ///< in the order of the file
   WorldOptions options;
-  double dt = 0;           ///< [s] > 0
-  std::int64_t steps = 0;  ///< >= 1
-  std::vector<Push> pushes;
+  double dt = 0;             ///< [s] > 0
+  std::int64_t steps = 0;    ///< >= 1
+  std::vector<Push> pushes;  ///< in the order of time
   bool trace = false;
   std::int64_t trace_every = 1;  ///< [1] steps between two frames
   int across = 0, up = 1;        ///< the axes of the picture
@@ -86,17 +86,15 @@ struct MissedContact {
 
 class MissedContacts {
  public:
-  explicit MissedContacts(const World& world);
-  ~MissedContacts();
-  MissedContacts(const MissedContacts&) = delete;
-  MissedContacts& operator=(const MissedContacts&) = delete;
+  explicit MissedContacts(const World& world) : before_(world.bodies()) {}
 
   /// After a step of `dt` [s]: what it missed since the last call, by id.
   std::vector<MissedContact> after_step(const World& world, double dt);
 
  private:
-  struct Memory;
-  std::unique_ptr<Memory> memory_;
+  std::vector<Body> before_;
+  std::vector<Proxy> proxies_;  // of the ways since then; kept for their memory, as the pairs are
+  std::vector<ProxyPair> pairs_;
 };
 
 // ---- A scene stepped from its beginning to its end, and everything its results need to know of that.
