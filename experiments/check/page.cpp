@@ -7,10 +7,10 @@
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
-#include <thinwall/experiments/lab/svg.hpp>
 
 namespace thinwall {
 

@@ -68,8 +68,7 @@ double safe_up_to(const Rows& rows, const Row& like) {
 Columns<Row> names_and_factors() {
   return columns_of<Row>(text("engine", "The physics engine.", [](const Row& r) { return r.setup->engine.called; }),
                          text("mode", "How it is set up.", [](const Row& r) { return r.setup->mode.name; }),
-                         engine_factors().columns(&Row::cell))
-      .without({"step", "radius", "thickness", "angle_deg", "steps"});
+                         engine_factors().columns(&Row::cell, {"wall_size", "path"}));
 }
 
 Columns<Row> verdict_columns() {

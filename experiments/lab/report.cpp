@@ -9,9 +9,9 @@
 #include <md4c-html.h>
 #include <thinwall_embedded.hpp>
 
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
-#include <thinwall/experiments/lab/svg.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/lab/svg.hpp>
+#include <thinwall/experiments/lab/gnuplot.hpp>
 
 #include <algorithm>
 #include <array>
