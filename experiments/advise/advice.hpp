@@ -81,17 +81,12 @@ std::vector<RodStep> rod_steps(const Wish& wish, std::int64_t count, std::int64_
 
 // ---- What a step costs on this machine, method by method.
 
-struct QueryTime {
-  double median;    ///< [ns]
-  Interval spread;  ///< [ns] 95 %, of the median
-};
-
-/// Of one query. Which of the two kinds of steps is dearer differs from method to method.
+/// [ns] The median of one query. Which of the two kinds of steps is dearer differs from method to method.
 struct StepCost {
-  QueryTime clear;    ///< a step that ends before the wall
-  QueryTime contact;  ///< the next one, in which the ball touches it
+  Measured clear;    ///< a step that ends before the wall
+  Measured contact;  ///< the next one, in which the ball touches it
 
-  const QueryTime& dearer() const { return clear.median > contact.median ? clear : contact; }
+  const Measured& dearer() const { return clear.value > contact.value ? clear : contact; }
 };
 
 struct TimingEffort {

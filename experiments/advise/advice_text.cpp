@@ -107,9 +107,9 @@ std::string seen(const AdviceRow& row) {
 /// The least, or as little as the measurement can tell.
 std::string how_cheap(const Advice& advice) {
   const auto meeting = std::ranges::count_if(advice.rows, [](const AdviceRow& row) { return row.meets; });
-  const double own = advice.advised()->cost.dearer().median;
+  const double own = advice.advised()->cost.dearer().value;
   const bool tied = std::ranges::any_of(
-      advice.rows, [&](const AdviceRow& row) { return row.meets && row.cost.dearer().median < own; });
+      advice.rows, [&](const AdviceRow& row) { return row.meets && row.cost.dearer().value < own; });
   if (meeting == 1) return "no other method here meets the wish";
   return fmt::format("{} of the {} methods here that meet the wish", tied ? "as little as any" : "the least", meeting);
 }
@@ -143,7 +143,7 @@ std::string advice_sentence(const Advice& advice) {
   if (best == nullptr) return "No method here meets the wish at this step.";
   return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
                      tunnel_words(best->theory.probability.value_or(0)), seen(*best),
-                     rounded_text(best->cost.dearer().median, 3), how_cheap(advice), pushed_through(advice),
+                     rounded_text(best->cost.dearer().value, 3), how_cheap(advice), pushed_through(advice),
                      simplest(advice));
 }
 
@@ -164,10 +164,10 @@ constexpr const char* header =
     "  method                   tunneling  [m]       [steps]   clear        contact      that does\n";
 
 /// A median with as many decimals as its interval bears out.
-std::string time_text(const QueryTime& time) {
-  const double half = std::max(time.spread.upper - time.median, time.median - time.spread.lower);
-  if (half > 9.9) return fmt::format("{:.0f} +-{:.0f}", time.median, std::ceil(half));
-  return fmt::format("{:.1f} +-{:.1f}", time.median, std::max(0.1, std::ceil(10 * half) / 10));
+std::string time_text(const Measured& time) {
+  const double half = std::max(time.interval.upper - time.value, time.value - time.interval.lower);
+  if (half > 9.9) return fmt::format("{:.0f} +-{:.0f}", time.value, std::ceil(half));
+  return fmt::format("{:.1f} +-{:.1f}", time.value, std::max(0.1, std::ceil(10 * half) / 10));
 }
 
 std::string step_text(const std::optional<double>& step) {
@@ -235,8 +235,8 @@ ordered_json optional_number(const std::optional<double>& number) {
   return number ? ordered_json(*number) : ordered_json();
 }
 
-ordered_json time_json(const QueryTime& time) {
-  return {{"median", time.median}, {"lower", time.spread.lower}, {"upper", time.spread.upper}};
+ordered_json time_json(const Measured& time) {
+  return {{"median", time.value}, {"lower", time.interval.lower}, {"upper", time.interval.upper}};
 }
 
 ordered_json row_json(const AdviceRow& row, double step_length) {

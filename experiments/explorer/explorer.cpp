@@ -214,10 +214,10 @@ int explorer_race() {
   for (const ShotStep& step : steps) truth.push_back(certified_time_of_impact(step.ball, step.wall));
   explorer.numbers.clear();
   for (std::size_t m = 0; m < explorer.methods.size(); ++m) {
-    const QueryTime& time = explorer.costs[m].dearer();
+    const Measured& time = explorer.costs[m].dearer();
     const StepErrors errors = errors_of(explorer.methods[m], steps, explorer.aimed.step_length, truth);
     for (const double number :
-         {time.median, time.spread.lower, time.spread.upper, errors.wrong, errors.p99, errors.largest})
+         {time.value, time.interval.lower, time.interval.upper, errors.wrong, errors.p99, errors.largest})
       explorer.numbers.push_back(number);
   }
   return static_cast<int>(explorer.numbers.size());
