@@ -36,7 +36,7 @@ constexpr Range speed_range = {.lower = -most_of_a_scene, .upper = most_of_a_sce
 constexpr Range length_range = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
 
 Vec3<double> vector3(const Settings& settings, std::string_view key, const Range& range) {
-  const std::vector<double> values = settings.vector(key, 3, range);
+  const std::array<double, 3> values = settings.vector(key, range);
   return {values[0], values[1], values[2]};
 }
 
@@ -144,7 +144,7 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   body.mask = static_cast<std::uint32_t>(settings.integer("mask", 0, most_id));
 
   std::array<std::int64_t, 3> copies{};
-  const std::vector<double> counts = settings.vector("copies", 3, {.lower = 1, .upper = 1e6});
+  const std::array<double, 3> counts = settings.vector("copies", {.lower = 1, .upper = 1e6});
   for (std::size_t i = 0; i < 3; ++i) {
     copies[i] = static_cast<std::int64_t>(counts[i]);
     if (static_cast<double>(copies[i]) != counts[i]) settings.complain("copies", "three whole numbers");
