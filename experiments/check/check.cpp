@@ -1,8 +1,6 @@
 #include <thinwall/experiments/check/check.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -10,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>

@@ -1,7 +1,6 @@
 #pragma once
 /// A result folder: what lies in it, how it is written whole or not at all, how it is read again.
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>

@@ -2,7 +2,6 @@
 /// Shards: a run in parts, on machines that do not know of each other.
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>

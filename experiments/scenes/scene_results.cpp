@@ -1,7 +1,6 @@
 #include <thinwall/experiments/scenes/comparison.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 
