@@ -21,9 +21,9 @@ double lateness(const AdviceRow& row) {
 /// Of the first `meeting` rows, which are sorted by cost, the advised one comes first.
 void put_advised_first(std::vector<AdviceRow>& rows, std::ptrdiff_t meeting) {
   if (meeting == 0) return;
-  const double noise = rows.front().cost.dearer().spread.upper;
+  const double noise = rows.front().cost.dearer().interval.upper;
   const auto tied = std::find_if(rows.begin(), rows.begin() + meeting,
-                                 [&](const AdviceRow& row) { return row.cost.dearer().spread.lower > noise; });
+                                 [&](const AdviceRow& row) { return row.cost.dearer().interval.lower > noise; });
   const auto least_late = std::min_element(
       rows.begin(), tied, [](const AdviceRow& a, const AdviceRow& b) { return lateness(a) < lateness(b); });
   std::rotate(rows.begin(), least_late, least_late + 1);
@@ -63,7 +63,7 @@ Advice advise(const Wish& wish, std::span<const Candidate> candidates, std::span
                            longest_step(wish, candidate.at_any_spin ? candidate.at_any_spin : candidate.theory)});
   }
   std::stable_sort(advice.rows.begin(), advice.rows.end(), [](const AdviceRow& a, const AdviceRow& b) {
-    return std::tuple(!a.meets, a.cost.dearer().median) < std::tuple(!b.meets, b.cost.dearer().median);
+    return std::tuple(!a.meets, a.cost.dearer().value) < std::tuple(!b.meets, b.cost.dearer().value);
   });
   put_advised_first(advice.rows, std::count_if(advice.rows.begin(), advice.rows.end(),
                                                [](const AdviceRow& row) { return row.meets; }));
@@ -107,15 +107,15 @@ std::vector<Candidate> candidates(const Wish& wish) {
   const std::vector<std::string_view> names = method_names();
   const std::vector<std::string> methods(names.begin(), names.end());
   const std::array<std::string, 1> scalars = {"double"};
-  std::vector<Candidate> all;
-  for (const ThinWallMethod& m : thin_wall_methods(methods, offered_poses(wish), scalars)) {
-    all.push_back({m.name, m.poses_per_step, true, m.theory, m.ask});
-  }
-  all.push_back(certified_candidate());
-  return all;
+  return candidates_of(thin_wall_methods(methods, offered_poses(wish), scalars));
 }
 
-Candidate certified_candidate() { return {"certified", 0, false, certified_theory, ask_certified}; }
+std::vector<Candidate> candidates_of(std::span<const ThinWallMethod> methods) {
+  std::vector<Candidate> all;
+  for (const ThinWallMethod& m : methods) all.push_back({m.name, m.poses_per_step, true, m.theory, m.ask});
+  all.push_back({"certified", 0, false, certified_theory, ask_certified});
+  return all;
+}
 
 Advice advise(const Wish& wish) {
   if (!wish.rod) {

@@ -70,7 +70,8 @@ std::vector<std::int64_t> offered_poses(const Wish& wish, const std::function<Th
 
 std::vector<Candidate> candidates(const Wish& wish);
 
-Candidate certified_candidate();
+/// These, and the certified answers.
+std::vector<Candidate> candidates_of(std::span<const ThinWallMethod> methods);
 
 /// The same for a rod: the methods that turn. The theory is that of docs/spinning_rod.md.
 std::vector<Candidate> rod_candidates(const Wish& wish);
@@ -80,17 +81,12 @@ std::vector<RodStep> rod_steps(const Wish& wish, std::int64_t count, std::int64_
 
 // ---- What a step costs on this machine, method by method.
 
-struct QueryTime {
-  double median;    ///< [ns]
-  Interval spread;  ///< [ns] 95 %, of the median
-};
-
-/// Of one query. Which of the two kinds of steps is dearer differs from method to method.
+/// [ns] The median of one query. Which of the two kinds of steps is dearer differs from method to method.
 struct StepCost {
-  QueryTime clear;    ///< a step that ends before the wall
-  QueryTime contact;  ///< the next one, in which the ball touches it
+  Measured clear;    ///< a step that ends before the wall
+  Measured contact;  ///< the next one, in which the ball touches it
 
-  const QueryTime& dearer() const { return clear.median > contact.median ? clear : contact; }
+  const Measured& dearer() const { return clear.value > contact.value ? clear : contact; }
 };
 
 struct TimingEffort {
@@ -136,17 +132,10 @@ Advice advise(const Wish& wish, std::span<const Candidate> candidates, std::span
 /// The same of all who can serve a ball, or a rod, once their costs are measured: about a second.
 Advice advise(const Wish& wish);
 
-// ---- Numbers in the words of the advice.
-
-std::string percent_text(double chance);       ///< "70 %", "0"
-std::string tunnel_words(double chance);       ///< "no shot tunnels", "1 % of the shots tunnel"
-std::string question_words(const Wish& wish);  ///< two sentences, a line each: what flies, and its measures
-std::string wanted_words(const Wish& wish);    ///< "no shot tunnels, and ..."
+// ---- The advice in words, for a terminal, and as JSON, for a script.
 
 /// As rounded_text, but never more than `value` > 0: a bound that is safe to keep to.
 std::string rounded_down_text(double value, int digits);
-
-// ---- The advice in words, for a terminal, and as JSON, for a script.
 
 /// The advice itself: a sentence or two, of one line.
 std::string advice_sentence(const Advice& advice);

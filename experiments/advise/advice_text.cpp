@@ -13,15 +13,17 @@
 
 namespace thinwall {
 
+namespace {
+
+/// `70 %`, `0`.
 std::string percent_text(double chance) { return chance <= no_chance ? "0" : rounded_text(100 * chance, 3) + " %"; }
 
+/// `no shot tunnels`, `1 % of the shots tunnel`.
 std::string tunnel_words(double chance) {
   if (chance <= no_chance) return "no shot tunnels";
   if (chance == 1) return "every shot tunnels";
   return percent_text(chance) + " of the shots tunnel";
 }
-
-namespace {
 
 std::string angle_words(const Cell& cell) {
   return cell.angle_deg == 0 ? "head-on" : fmt::format("at {} deg from its normal", exact_text(cell.angle_deg));
@@ -53,8 +55,7 @@ std::string rod_question_words(const Wish& wish) {
              number(contact.on_end), number(contact.mean)));
 }
 
-}  // namespace
-
+/// Two sentences, a line each: what flies, and its measures.
 std::string question_words(const Wish& wish) {
   if (wish.rod) return rod_question_words(wish);
   const Cell& cell = wish.cell;
@@ -77,6 +78,7 @@ std::string question_words(const Wish& wish) {
                              steps < 1 ? percent_text(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
 }
 
+/// `no shot tunnels, and ...`
 std::string wanted_words(const Wish& wish) {
   std::string text = wish.miss == 0   ? "no shot tunnels"
                      : wish.miss == 1 ? "whatever: any number of shots may tunnel"
@@ -84,6 +86,8 @@ std::string wanted_words(const Wish& wish) {
   if (wish.late) text += fmt::format(", and none is seen more than {} m past first contact", exact_text(*wish.late));
   return text;
 }
+
+}  // namespace
 
 std::string rounded_down_text(double value, int digits) {
   const double near = std::stod(rounded_text(value, digits));
@@ -103,9 +107,9 @@ std::string seen(const AdviceRow& row) {
 /// The least, or as little as the measurement can tell.
 std::string how_cheap(const Advice& advice) {
   const auto meeting = std::ranges::count_if(advice.rows, [](const AdviceRow& row) { return row.meets; });
-  const double own = advice.advised()->cost.dearer().median;
+  const double own = advice.advised()->cost.dearer().value;
   const bool tied = std::ranges::any_of(
-      advice.rows, [&](const AdviceRow& row) { return row.meets && row.cost.dearer().median < own; });
+      advice.rows, [&](const AdviceRow& row) { return row.meets && row.cost.dearer().value < own; });
   if (meeting == 1) return "no other method here meets the wish";
   return fmt::format("{} of the {} methods here that meet the wish", tied ? "as little as any" : "the least", meeting);
 }
@@ -139,7 +143,7 @@ std::string advice_sentence(const Advice& advice) {
   if (best == nullptr) return "No method here meets the wish at this step.";
   return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
                      tunnel_words(best->theory.probability.value_or(0)), seen(*best),
-                     rounded_text(best->cost.dearer().median, 3), how_cheap(advice), pushed_through(advice),
+                     rounded_text(best->cost.dearer().value, 3), how_cheap(advice), pushed_through(advice),
                      simplest(advice));
 }
 
@@ -160,10 +164,10 @@ constexpr const char* header =
     "  method                   tunneling  [m]       [steps]   clear        contact      that does\n";
 
 /// A median with as many decimals as its interval bears out.
-std::string time_text(const QueryTime& time) {
-  const double half = std::max(time.spread.upper - time.median, time.median - time.spread.lower);
-  if (half > 9.9) return fmt::format("{:.0f} +-{:.0f}", time.median, std::ceil(half));
-  return fmt::format("{:.1f} +-{:.1f}", time.median, std::max(0.1, std::ceil(10 * half) / 10));
+std::string time_text(const Measured& time) {
+  const double half = std::max(time.interval.upper - time.value, time.value - time.interval.lower);
+  if (half > 9.9) return fmt::format("{:.0f} +-{:.0f}", time.value, std::ceil(half));
+  return fmt::format("{:.1f} +-{:.1f}", time.value, std::max(0.1, std::ceil(10 * half) / 10));
 }
 
 std::string step_text(const std::optional<double>& step) {
@@ -231,8 +235,8 @@ ordered_json optional_number(const std::optional<double>& number) {
   return number ? ordered_json(*number) : ordered_json();
 }
 
-ordered_json time_json(const QueryTime& time) {
-  return {{"median", time.median}, {"lower", time.spread.lower}, {"upper", time.spread.upper}};
+ordered_json time_json(const Measured& time) {
+  return {{"median", time.value}, {"lower", time.interval.lower}, {"upper", time.interval.upper}};
 }
 
 ordered_json row_json(const AdviceRow& row, double step_length) {

@@ -23,20 +23,16 @@ std::vector<ShotStep> steps_before(const Cell& cell, std::int64_t count, double 
   return steps;
 }
 
-const std::function<void(std::span<const ShotStep>)>& asker(const Candidate& candidate, const ShotStep*) {
-  return candidate.ask;
-}
-const std::function<void(std::span<const RodStep>)>& asker(const Candidate& candidate, const RodStep*) {
-  return candidate.ask_rod;
-}
+/// What a candidate is asked of such a step.
+template <class Step> using AskMember = std::function<void(std::span<const Step>)> Candidate::*;
 
 template <class Step>
-std::vector<QueryTime> timed(std::span<const Candidate> candidates, const std::vector<Step>& steps,
-                             const TimingEffort& effort, const RandomStream& stream) {
+std::vector<Measured> timed(std::span<const Candidate> candidates, AskMember<Step> ask, const std::vector<Step>& steps,
+                            const TimingEffort& effort, const RandomStream& stream) {
   std::vector<TimedLoop<Step>> loops;
-  for (const Candidate& candidate : candidates) loops.push_back({asker(candidate, steps.data())});
+  for (const Candidate& candidate : candidates) loops.push_back({candidate.*ask});
   run_rounds(loops, std::span<const Step>(steps), effort.rounds, effort.round_ns, stream);
-  std::vector<QueryTime> times;
+  std::vector<Measured> times;
   for (const TimedLoop<Step>& loop : loops) {
     times.push_back({median(loop.nanoseconds), bootstrap_median(loop.nanoseconds, stream)});
   }
@@ -44,10 +40,11 @@ std::vector<QueryTime> timed(std::span<const Candidate> candidates, const std::v
 }
 
 template <class Step>
-std::vector<StepCost> costs_of(std::span<const Candidate> candidates, const std::vector<Step>& clear_steps,
-                               const std::vector<Step>& contact_steps, const TimingEffort& effort) {
-  const auto clear = timed(candidates, clear_steps, effort, {0, 1});
-  const auto contact = timed(candidates, contact_steps, effort, {0, 2});
+std::vector<StepCost> costs_of(std::span<const Candidate> candidates, AskMember<Step> ask,
+                               const std::vector<Step>& clear_steps, const std::vector<Step>& contact_steps,
+                               const TimingEffort& effort) {
+  const auto clear = timed(candidates, ask, clear_steps, effort, {0, 1});
+  const auto contact = timed(candidates, ask, contact_steps, effort, {0, 2});
   std::vector<StepCost> costs;
   for (std::size_t i = 0; i < candidates.size(); ++i) costs.push_back({clear[i], contact[i]});
   return costs;
@@ -61,12 +58,13 @@ std::vector<StepCost> measure_costs(const Cell& cell, std::span<const Candidate>
   Cell even = cell;
   even.speed = 1;
   even.step = std::max(step_length(cell), 1e-4 * slab_chord(cell));
-  return costs_of(candidates, steps_before(even, effort.queries, 1), steps_before(even, effort.queries, 0), effort);
+  return costs_of(candidates, &Candidate::ask, steps_before(even, effort.queries, 1),
+                  steps_before(even, effort.queries, 0), effort);
 }
 
 std::vector<StepCost> measure_costs(const std::vector<RodStep>& clear, const std::vector<RodStep>& contact,
                                     std::span<const Candidate> candidates, const TimingEffort& effort) {
-  return costs_of(candidates, clear, contact, effort);
+  return costs_of(candidates, &Candidate::ask_rod, clear, contact, effort);
 }
 
 }  // namespace thinwall

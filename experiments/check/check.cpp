@@ -1,8 +1,6 @@
 #include <thinwall/experiments/check/check.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -10,13 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
@@ -25,6 +21,7 @@ namespace thinwall {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 /// Every file, link and empty folder below the folder, by its path from there.
 std::set<std::string> files_below(const fs::path& folder) {
@@ -95,55 +92,11 @@ void check_tables_are_known(const KeptResult& result, const std::vector<std::str
 
 /// The run id is a hash of what was asked, so a change of that shows.
 void check_run_id(const KeptResult& result, Faults& faults) {
-  RunRecord run;
-  run.experiment = result.citation.experiment;
-  run.config = result.run.config;
-  run.seed = result.citation.seed;
-  run.trials = result.run.trials;
-  if (const std::string id = run_id(run); id != result.citation.run_id) {
+  if (const std::string id = run_id(result.run); id != result.citation.run_id) {
     faults.push_back(fmt::format("manifest.json: run_id is '{}', but its experiment, config, seed and trials give '{}'",
                                  one_line(result.citation.run_id), id));
   }
 }
-
-}  // namespace
-
-std::vector<std::string> check_result(const fs::path& folder) {
-  const bool complete = fs::exists(folder / "manifest.json");
-  if (const std::string shard = complete ? "" : shard_in(folder); !shard.empty())
-    return {fmt::format("shard.json: is shard {} of a run; thinwall merge makes a result of all of them", shard)};
-  Faults faults;
-  const std::vector<std::string> tables = check_data(folder, faults);
-  check_figures(folder, faults);
-  if (!complete) {
-    faults.insert(faults.begin(), "manifest.json: missing; without one a folder is not complete");
-    return faults;
-  }
-  if (!fs::is_regular_file(folder / "manifest.json")) {
-    faults.insert(faults.begin(), "manifest.json: is not a file");
-    return faults;
-  }
-  std::optional<KeptResult> result;
-  try {
-    result = kept_result(folder, "manifest.json");
-  } catch (const UsageError& error) {
-    faults.insert(faults.begin(), error.what());
-    return faults;
-  }
-  const std::set<std::string> found = files_below(folder);
-  check_named_files(*result, faults);
-  check_run_id(*result, faults);
-  check_unknown_files(*result, found, faults);
-  check_tables_are_known(*result, tables, faults);
-  check_page(*result, faults);
-  check_texts(*result, faults);
-  return faults;
-}
-
-namespace {
-
-using nlohmann::json;
-namespace fs = std::filesystem;
 
 constexpr const char* package_file = "datapackage.json";
 
@@ -277,8 +230,8 @@ std::string check_resource(const json& resource, std::size_t number, const fs::p
   return path;
 }
 
-}  // namespace
-
+/// datapackage.json against the rules of a Tabular Data Package, and each of its tables against it. Returns the paths of the
+/// tables.
 std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
   std::vector<std::string> paths;
   if (!fs::exists(folder / package_file)) {
@@ -309,6 +262,40 @@ std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
       add_fault(faults, package_file, "'{}' is described twice", one_line(paths.back()));
   }
   return paths;
+}
+
+}  // namespace
+
+std::vector<std::string> check_result(const fs::path& folder) {
+  const bool complete = fs::exists(folder / "manifest.json");
+  if (const std::string shard = complete ? "" : shard_in(folder); !shard.empty())
+    return {fmt::format("shard.json: is shard {} of a run; thinwall merge makes a result of all of them", shard)};
+  Faults faults;
+  const std::vector<std::string> tables = check_data(folder, faults);
+  check_figures(folder, faults);
+  if (!complete) {
+    faults.insert(faults.begin(), "manifest.json: missing; without one a folder is not complete");
+    return faults;
+  }
+  if (!fs::is_regular_file(folder / "manifest.json")) {
+    faults.insert(faults.begin(), "manifest.json: is not a file");
+    return faults;
+  }
+  std::optional<KeptResult> result;
+  try {
+    result = kept_result(folder, "manifest.json");
+  } catch (const UsageError& error) {
+    faults.insert(faults.begin(), error.what());
+    return faults;
+  }
+  const std::set<std::string> found = files_below(folder);
+  check_named_files(*result, faults);
+  check_run_id(*result, faults);
+  check_unknown_files(*result, found, faults);
+  check_tables_are_known(*result, tables, faults);
+  check_page(*result, faults);
+  check_texts(*result, faults);
+  return faults;
 }
 
 }  // namespace thinwall

@@ -31,10 +31,6 @@ void add_fault(Faults& faults, std::string_view file, fmt::format_string<Parts..
   faults.push_back(fmt::format("{}: {}", one_line(file), fmt::format(form, std::forward<Parts>(parts)...)));
 }
 
-/// datapackage.json against the rules of a Tabular Data Package, and each of its tables against it. Returns the paths of the
-/// tables.
-std::vector<std::string> check_data(const std::filesystem::path& folder, Faults& faults);
-
 /// The script, the data and the SVG of each figure.
 void check_figures(const std::filesystem::path& folder, Faults& faults);
 
@@ -44,17 +40,8 @@ std::string title_of_script(const std::string& script);
 /// report.html: whole, it shows what the folder holds, and it stands alone.
 void check_page(const KeptResult& result, Faults& faults);
 
-/// Each SVG that the manifest names stands in the page.
-void check_page_figures(const KeptResult& result, const std::string& page, Faults& faults);
-
-/// Each table of tables/ stands in the page, cell for cell.
-void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults);
-
 /// What `thinwall explore` may put beside a report, which links to it.
 inline constexpr std::string_view played_page = "explore.html";
-
-/// Nothing in the page asks a host for anything, or runs; every link leads to something, or to `played_page`.
-void check_stands_alone(const KeptResult& result, const std::string& page, Faults& faults);
 
 /// resolved.toml and cite.bib.
 void check_texts(const KeptResult& result, Faults& faults);

@@ -7,10 +7,10 @@
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
-#include <thinwall/experiments/lab/svg.hpp>
 
 namespace thinwall {
 
@@ -37,28 +37,6 @@ void check_content(const KeptResult& result, const std::string& page, Faults& fa
   require(html_escaped(result.citation.commit), "does not name the commit");
   require(result.citation.run_id, "does not name the run");
 }
-
-}  // namespace
-
-void check_page(const KeptResult& result, Faults& faults) {
-  if (std::filesystem::is_directory(result.folder / page_file)) {
-    add_fault(faults, page_file, "is not a file");
-    return;
-  }
-  const std::string page = file_text(result.folder / page_file);
-  if (page.empty()) {
-    add_fault(faults, page_file, "missing or empty");
-    return;
-  }
-  if (!page.starts_with("<!DOCTYPE html>") || page.find("</html>") == std::string::npos)
-    add_fault(faults, page_file, "not a whole page");
-  check_content(result, page, faults);
-  check_page_figures(result, page, faults);
-  check_page_tables(result, page, faults);
-  check_stands_alone(result, page, faults);
-}
-
-namespace {
 
 /// `1.5e-07` as `1.5e-7`.
 std::string short_exponents(const std::string& text) {
@@ -137,8 +115,7 @@ MarkdownTable read_markdown(const std::string& text) {
   return out;
 }
 
-}  // namespace
-
+/// Each table of tables/ stands in the page, cell for cell.
 void check_page_tables(const KeptResult& result, const std::string& page, Faults& faults) {
   const std::string rows = rows_of_page(page), captions = captions_of_page(page);
   for (const auto& [file, hash] : result.hashes) {
@@ -149,6 +126,7 @@ void check_page_tables(const KeptResult& result, const std::string& page, Faults
   }
 }
 
+/// Each SVG that the manifest names stands in the page.
 void check_page_figures(const KeptResult& result, const std::string& page, Faults& faults) {
   for (const std::string& file : result.files()) {
     if (!file.starts_with("plots/") || !file.ends_with(".svg")) continue;
@@ -160,8 +138,6 @@ void check_page_figures(const KeptResult& result, const std::string& page, Fault
       add_fault(faults, page_file, "does not show {}", one_line(file));
   }
 }
-
-namespace {
 
 /// What a report is made of, and the pictures in it; none of it runs, or loads anything but by `href`.
 bool is_plain(const std::string& element) {
@@ -224,12 +200,31 @@ struct AloneCheck {
   }
 };
 
-}  // namespace
-
+/// Nothing in the page asks a host for anything, or runs; every link leads to something, or to `played_page`.
 void check_stands_alone(const KeptResult& result, const std::string& page, Faults& faults) {
   AloneCheck check{result, faults};
   for (const HtmlTag& tag : tags_of(page)) check.check_tag(tag);
   check.check_styles(lower_case(page));
+}
+
+}  // namespace
+
+void check_page(const KeptResult& result, Faults& faults) {
+  if (std::filesystem::is_directory(result.folder / page_file)) {
+    add_fault(faults, page_file, "is not a file");
+    return;
+  }
+  const std::string page = file_text(result.folder / page_file);
+  if (page.empty()) {
+    add_fault(faults, page_file, "missing or empty");
+    return;
+  }
+  if (!page.starts_with("<!DOCTYPE html>") || page.find("</html>") == std::string::npos)
+    add_fault(faults, page_file, "not a whole page");
+  check_content(result, page, faults);
+  check_page_figures(result, page, faults);
+  check_page_tables(result, page, faults);
+  check_stands_alone(result, page, faults);
 }
 
 namespace {

@@ -1,12 +1,14 @@
 #include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_BOX2D
-
 #include <box2d/box2d.h>
+#endif
 
 namespace thinwall {
 
 namespace {
+
+#ifdef THINWALL_HAS_BOX2D
 
 b2Vec2 in_box2d(const Vec3<double>& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
 Vec3<double> out_of_box2d(const b2Vec2& v) { return Vec3<double>(v.x, v.y, 0); }
@@ -65,19 +67,13 @@ std::vector<EngineMode> box2d_modes(const EngineChoices&) {
           box2d_mode("bullet", "the ball's bullet flag is set", true, true)};
 }
 
-}  // namespace
-
-}  // namespace thinwall
-
 #else
 
-namespace thinwall {
-static constexpr std::vector<EngineMode> (*box2d_modes)(const EngineChoices&) = nullptr;
-}  // namespace thinwall
+constexpr std::vector<EngineMode> (*box2d_modes)(const EngineChoices&) = nullptr;
 
 #endif
 
-namespace thinwall {
+}  // namespace
 
 Engine box2d_engine() {
   return {.name = "box2d",

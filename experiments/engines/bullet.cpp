@@ -1,16 +1,18 @@
 #include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_BULLET
-
 #include <fmt/format.h>
 
 #include <btBulletDynamicsCommon.h>
 
 #include <thinwall/experiments/lab/text.hpp>
+#endif
 
 namespace thinwall {
 
 namespace {
+
+#ifdef THINWALL_HAS_BULLET
 
 btVector3 in_bullet(const Vec3<double>& v) {
   return {static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2])};
@@ -105,19 +107,13 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
   return modes;
 }
 
-}  // namespace
-
-}  // namespace thinwall
-
 #else
 
-namespace thinwall {
-static constexpr std::vector<EngineMode> (*bullet_modes)(const EngineChoices&) = nullptr;
-}  // namespace thinwall
+constexpr std::vector<EngineMode> (*bullet_modes)(const EngineChoices&) = nullptr;
 
 #endif
 
-namespace thinwall {
+}  // namespace
 
 Engine bullet_engine() {
   return {.name = "bullet",

@@ -68,8 +68,7 @@ double safe_up_to(const Rows& rows, const Row& like) {
 Columns<Row> names_and_factors() {
   return columns_of<Row>(text("engine", "The physics engine.", [](const Row& r) { return r.setup->engine.called; }),
                          text("mode", "How it is set up.", [](const Row& r) { return r.setup->mode.name; }),
-                         engine_factors().columns(&Row::cell))
-      .without({"step", "radius", "thickness", "angle_deg", "steps"});
+                         engine_factors().columns(&Row::cell, {"wall_size", "path"}));
 }
 
 Columns<Row> verdict_columns() {
@@ -438,7 +437,7 @@ Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<S
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   const auto plan = std::make_shared<const EnginePlan>(make_engine_plan(settings, options));
   const Rows rows = engine_rows(*plan);
-  const std::vector<EngineVolley> volleys = engine_volleys(*plan, rows);
+  const std::vector<EngineVolley> volleys = volleys_in_turn(rows, &Row::cell, plan->shots);
   std::vector<Task<EngineTally>> tasks;
   for (const EngineVolley& v : volleys) {
     const Row& row = rows[v.row];
@@ -450,7 +449,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
                      v.shots, compute});
   }
   const std::vector<StageRow> stages = stage_rows(*plan);
-  const std::vector<EngineVolley> played = stage_volleys(*plan, stages);
+  const std::vector<EngineVolley> played = volleys_in_turn(stages, &StageRow::kind, plan->stage_shots);
   std::vector<Task<StageTally>> stage_tasks;
   for (const EngineVolley& v : played) {
     const StageRow& row = stages[v.row];

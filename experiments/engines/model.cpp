@@ -250,10 +250,6 @@ std::vector<EngineRow> engine_rows(const EnginePlan& plan) {
   return rows;
 }
 
-std::vector<EngineVolley> engine_volleys(const EnginePlan& plan, const std::vector<EngineRow>& rows) {
-  return volleys_in_turn(rows, &EngineRow::cell, plan.shots);
-}
-
 EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t first, std::int64_t shots,
                  std::uint64_t seed) {
   const RandomStream stream = random_stream(cell, seed);

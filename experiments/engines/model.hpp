@@ -158,8 +158,6 @@ std::vector<EngineVolley> volleys_in_turn(const std::vector<Row>& rows, const Ke
   return volleys;
 }
 
-std::vector<EngineVolley> engine_volleys(const EnginePlan& plan, const std::vector<EngineRow>& rows);
-
 EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t first, std::int64_t shots,
                  std::uint64_t seed);
 

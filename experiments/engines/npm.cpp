@@ -29,21 +29,13 @@ using nlohmann::json;
 
 constexpr double seconds_to_start = 60, seconds_a_volley = 120;
 
-struct NpmMode {
-  const char* name;
-  const char* what;
-  int poses_per_step = 0;  ///< and what follows, as of EngineMode; skin in meters
-  double skin = 0;
-  bool never_sweeps = false;
-};
-
 struct NpmEngine {
   const char* name;  ///< of the script, too
   const char* called;
   const char* package;
   const char* made_of;
   bool has_meshes;
-  std::vector<NpmMode> modes;
+  std::vector<EngineMode> modes;  ///< but for how they play
 };
 
 /// What it comes with and what its own documentation has for fast bodies; the scripts set it. Skins are the engines' own: of
@@ -241,18 +233,14 @@ NpmProcesses& processes_of(const std::string& name, const fs::path& scripts) {
 
 std::vector<EngineMode> modes_of(const NpmEngine& engine, const fs::path& scripts) {
   std::vector<EngineMode> modes;
-  for (const NpmMode& mode : engine.modes) {
-    const auto play = [name = std::string(engine.name), of = std::string(mode.name), scripts](
-                          const EngineStage& stage, std::span<const std::vector<BodyState>> starts,
-                          std::int64_t steps) { return processes_of(name, scripts).play(of, stage, starts, steps); };
-    modes.push_back({.name = mode.name,
-                     .what = mode.what,
-                     .poses_per_step = mode.poses_per_step,
-                     .skin = mode.skin,
-                     .never_sweeps = mode.never_sweeps,
-                     .play = play,
-                     .has_meshes = engine.has_meshes,
-                     .turns = true});
+  for (EngineMode mode : engine.modes) {
+    mode.play = [name = std::string(engine.name), of = mode.name, scripts](
+                    const EngineStage& stage, std::span<const std::vector<BodyState>> starts, std::int64_t steps) {
+      return processes_of(name, scripts).play(of, stage, starts, steps);
+    };
+    mode.has_meshes = engine.has_meshes;
+    mode.turns = true;
+    modes.push_back(std::move(mode));
   }
   return modes;
 }

@@ -1,16 +1,18 @@
 #include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_ODE
-
 #include <array>
 #include <mutex>
 #include <new>
 
 #include <ode/ode.h>
+#endif
 
 namespace thinwall {
 
 namespace {
+
+#ifdef THINWALL_HAS_ODE
 
 /// ODE's worlds share data, and Debian builds it without the locks that would take (no ODE_EXT_mt_collisions): two threads crash
 /// it. So worlds of different threads wait for each other; the same thread may have several.
@@ -86,19 +88,13 @@ std::vector<EngineMode> ode_modes(const EngineChoices&) {
            }}};
 }
 
-}  // namespace
-
-}  // namespace thinwall
-
 #else
 
-namespace thinwall {
-static constexpr std::vector<EngineMode> (*ode_modes)(const EngineChoices&) = nullptr;
-}  // namespace thinwall
+constexpr std::vector<EngineMode> (*ode_modes)(const EngineChoices&) = nullptr;
 
 #endif
 
-namespace thinwall {
+}  // namespace
 
 Engine ode_engine() {
   return {

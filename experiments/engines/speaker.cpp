@@ -58,6 +58,7 @@ Speaker::Speaker(std::string name, std::vector<std::string> words, const std::fi
   from_ = out[0];
   process_ = ::fork();
   if (process_ == 0) {  // only what may be called after a fork of one thread of many
+    ::setpgid(0, 0);    // Ctrl-C on the terminal is for us: an engine that it ended would be one that had died
     const int null = ::open("/dev/null", O_WRONLY);
     if (::chdir(folder.c_str()) == 0 && ::dup2(in[0], 0) == 0 && ::dup2(out[1], 1) == 1 && ::dup2(null, 2) == 2) {
       ::execvp(pointers[0], pointers.data());

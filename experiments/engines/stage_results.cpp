@@ -19,16 +19,15 @@ Columns<StageRow> stage_columns() {
       text("mode", "How it is set up.", [](const StageRow& r) { return r.setup->mode.name; }));
 }
 
-double percent_of(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
-}
-
 /// In percent: who passed or was lost, and after a slash who was disturbed.
 std::string in_short(const StageRow& row) {
-  const auto short_percent = [](double x) { return fmt::format("{:.{}f}", x, x == 0 || x >= 9.95 ? 0 : 1); };
   const StageTally& t = row.tally;
-  const std::string passed = short_percent(percent_of(t.passed + t.lost, t.shots));
-  return row.kind->spins ? passed : passed + "/" + short_percent(percent_of(t.disturbed, t.shots));
+  const auto percent = [&](std::int64_t part) {
+    const double x = share_of(100 * part, t.shots).value_or(0);
+    return fmt::format("{:.{}f}", x, x == 0 || x >= 9.95 ? 0 : 1);
+  };
+  const std::string passed = percent(t.passed + t.lost);
+  return row.kind->spins ? passed : passed + "/" + percent(t.disturbed);
 }
 
 }  // namespace

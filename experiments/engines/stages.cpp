@@ -225,10 +225,6 @@ std::vector<StageRow> stage_rows(const EnginePlan& plan) {
   return rows;
 }
 
-std::vector<EngineVolley> stage_volleys(const EnginePlan& plan, const std::vector<StageRow>& rows) {
-  return volleys_in_turn(rows, &StageRow::kind, plan.stage_shots);
-}
-
 StageTally play(const StageRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed) {
   const StageSize& s = row.size;
   const std::size_t number = static_cast<std::size_t>(row.kind - stage_kinds().data());

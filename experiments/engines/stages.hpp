@@ -8,7 +8,6 @@
 ///   }
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -84,9 +83,6 @@ struct StageRow {
 
 /// Every stage of the plan, in every mode that can play it. Without results.
 std::vector<StageRow> stage_rows(const EnginePlan& plan);
-
-/// As of the ball at the wall.
-std::vector<EngineVolley> stage_volleys(const EnginePlan& plan, const std::vector<StageRow>& rows);
 
 /// Shots `first`, `first + 1`, ... of a row.
 StageTally play(const StageRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed);

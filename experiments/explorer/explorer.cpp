@@ -23,7 +23,7 @@ namespace thinwall {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<std::int64_t, 2> poses_a_step = {2, 8};
+constexpr std::array<std::int64_t, 2> poses_a_step = {2, 8};  // always, also where the advice would offer others
 
 std::vector<ThinWallMethod> all_methods() {
   const std::vector<std::string_view> names = method_names();
@@ -37,7 +37,7 @@ struct Explorer {
   std::uint64_t seed = 0;
   Target aimed = target(bullet);
   std::vector<Tally> tallies = std::vector<Tally>(methods.size());
-  std::vector<StepCost> costs;  ///< of candidates(), once they have been timed
+  std::vector<StepCost> costs;  ///< of candidates_of(methods), once they have been timed
   std::vector<double> numbers;
   std::string text;
 
@@ -56,14 +56,6 @@ struct Explorer {
 Explorer& here() {
   static Explorer one;
   return one;
-}
-
-/// The methods that the page knows and the certified answers: those whom the advice chooses from, the poses a step always the same.
-std::vector<Candidate> page_candidates(const Explorer& explorer) {
-  std::vector<Candidate> all;
-  for (const ThinWallMethod& m : explorer.methods) all.push_back({m.name, m.poses_per_step, true, m.theory, m.ask});
-  all.push_back(certified_candidate());
-  return all;
 }
 
 /// Steps of shots before the one in which the ball touches, and that one, in turn.
@@ -215,17 +207,17 @@ int explorer_shot(double phase) {
 
 int explorer_race() {
   Explorer& explorer = here();
-  explorer.costs =
-      measure_costs(explorer.cell, page_candidates(explorer), {.queries = 1 << 14, .rounds = 15, .round_ns = 2e6});
+  explorer.costs = measure_costs(explorer.cell, candidates_of(explorer.methods),
+                                 {.queries = 1 << 14, .rounds = 15, .round_ns = 2e6});
   const std::vector<ShotStep> steps = steps_of(explorer, 4096);
   std::vector<CertifiedToi> truth;
   for (const ShotStep& step : steps) truth.push_back(certified_time_of_impact(step.ball, step.wall));
   explorer.numbers.clear();
   for (std::size_t m = 0; m < explorer.methods.size(); ++m) {
-    const QueryTime& time = explorer.costs[m].dearer();
+    const Measured& time = explorer.costs[m].dearer();
     const StepErrors errors = errors_of(explorer.methods[m], steps, explorer.aimed.step_length, truth);
     for (const double number :
-         {time.median, time.spread.lower, time.spread.upper, errors.wrong, errors.p99, errors.largest})
+         {time.value, time.interval.lower, time.interval.upper, errors.wrong, errors.p99, errors.largest})
       explorer.numbers.push_back(number);
   }
   return static_cast<int>(explorer.numbers.size());
@@ -236,8 +228,8 @@ const char* explorer_advice(double miss, double late) {
   Wish wish = here().wish();
   wish.miss = miss;
   if (late >= 0) wish.late = late;
-  return here().say(advice_sentence(advise(wish, page_candidates(here()), here().costs)));
+  return here().say(advice_sentence(advise(wish, candidates_of(here().methods), here().costs)));
 }
 
-const char* explorer_toml() { return here().say(config_text(here().wish(), page_candidates(here()))); }
+const char* explorer_toml() { return here().say(config_text(here().wish(), candidates_of(here().methods))); }
 }

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -145,39 +146,41 @@ template <class Condition, class Part> OnlyWhere<Condition, Part> where(Conditio
   return {std::move(condition), std::move(part)};
 }
 
-/// A `Measured`, or an optional one, and the ends of its interval, `PREFIX_lower` and `PREFIX_upper`, which are called `ends`.
-template <class Get> struct MeasuredColumns {
-  std::string name, unit, description, prefix, ends;
-  Get get;
+/// The columns of several parts, one after the other, as one part.
+template <class... Parts> struct Together {
+  std::tuple<Parts...> parts;
 
   template <class Row> void add_to(Columns<Row>& columns) const {
-    const auto read = [get = get](auto part) {
-      return [get, part](const Row& row) -> std::optional<double> {
-        const std::optional<Measured> m = std::invoke(get, row);
-        return m ? std::optional(part(*m)) : std::nullopt;
-      };
-    };
-    const std::string lower = prefix + "lower", upper = prefix + "upper";
-    ValueColumn{name, unit, description, read([](const Measured& m) { return m.value; }), lower, upper}.add_to(columns);
-    value(lower, unit, "Lower end of " + ends + ".", read([](const Measured& m) { return m.interval.lower; }))
-        .add_to(columns);
-    value(upper, unit, "Upper end of " + ends + ".", read([](const Measured& m) { return m.interval.upper; }))
-        .add_to(columns);
+    std::apply([&](const Parts&... part) { (part.add_to(columns), ...); }, parts);
   }
 };
+template <class... Parts> Together<Parts...> together(Parts... parts) { return {{std::move(parts)...}}; }
+
+/// A `Measured`, or an optional one, and the ends of its interval, `PREFIX_lower` and `PREFIX_upper`, which are called `ends`.
 template <class Get>
-MeasuredColumns<Get> measured(std::string name, std::string unit, std::string description, Get get,
-                              std::string prefix = "", std::string ends = "its 95 % interval") {
-  return {std::move(name), std::move(unit), std::move(description), std::move(prefix), std::move(ends), std::move(get)};
+auto measured(std::string name, std::string unit, std::string description, Get get, const std::string& prefix = "",
+              const std::string& ends = "its 95 % interval") {
+  const auto read = [get](auto part) {
+    return [get, part](const auto& row) -> std::optional<double> {
+      const std::optional<Measured> m = std::invoke(get, row);
+      return m ? std::optional(part(*m)) : std::nullopt;
+    };
+  };
+  const std::string lower = prefix + "lower", upper = prefix + "upper";
+  return together(
+      ValueColumn{std::move(name), unit, std::move(description), read([](const Measured& m) { return m.value; }), lower,
+                  upper},
+      value(lower, unit, "Lower end of " + ends + ".", read([](const Measured& m) { return m.interval.lower; })),
+      value(upper, unit, "Upper end of " + ends + ".", read([](const Measured& m) { return m.interval.upper; })));
 }
 
 /// The share of a count in another with its 95 % Wilson interval; empty where the other is 0.
 template <class Get, class Whole>
-auto share(std::string name, std::string description, Get count, Whole whole, std::string prefix = "") {
+auto share(std::string name, std::string description, Get count, Whole whole, const std::string& prefix = "") {
   const auto get = [count, whole](const auto& row) {
     return measured_share(std::invoke(count, row), std::invoke(whole, row));
   };
-  return measured(std::move(name), "1", std::move(description), get, std::move(prefix), "the 95 % Wilson interval");
+  return measured(std::move(name), "1", std::move(description), get, prefix, "the 95 % Wilson interval");
 }
 
 /// The fields of a record, in its order, named ones or all: of all, each whose name no other column of the table has. An
@@ -202,22 +205,17 @@ template <class Get> struct RecordColumns {
         if (!names.empty() && std::ranges::find(names, field.name) == names.end()) return;
         columns.add({{std::string(field.name), detail::column_type<V>(), std::string(field.unit),
                       std::string(field.description)},
-                     [read, field](const Row& row) {
+                     [read, field](const Row& row) -> Value {
                        const V& x = read(row).*field.member;
-                       const bool of_nothing = (field.merge == Merge::least && is_same(x, no_least)) ||
-                                               (field.merge == Merge::most && is_same(x, no_most));
-                       return of_nothing ? Value() : detail::to_value<V>(x);
+                       if constexpr (std::same_as<V, double>) {
+                         if (field.merge == Merge::least && x == no_least) return {};
+                         if (field.merge == Merge::most && x == no_most) return {};
+                       }
+                       return detail::to_value<V>(x);
                      },
                      names.empty()});
       }
     });
-  }
-  template <class V> static bool is_same(const V& x, double number) {
-    if constexpr (std::same_as<V, double>) {
-      return x == number;
-    } else {
-      return false;
-    }
   }
 };
 template <class Get> RecordColumns<Get> fields(Get get, std::initializer_list<std::string_view> names = {}) {
@@ -233,39 +231,23 @@ template <class Row, class... Parts> Columns<Row> columns_of(const Parts&... par
 }
 
 /// The chi-square of a test of residuals and what is allowed of it, `PREFIX_lower` and `PREFIX_upper`; empty where nothing is judged.
-template <class Get> struct ChiSquareColumns {
-  std::string name, description, prefix;
-  Get get;
-
-  template <class Row> void add_to(Columns<Row>& columns) const {
-    const auto test = [get = get](const Row& row) -> const ResidualTest& { return std::invoke(get, row); };
-    where([test](const Row& row) { return test(row).judged > 0; },
-          columns_of<Row>(value(name, "1", description, [test](const Row& row) { return test(row).chi_square; }),
-                          value(prefix + "lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
-                                [test](const Row& row) { return test(row).allowed()->lower; }),
-                          value(prefix + "upper", "1", "Most allowed.",
-                                [test](const Row& row) { return test(row).allowed()->upper; })))
-        .add_to(columns);
-  }
-};
 template <class Get>
-ChiSquareColumns<Get> chi_square_columns(std::string name, std::string description, Get get, std::string prefix) {
-  return {std::move(name), std::move(description), std::move(prefix), std::move(get)};
+auto chi_square_columns(std::string name, std::string description, Get get, const std::string& prefix) {
+  const auto is_judged = [get](const auto& row) { return std::invoke(get, row).judged > 0; };
+  return where(is_judged,
+               together(value(std::move(name), "1", std::move(description),
+                              [get](const auto& row) { return std::invoke(get, row).chi_square; }),
+                        value(prefix + "lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
+                              [get](const auto& row) { return std::invoke(get, row).allowed()->lower; }),
+                        value(prefix + "upper", "1", "Most allowed.",
+                              [get](const auto& row) { return std::invoke(get, row).allowed()->upper; })));
 }
 
 /// How many cells it judged, and that.
-template <class Get> struct ResidualColumns {
-  std::string judged, chi_square;
-  Get get;
-
-  template <class Row> void add_to(Columns<Row>& columns) const {
-    const auto count = [get = get](const Row& row) { return std::invoke(get, row).judged; };
-    value("judged_cells", "1", judged, count).add_to(columns);
-    chi_square_columns("chi_square", chi_square, get, "chi_square_").add_to(columns);
-  }
-};
-template <class Get> ResidualColumns<Get> residual_columns(std::string judged, std::string chi_square, Get get) {
-  return {std::move(judged), std::move(chi_square), std::move(get)};
+template <class Get> auto residual_columns(std::string judged, std::string chi_square, Get get) {
+  return together(
+      value("judged_cells", "1", std::move(judged), [get](const auto& row) { return std::invoke(get, row).judged; }),
+      chi_square_columns("chi_square", std::move(chi_square), get, "chi_square_"));
 }
 
 template <class Row>

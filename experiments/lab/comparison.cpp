@@ -1,11 +1,9 @@
 #include <thinwall/experiments/lab/comparison.hpp>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <sstream>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

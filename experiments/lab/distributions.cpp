@@ -9,7 +9,7 @@ namespace thinwall {
 
 namespace bm = boost::math;
 
-Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
+Interval clopper_pearson(std::int64_t successes, std::int64_t trials) {
   using Binomial = bm::binomial_distribution<double>;
   const double n = static_cast<double>(trials), k = static_cast<double>(successes), side = (1 - confidence) / 2;
   return {successes == 0 ? 0 : Binomial::find_lower_bound_on_p(n, k, side),

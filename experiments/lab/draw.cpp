@@ -19,9 +19,9 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
+#include <thinwall/experiments/lab/gnuplot.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/lab/svg.hpp>
 
 namespace thinwall {
 
@@ -101,14 +101,7 @@ Panel panel_of(const JsonReader& in) {
   return out;
 }
 
-}  // namespace
-
-std::string figure_json(const Figure& figure) {
-  ordered_json out = {{"name", figure.name}, {"title", figure.title}, {"panels", ordered_json::array()}};
-  for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
-  return json_line(out);
-}
-
+/// The figure that `figure_json` wrote, but for its caption. Throws UsageError in one line, which names `file`.
 Figure parse_figure(const std::string& text, const std::string& file) {
   const JsonReader in(text, file);
   Figure out;
@@ -116,6 +109,14 @@ Figure parse_figure(const std::string& text, const std::string& file) {
   out.title = in.text("title");
   for (const JsonReader& panel : in.objects("panels")) out.panels.push_back(panel_of(panel));
   return out;
+}
+
+}  // namespace
+
+std::string figure_json(const Figure& figure) {
+  ordered_json out = {{"name", figure.name}, {"title", figure.title}, {"panels", ordered_json::array()}};
+  for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
+  return json_line(out);
 }
 
 namespace {

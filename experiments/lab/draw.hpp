@@ -14,9 +14,6 @@ namespace thinwall {
 
 std::string figure_json(const Figure& figure);
 
-/// The figure that `figure_json` wrote, but for its caption. Throws UsageError in one line, which names `file`.
-Figure parse_figure(const std::string& text, const std::string& file);
-
 // ---- Another program as a function: what it said, and how it ended.
 
 struct ProcessResult {
@@ -27,6 +24,18 @@ struct ProcessResult {
 
 /// Runs `words[0]`, looked up in PATH, from inside `folder` and waits for it. It reads nothing from our stdin.
 ProcessResult run_process(const std::vector<std::string>& words, const std::filesystem::path& folder);
+
+// ---- What gnuplot makes of the script of a figure and its data, which lab/gnuplot.hpp writes.
+
+/// The files that NAME.gp writes in a format: svg, pdf or tex.
+std::vector<std::string> drawn_files(const std::string& name, const std::string& format);
+
+/// Runs `folder`/NAME.gp through gnuplot, which writes `drawn_files` there. Returns what went wrong, in one line; empty if
+/// nothing did.
+std::string draw(const std::filesystem::path& folder, const std::string& name, const std::string& format = "svg");
+
+/// An SVG to stand inside an HTML page: without its prolog, its ids made unique by `name`, and described by `label`.
+std::string inline_svg(std::string svg, const std::string& name, const std::string& label);
 
 // ---- The figures of a complete result in formats for print, drawn from what its plots/NAME.json say. The scripts in the folder
 // are not run: gnuplot does what a script says, whoever wrote it. The files are no part of the result: gnuplot's PDF differs

@@ -24,17 +24,8 @@ constexpr std::array<Lead, 4> leads = {{{0x00, 0x7f, 1, 0x7f, 0},
                                         {0xe0, 0xef, 3, 0x0f, 0x800},
                                         {0xf0, 0xf7, 4, 0x07, 0x10000}}};
 
-}  // namespace
-
-std::string replaced(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> spelled) {
-  std::string out;
-  for (const char letter : text) {
-    const auto* const found = std::ranges::find(spelled, letter, &std::pair<char, std::string_view>::first);
-    out += found == spelled.end() ? std::string_view(&letter, 1) : found->second;
-  }
-  return out;
-}
-
+/// How many bytes the UTF-8 letter has that `text` begins with; 0 if there is none that can be shown: a control character, a
+/// surrogate, one that Unicode says is no character (U+FFFE, U+FFFF), or bytes that are not UTF-8.
 std::size_t letter_bytes(std::string_view text) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
   for (const Lead& lead : leads) {
@@ -49,6 +40,17 @@ std::size_t letter_bytes(std::string_view text) {
     return letter ? lead.bytes : 0;
   }
   return 0;
+}
+
+}  // namespace
+
+std::string replaced(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> spelled) {
+  std::string out;
+  for (const char letter : text) {
+    const auto* const found = std::ranges::find(spelled, letter, &std::pair<char, std::string_view>::first);
+    out += found == spelled.end() ? std::string_view(&letter, 1) : found->second;
+  }
+  return out;
 }
 
 std::string one_line(std::string_view text) {

@@ -13,10 +13,6 @@ namespace thinwall {
 /// Each letter as the list spells it, or itself: `replaced("a<b", {{'<', "&lt;"}})`.
 std::string replaced(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> spelled);
 
-/// How many bytes the UTF-8 letter has that `text` begins with; 0 if there is none that can be shown: a control character, a
-/// surrogate, one that Unicode says is no character (U+FFFE, U+FFFF), or bytes that are not UTF-8.
-std::size_t letter_bytes(std::string_view text);
-
 /// One line for a terminal or a page: what is no letter, and could drive the one and break the other, becomes `\x1b` and the like.
 std::string one_line(std::string_view text);
 

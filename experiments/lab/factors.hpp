@@ -10,7 +10,7 @@
 ///   grid.key(cell);                                                    // "speed 10 step 0.01 wall infinite"
 ///   columns_of<Row>(grid.columns(&Row::cell), ...);
 ///
-/// `number`, `count` and `choice` read one value, `numbers`, `counts` and `choices` a list.
+/// `number` and `count` read one value, `numbers`, `counts` and `choices` a list.
 
 #include <algorithm>
 #include <cstdint>
@@ -87,13 +87,6 @@ Factor<Cell> choices(std::string_view name, std::string Cell::*member, std::span
   return detail::factor(name, member, "", description, true,
                         [=](const Settings& settings) { return settings.choices(name, names); });
 }
-template <class Cell>
-Factor<Cell> choice(std::string_view name, std::string Cell::*member, std::span<const std::string_view> names,
-                    std::string_view description) {
-  return detail::factor(name, member, "", description, false,
-                        [=](const Settings& settings) { return std::vector{settings.choice(name, names)}; });
-}
-
 /// A cell holds the name's place, as an enumeration.
 template <class Cell, class Place>
   requires std::is_enum_v<Place>

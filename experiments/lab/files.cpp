@@ -1,18 +1,20 @@
 #include <thinwall/experiments/lab/files.hpp>
 
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <sstream>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <openssl/evp.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <thinwall/experiments/lab/sha256.hpp>
 
 namespace thinwall {
 
@@ -34,6 +36,20 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
   out << text;
   out.close();
   if (!out) throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string());
+}
+
+std::string sha256(std::string_view bytes) {
+  std::array<unsigned char, 32> digest{};
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("OpenSSL computes no SHA-256 here");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return in && !content.bad() ? sha256(content.view()) : std::string();
 }
 
 void flush_to_disk(const std::filesystem::path& path) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Files: read whole, written so that a kill or a full disk leaves the old or the new, temporary ones that nobody can foresee.
+/// Files: read and written whole, their SHA-256, what brings them to the disk, and temporary ones that nobody can foresee.
 
 #include <filesystem>
 #include <string>
@@ -13,6 +13,13 @@ std::string file_text(const std::filesystem::path& file);
 
 /// In the place of what was there. Throws std::system_error.
 void write_file(const std::filesystem::path& file, std::string_view text);
+
+// ---- SHA-256 (FIPS 180-4), as 64 lowercase hexadecimal digits.
+
+std::string sha256(std::string_view bytes);
+
+/// Of a file's content; empty if it cannot be read.
+std::string sha256_of_file(const std::filesystem::path& file);
 
 // ---- What was written, on the disk: so that a power failure finds either the old or the new.
 

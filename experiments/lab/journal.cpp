@@ -18,7 +18,6 @@
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
@@ -83,10 +82,8 @@ std::optional<RunIdentity> parse_identity(std::string_view text) {
   }
 }
 
-std::string identity_difference(std::string_view theirs, const RunIdentity& ours) {
-  const auto parsed = parse_identity(theirs);
-  if (!parsed) return "something that cannot be read";
-  const json a = to_json(*parsed), b = to_json(ours);
+std::string identity_difference(const RunIdentity& theirs, const RunIdentity& ours) {
+  const json a = to_json(theirs), b = to_json(ours);
   for (const char* name : {"experiment", "seed", "trials", "shard"}) {
     const json left = a.value(name, json()), right = b.value(name, json());
     if (left != right) return difference(name, left, right);
@@ -96,11 +93,6 @@ std::string identity_difference(std::string_view theirs, const RunIdentity& ours
     if (config.value(key, json()) != value) return difference(key, config.value(key, json()), value);
   }
   return config == b.at("config") ? "" : "keys that are unknown here";
-}
-
-bool same_program(std::string_view theirs, const RunIdentity& ours) {
-  const auto parsed = parse_identity(theirs);
-  return parsed && parsed->program == ours.program;
 }
 
 namespace {
@@ -177,16 +169,6 @@ bool Journal::is_one(const std::filesystem::path& file) {
   std::string start(family.size(), ' ');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   return start == family;
-}
-
-std::string Journal::identity_in(const std::filesystem::path& file) {
-  if (std::filesystem::is_fifo(file)) return {};  // whose reader would wait for ever
-  errno = 0;
-  std::ifstream in(file);
-  if (!in && errno != ENOENT && errno != ENOTDIR) fail(file);
-  std::string row;
-  std::getline(in, row);
-  return identity_of(unsealed(row, ""));
 }
 
 JournalText read_journal(const std::filesystem::path& file) { return parse_journal(file_text(file), file); }

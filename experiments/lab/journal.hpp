@@ -35,20 +35,14 @@ RunIdentity read_identity(const JsonReader& object);
 /// The identity that `identity_text` wrote; nothing if `text` is none.
 std::optional<RunIdentity> parse_identity(std::string_view text);
 
-/// How the run whose `identity_text` was `theirs` differs from ours: `seed 1, not 2`. Empty if it does not, or only in
-/// the program that computed it.
-std::string identity_difference(std::string_view theirs, const RunIdentity& ours);
-
-/// True if the run whose `identity_text` was `theirs` was computed by this very program.
-bool same_program(std::string_view theirs, const RunIdentity& ours);
+/// How their run differs from ours: `seed 1, not 2`. Empty if it does not, or only in the program that computed it.
+std::string identity_difference(const RunIdentity& theirs, const RunIdentity& ours);
 
 // ---- What a run has finished so far, kept on disk so that an interrupted run continues.
 //
 // The file is text. The first row holds the identity of the run; every further one a finished unit: key, seconds, result
 // and a checksum, which covers the identity too, separated by tabs. A row is written whole, at once, when its unit ends. A
 // torn last row is dropped; a row that is damaged, or of another run, is named and its unit is computed again.
-
-struct JournalText;
 
 class Journal {
  public:
@@ -59,7 +53,7 @@ class Journal {
   using Rows = std::map<std::string, Row, std::less<>>;  ///< by the unit's key
 
   /// Opens `file`, or begins it with `identity`, one line of text; a journal of another identity is begun anew: see
-  /// `identity_in`. Throws std::system_error if the file cannot be written, or is no journal.
+  /// `read_journal`. Throws std::system_error if the file cannot be written, or is no journal.
   Journal(std::filesystem::path file, const std::string& identity);
   ~Journal();
   Journal(const Journal&) = delete;
@@ -67,9 +61,6 @@ class Journal {
 
   /// True of a file, not of a link to one, that begins as a journal does, damaged or not.
   static bool is_one(const std::filesystem::path& file);
-
-  /// The identity that `file` was begun with; empty if there is no such file or its first row is damaged.
-  static std::string identity_in(const std::filesystem::path& file);
 
   /// What is finished.
   const Rows& finished() const { return finished_; }

@@ -110,15 +110,13 @@ std::vector<double> JsonReader::numbers(std::string_view key) const {
 
 std::vector<std::string> JsonReader::texts(std::string_view key) const {
   const json& found = value(key);
-  if (!found.is_array() || !std::ranges::all_of(found, [](const json& item) { return item.is_string(); }))
-    complain(key, "a list of texts");
+  if (!found.is_array() || !std::ranges::all_of(found, &json::is_string)) complain(key, "a list of texts");
   return found.get<std::vector<std::string>>();
 }
 
 std::map<std::string, std::string> JsonReader::named_texts(std::string_view key) const {
   const json& found = value(key);
-  if (!found.is_object() || !std::ranges::all_of(found, [](const json& item) { return item.is_string(); }))
-    complain(key, "an object of texts");
+  if (!found.is_object() || !std::ranges::all_of(found, &json::is_string)) complain(key, "an object of texts");
   return found.get<std::map<std::string, std::string>>();
 }
 
@@ -129,8 +127,7 @@ JsonReader JsonReader::object(std::string_view key) const {
 
 std::vector<JsonReader> JsonReader::objects(std::string_view key) const {
   const json& found = value(key);
-  if (!found.is_array() || !std::ranges::all_of(found, [](const json& item) { return item.is_object(); }))
-    complain(key, "a list of objects");
+  if (!found.is_array() || !std::ranges::all_of(found, &json::is_object)) complain(key, "a list of objects");
   std::vector<JsonReader> out;
   for (const json& item : found)
     out.push_back(JsonReader(file_, fmt::format("{}{}[{}].", path_, key, out.size()), {value_, &item}));

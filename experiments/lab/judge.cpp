@@ -12,7 +12,7 @@ namespace thinwall {
 
 namespace {
 
-constexpr double coverage_level = 0.95, false_alarms = 0.001, central = 1 - false_alarms;
+constexpr double false_alarms = 0.001, central = 1 - false_alarms;
 
 /// Of a count of which theory is sure, infinite.
 double residual_of(const CellCount& cell) {
@@ -28,7 +28,7 @@ void add(SelfTest& test, const CellCount& cell) {
     if (residual != 0) ++test.certain_wrong;
   } else if (can_be_judged(cell.trials, cell.theory)) {
     ++test.judged_cells;
-    if (wilson(cell.counted, cell.trials, coverage_level).contains(cell.theory)) ++test.covered;
+    if (wilson(cell.counted, cell.trials).contains(cell.theory)) ++test.covered;
     test.chi_square += residual * residual;
   } else {
     ++test.other_cells;
@@ -73,7 +73,7 @@ std::vector<SelfTest> self_test(const std::vector<CellCount>& cells) {
   const double allowed = 1 - false_alarms / static_cast<double>(2 * judged);
   for (SelfTest& test : tests) {
     if (test.judged_cells == 0) continue;
-    test.covered_allowed = binomial_range(test.judged_cells, coverage_level, allowed);
+    test.covered_allowed = binomial_range(test.judged_cells, confidence, allowed);
     test.chi_square_allowed = chi_square_range(test.judged_cells, allowed);
   }
   return tests;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ctime>
 #include <fstream>
 #include <string_view>
 #include <thread>
 #include <utility>
 
 #include <dlfcn.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <link.h>
 #include <sys/utsname.h>
@@ -19,7 +19,6 @@
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
@@ -78,11 +77,7 @@ std::string this_program_sha256() {
 }
 
 std::string utc_text(std::chrono::system_clock::time_point time) {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
-                     parts.tm_hour, parts.tm_min, parts.tm_sec);
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
 
 std::string reproduce_line(const RunRecord& run) {
@@ -93,7 +88,7 @@ std::string reproduce_line(const RunRecord& run) {
   return line + (run.default_config ? " --out again" : " --out ../again");  // a result within a result is none of it
 }
 
-std::string run_id(const RunRecord& run) {
+std::string run_id(const RunIdentity& run) {
   const std::string trials = run.trials ? std::to_string(*run.trials) : "default";
   return sha256(fmt::format("{}\n{}\n{}\n{}", run.experiment, run.config, run.seed, trials)).substr(0, 12);
 }
@@ -124,9 +119,6 @@ namespace {
 
 using nlohmann::json;
 
-/// A value on one line; a table within a list becomes an inline one.
-std::string value_text(const json& value) { return exact_text(value, ", ", " = "); }
-
 std::string key_text(const std::string& key) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
   return !key.empty() && key.find_first_not_of(plain) == std::string::npos ? key : json_string(key);
@@ -139,7 +131,8 @@ std::string table_text(const json& table, const std::string& path) {
       const std::string inner = path + (path.empty() ? "" : ".") + key_text(key);
       tables += fmt::format("\n[{}]\n{}", inner, table_text(value, inner));
     } else {
-      values += fmt::format("{} = {}\n", key_text(key), value_text(value));
+      // A table within a list becomes an inline one.
+      values += fmt::format("{} = {}\n", key_text(key), exact_text(value, ", ", " = "));
     }
   }
   return values + tables;
@@ -154,8 +147,7 @@ std::string config_toml(const RunIdentity& run) {
 }
 
 std::string resolved_toml(const RunRecord& run) {
-  return fmt::format("# To run it again from inside this folder:\n# {}\n{}", reproduce_line(run),
-                     config_toml({.experiment = run.experiment, .config = run.config, .trials = {}, .program = {}}));
+  return fmt::format("# To run it again from inside this folder:\n# {}\n{}", reproduce_line(run), config_toml(run));
 }
 
 namespace {
@@ -164,8 +156,6 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr int format_version = 1;
-
-constexpr const char* hex_words = "hexadecimal digits";
 
 bool is_hex(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
@@ -264,7 +254,7 @@ Manifest parse_manifest(const std::string& text, const std::string& file) {
       .question = manifest.text("question"),
       .answer = manifest.text("answer"),
       .summary = manifest.text("summary"),
-      .run_id = manifest.text("run_id", is_hex, hex_words),
+      .run_id = manifest.text("run_id", is_hex, "hexadecimal digits"),
       .reproduce = manifest.text("reproduce"),
       .finished = manifest.text("finished", is_time, "a time as 2031-02-03T04:05:06Z"),
       .self_test_passed = manifest.flag("self_test_passed"),

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,12 +36,9 @@ struct ShardRecord {
   std::string started, finished;  ///< ISO 8601 in UTC
 };
 
-struct RunRecord {
-  std::string experiment, question;
-  std::string config;           ///< canonical JSON
+struct RunRecord : RunIdentity {
+  std::string question;
   bool default_config = false;  ///< true if it is the experiment's own
-  std::uint64_t seed = 0;
-  std::optional<std::int64_t> trials;  ///< as given on the command line
   std::vector<std::string> argv;
   int threads = 1;
   std::size_t units = 0, resumed_units = 0;
@@ -67,7 +63,7 @@ std::string utc_text(std::chrono::system_clock::time_point time);
 std::string reproduce_line(const RunRecord& run);
 
 /// A short name for the experiment, config, seed and trials together: the start of their SHA-256.
-std::string run_id(const RunRecord& run);
+std::string run_id(const RunIdentity& run);
 
 // ---- manifest.json: where a result came from and what belongs to it.
 

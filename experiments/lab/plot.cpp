@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <thinwall/experiments/lab/table_text.hpp>
 
@@ -12,12 +11,6 @@ namespace {
 
 constexpr int curve_points = 400;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::optional<double> number_in(const Value& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  const auto* real = std::get_if<double>(&value);
-  return real != nullptr && std::isfinite(*real) ? std::optional(*real) : std::nullopt;
-}
 
 }  // namespace
 
@@ -38,7 +31,7 @@ Plot& Plot::where(std::string_view column, const Value& value) {
 Plot& Plot::where(std::string_view column, const std::function<bool(double)>& is_it) {
   const std::size_t at = place_of(table_, column);
   std::erase_if(table_.rows, [&](const auto& row) {
-    const auto x = number_in(row[at]);
+    const auto x = finite_number(row[at]);
     return !x || !is_it(*x);
   });
   return *this;
@@ -94,7 +87,7 @@ Plot& Plot::line(std::string label, std::vector<double> xs, std::vector<double> 
 
 Plot& Plot::through(std::string_view column, const std::string& label) {
   Plot lines = Plot(table_).x(x_).y(column).by(by_).mark(Mark::line);
-  const auto at = [x = place_of(table_, x_)](const auto& row) { return number_in(row[x]); };
+  const auto at = [x = place_of(table_, x_)](const auto& row) { return finite_number(row[x]); };
   std::ranges::stable_sort(lines.table_.rows, {}, at);
   for (Series& series : Panel(lines).series) {
     series.label = label;
@@ -111,7 +104,7 @@ Plot::operator Panel() const {
   const auto has_bars = [](const Column& column) { return !column.lower.empty() && !column.upper.empty(); };
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const auto& row : table_.rows) {
-    const auto at = number_in(row[x]), value = number_in(row[y]);
+    const auto at = finite_number(row[x]), value = finite_number(row[y]);
     if (!at || !value) continue;
     least = std::min(least, *at);
     most = std::max(most, *at);
@@ -122,8 +115,8 @@ Plot::operator Panel() const {
     }
     series->add(*at, *value);
     const auto add_bar = [&](const Column& column, double middle, auto& lower, auto& upper) {
-      lower.push_back(has_bars(column) ? number_in(row[place_of(table_, column.lower)]).value_or(middle) : middle);
-      upper.push_back(has_bars(column) ? number_in(row[place_of(table_, column.upper)]).value_or(middle) : middle);
+      lower.push_back(has_bars(column) ? finite_number(row[place_of(table_, column.lower)]).value_or(middle) : middle);
+      upper.push_back(has_bars(column) ? finite_number(row[place_of(table_, column.upper)]).value_or(middle) : middle);
     };
     if (has_bars(across)) add_bar(across, *at, series->x_lower, series->x_upper);
     if (has_bars(across) || has_bars(measured)) add_bar(measured, *value, series->lower, series->upper);

@@ -1,7 +1,6 @@
 #include <thinwall/experiments/lab/ranks.hpp>
 
 #include <cstdlib>
-#include <exception>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 /// A result folder: what lies in it, how it is written whole or not at all, how it is read again.
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -51,7 +50,6 @@ class ResultFolder {
   /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
   /// Throws std::runtime_error if the disk is full.
   ResultFolder(std::filesystem::path path, const RunIdentity& identity);
-  ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
 

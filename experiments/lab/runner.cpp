@@ -82,16 +82,19 @@ void StopGuard::watch(std::chrono::milliseconds patience, const std::function<vo
 
 namespace {
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 Journal::Row timed(const Unit& unit) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   std::string result;
   try {
     result = unit.compute();
   } catch (const std::exception& error) {
     throw std::runtime_error("unit '" + unit.key + "' failed: " + error.what());
   }
-  return {std::chrono::duration<double>(Clock::now() - start).count(), std::move(result)};
+  return {seconds_since(start), std::move(result)};
 }
 
 std::int64_t total_trials(std::span<const Unit> units) {
@@ -177,10 +180,6 @@ UnitResults compute_units(std::span<const Unit> units, Journal& journal, const R
 namespace {
 
 using Tell = std::function<void(const RunEstimate&)>;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::unique_ptr<Run> run_of(const ConfigureTrials& again, std::int64_t trials) {
   try {

@@ -218,20 +218,19 @@ std::vector<double> Settings::numbers(std::string_view key, const Range& range) 
       [&](const toml::node&) { return range_text("a list of numbers", range); });
 }
 
-std::vector<double> Settings::vector(std::string_view key, std::size_t size, const Range& range) const {
-  const auto read = [&](const toml::node& node) -> std::optional<std::vector<double>> {
+std::array<double, 3> Settings::vector(std::string_view key, const Range& range) const {
+  const auto read = [&](const toml::node& node) -> std::optional<std::array<double, 3>> {
+    std::array<double, 3> values{};
     const auto* const array = node.as_array();
-    if (!array || array->size() != size) return std::nullopt;
-    std::vector<double> values;
-    for (const toml::node& item : *array) {
-      const auto value = in_range(item, range);
+    if (!array || array->size() != values.size()) return std::nullopt;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = in_range((*array)[i], range);
       if (!value) return std::nullopt;
-      values.push_back(*value);
+      values[i] = *value;
     }
     return values;
   };
-  return impl_->one(key, read,
-                    [&](const toml::node&) { return range_text(fmt::format("a list of {} numbers", size), range); });
+  return impl_->one(key, read, [&](const toml::node&) { return range_text("a list of 3 numbers", range); });
 }
 
 std::int64_t Settings::integer(std::string_view key, std::int64_t lower, std::int64_t upper) const {

@@ -2,6 +2,7 @@
 /// Typed, checked access to one TOML file laid over an experiment's defaults.
 /// Every complaint is a `UsageError` of one line: file, line, key, what is allowed, and the nearest valid spelling.
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -44,7 +45,7 @@ class Settings {
   double number(std::string_view key, const Range& range) const;
   std::vector<double> numbers(std::string_view key,
                               const Range& range) const;  ///< 1 to `most_cells` of them, no value twice
-  std::vector<double> vector(std::string_view key, std::size_t size, const Range& range) const;  ///< exactly so many
+  std::array<double, 3> vector(std::string_view key, const Range& range) const;
   std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper) const;
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t lower, std::int64_t upper) const;
   bool flag(std::string_view key) const;

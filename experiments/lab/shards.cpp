@@ -14,7 +14,6 @@
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
@@ -35,6 +34,13 @@ Shard parse_shard(std::string_view text) {
 
 std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int seal_version = 1;
+
+/// The index of the shard that each unit belongs to.
 std::vector<int> deal(std::size_t units, int shards) {
   // Without the shuffle a number of shards that divides the number of methods would give a shard one method alone.
   std::vector<std::pair<std::uint64_t, std::size_t>> cards(units);
@@ -47,6 +53,8 @@ std::vector<int> deal(std::size_t units, int shards) {
   return owners;
 }
 
+}  // namespace
+
 std::vector<std::size_t> units_of(const Shard& shard, std::size_t units) {
   const std::vector<int> owners = deal(units, shard.count);
   std::vector<std::size_t> hand;
@@ -55,14 +63,6 @@ std::vector<std::size_t> units_of(const Shard& shard, std::size_t units) {
   }
   return hand;
 }
-
-namespace {
-
-using nlohmann::ordered_json;
-
-constexpr int seal_version = 1;
-
-}  // namespace
 
 std::optional<ShardSeal> parse_seal(const std::string& text) {
   try {
@@ -83,10 +83,10 @@ std::optional<ShardSeal> parse_seal(const std::string& text) {
   }
 }
 
-void seal_shard(ResultFolder& folder, const RunIdentity& identity, const RunRecord& run) {
+void seal_shard(ResultFolder& folder, const RunRecord& run) {
   const ordered_json seal = {
       {"thinwall_shard", seal_version},
-      {"run", ordered_json::parse(identity_text(identity))},
+      {"run", ordered_json::parse(identity_text(run))},
       {"units", run.units},
       {"total_trials", run.total_trials},
       {"argv", run.argv},
@@ -125,7 +125,7 @@ SealedFolder read_seal(const std::string& folder) {
   if (!fs::exists(path, none)) refuse(name, "there is no such folder");
   if (!fs::is_directory(path, none)) refuse(name, "is not a folder; a finished shard is needed");
   if (!fs::exists(path / seal_name, none)) {
-    const auto begun = parse_identity(Journal::identity_in(path / journal_name));
+    const auto begun = parse_identity(read_journal(path / journal_name).identity);
     if (begun && !begun->shard.empty()) refuse(name, fmt::format("shard {} is unfinished{}", begun->shard, mend));
     if (fs::exists(path / manifest_name, none)) refuse(name, "holds a whole result, not a shard");
     refuse(name, "is not a shard of a run: it has no shard.json");
@@ -155,7 +155,7 @@ RunIdentity whole(RunIdentity identity) {
 
 void check_together(const SealedFolder& first, const SealedFolder& other) {
   const RunIdentity ours = whole(first.seal.identity), theirs = whole(other.seal.identity);
-  if (const std::string difference = identity_difference(identity_text(theirs), ours); !difference.empty()) {
+  if (const std::string difference = identity_difference(theirs, ours); !difference.empty()) {
     refuse(other.name, fmt::format("is a shard of another run than {} ({})", first.name, difference));
   }
   if (theirs.program != ours.program) {

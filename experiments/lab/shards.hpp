@@ -2,7 +2,6 @@
 /// Shards: a run in parts, on machines that do not know of each other.
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,11 +29,8 @@ Shard parse_shard(std::string_view text);
 
 std::string to_text(const Shard& shard);  ///< `2/4`
 
-/// The index of the shard that each of `units` units belongs to. The units are shuffled, always the same way, and dealt
-/// out like cards: each shard gets as many, give or take one, and a fair mix of the cheap and the dear.
-std::vector<int> deal(std::size_t units, int shards);
-
-/// Which of `units` units belong to the shard, in their own order.
+/// Which of `units` units belong to the shard, in their own order. They are shuffled, always the same way, and dealt out like
+/// cards: each shard gets as many, give or take one, and a fair mix of the cheap and the dear.
 std::vector<std::size_t> units_of(const Shard& shard, std::size_t units);
 
 // ---- shard.json: the last file that a shard writes. It says which part of which run lies beside it in journal.tsv, and
@@ -51,7 +47,7 @@ struct ShardSeal {
 std::optional<ShardSeal> parse_seal(const std::string& text);
 
 /// Declares the shard in `folder` finished. `run` is the shard's: its units and trials are those of the shard alone.
-void seal_shard(ResultFolder& folder, const RunIdentity& identity, const RunRecord& run);
+void seal_shard(ResultFolder& folder, const RunRecord& run);
 
 /// True if `folder` was sealed and its journal has not changed since.
 bool is_sealed(const ResultFolder& folder, const RunIdentity& identity);

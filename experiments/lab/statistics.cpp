@@ -10,7 +10,7 @@ namespace thinwall {
 
 namespace bm = boost::math;
 
-Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
+Interval wilson(std::int64_t successes, std::int64_t trials) {
   const double n = static_cast<double>(trials);
   const double p = static_cast<double>(successes) / n;
   const double z = bm::quantile(bm::complement(bm::normal(), (1 - confidence) / 2));
@@ -39,7 +39,7 @@ double quantile(std::span<const double> values, double share) {
   return sorted[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
 }
 
-Interval bootstrap_median(std::span<const double> values, const RandomStream& stream, double confidence) {
+Interval bootstrap_median(std::span<const double> values, const RandomStream& stream) {
   constexpr std::uint64_t resamples = 1000;
   std::vector<double> medians, drawn(values.size());
   for (std::uint64_t k = 0; k < resamples; ++k) {

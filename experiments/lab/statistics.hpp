@@ -16,7 +16,10 @@ struct Interval {
   bool contains(double x) const { return lower <= x && x <= upper; }
 };
 
-/// A number and its 95 % interval.
+/// Of the interval of a measured number.
+inline constexpr double confidence = 0.95;
+
+/// A number and its interval.
 struct Measured {
   double value;
   Interval interval;
@@ -33,7 +36,7 @@ inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
 /// For a curve: the Wilson score interval of a probability, after `successes` in `trials` >= 1 independent trials.
 /// Covers the true probability `confidence` of the time on average; at the ends it is exactly 0 and exactly 1.
 /// Source: derived in docs/tunneling_theory.md.
-Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
+Interval wilson(std::int64_t successes, std::int64_t trials);
 
 /// The share that a part, counted or expected, is of the whole; nothing where that is none.
 std::optional<double> share_of(auto part, auto whole) {
@@ -42,13 +45,13 @@ std::optional<double> share_of(auto part, auto whole) {
 
 /// A share of counts with that interval; nothing where there is no trial.
 inline std::optional<Measured> measured_share(std::int64_t successes, std::int64_t trials) {
-  if (trials <= 0) return std::nullopt;
-  return Measured{static_cast<double>(successes) / static_cast<double>(trials), wilson(successes, trials)};
+  const std::optional<double> share = share_of(successes, trials);
+  return share ? std::optional(Measured{*share, wilson(successes, trials)}) : std::nullopt;
 }
 
 /// For a claim, such as "none seen": the Clopper-Pearson interval, which covers the true probability at least
 /// `confidence` of the time, whatever it is. Source: the beta quantiles of Boost.Math, (1 - confidence) / 2 a side.
-Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
+Interval clopper_pearson(std::int64_t successes, std::int64_t trials);
 
 /// (successes - n p) / sqrt(n p (1 - p)), for 0 < p < 1.
 double standard_residual(std::int64_t successes, std::int64_t trials, double probability);
@@ -64,7 +67,7 @@ double quantile(std::span<const double> values, double share);
 
 /// The percentile bootstrap interval of the median: of the medians of 1000 lists drawn from `values` with replacement.
 /// Not empty. Source: Efron, "Bootstrap Methods: Another Look at the Jackknife", 1979.
-Interval bootstrap_median(std::span<const double> values, const RandomStream& stream, double confidence = 0.95);
+Interval bootstrap_median(std::span<const double> values, const RandomStream& stream);
 
 /// The central range of a sum of `count` >= 1 squared standard normal numbers.
 Interval chi_square_range(std::int64_t count, double coverage);

@@ -2,6 +2,7 @@
 /// A table as CSV, as Markdown, LaTeX and HTML, and described for machines.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,9 @@ namespace thinwall {
 
 /// The column of that name. Throws std::logic_error if the table has none.
 std::size_t place_of(const Table& table, std::string_view column);
+
+/// The number in a cell, whole or real; nothing where there is none, or it is not finite.
+std::optional<double> finite_number(const Value& value);
 
 // ---- A table as CSV (RFC 4180, lines end in LF), and all tables of a result as a Frictionless Data Package.
 
@@ -74,9 +78,6 @@ std::string header_of(const Column& column);
 ShownTable shown(const Table& table);
 
 // ---- A table for readers: rounded, with units in its header, as Markdown, LaTeX and HTML.
-
-/// A value as a reader sees it: four significant digits, thousands apart in counts, a dash where it is missing.
-std::string shown_text(const Value& value);
 
 std::string markdown_table(const Table& whole);
 

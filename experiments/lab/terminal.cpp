@@ -5,6 +5,7 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {
@@ -17,10 +18,8 @@ std::size_t width(std::string_view text) {
 
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (end > at) words.emplace_back(text.substr(at, end - at));
-    at = end + 1;
+  for (const std::string_view word : split(text, ' ')) {
+    if (!word.empty()) words.emplace_back(word);
   }
   return words;
 }
@@ -43,20 +42,7 @@ std::string padded(const std::string& text, std::size_t to, bool right) {
   return right ? spaces + text : text + spaces;
 }
 
-}  // namespace
-
-std::string wrapped(std::string_view text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const auto lines = broken(text.substr(at, end - at), terminal_width);
-    for (const std::string& line : lines) out += line + "\n";
-    if (lines.empty()) out += "\n";
-    at = end + 1;
-  }
-  return out;
-}
-
+/// The columns of these names alone, in this order, and the ends of their intervals.
 Table only_columns(const Table& table, std::initializer_list<std::string_view> names) {
   Table out = table;
   out.columns.clear();
@@ -71,6 +57,20 @@ Table only_columns(const Table& table, std::initializer_list<std::string_view> n
     const Column column = out.columns.back();
     if (!column.lower.empty()) take(column.lower);
     if (!column.upper.empty()) take(column.upper);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const auto lines = broken(text.substr(at, end - at), terminal_width);
+    for (const std::string& line : lines) out += line + "\n";
+    if (lines.empty()) out += "\n";
+    at = end + 1;
   }
   return out;
 }

@@ -19,7 +19,4 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
 /// `text` broken between words into lines of at most `terminal_width`; its own line breaks stay.
 std::string wrapped(std::string_view text);
 
-/// The table with the columns of these names alone, in this order, and the ends of their intervals. Throws std::logic_error.
-Table only_columns(const Table& table, std::initializer_list<std::string_view> names);
-
 }  // namespace thinwall

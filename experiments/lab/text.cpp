@@ -146,7 +146,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string_view nearest_spelling(std::string_view word, std::span<const std::string_view> candidates) {
+std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates) {
   std::string_view nearest;
   std::size_t fewest = (word.size() + 2) / 3 + 1;  // a third of the letters may be wrong
   for (const std::string_view candidate : candidates) {
@@ -156,13 +156,8 @@ std::string_view nearest_spelling(std::string_view word, std::span<const std::st
       nearest = candidate;
     }
   }
-  return nearest;
-}
-
-std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates) {
   const std::string list = fmt::format("allowed: {}", fmt::join(candidates, ", "));
-  const std::string_view nearest = nearest_spelling(word, candidates);
-  return nearest.empty() ? list : "did you mean '" + std::string(nearest) + "'? (" + list + ")";
+  return nearest.empty() ? list : fmt::format("did you mean '{}'? ({})", nearest, list);
 }
 
 namespace {

@@ -83,9 +83,6 @@ std::string range_text(std::string_view kind, const Range& range);
 /// The fewest letters to insert, delete, replace or swap with their neighbor that turn `a` into `b`; case is ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word`; empty if none is near enough to be what was meant.
-std::string_view nearest_spelling(std::string_view word, std::span<const std::string_view> candidates);
-
 /// The end of a complaint: `did you mean 'radius'? (allowed: angle, radius)`; if nothing is near, `allowed: angle, radius`.
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates);
 

@@ -13,8 +13,9 @@ namespace thinwall {
 
 namespace {
 
-constexpr double lane = 16;       // [m] between shots; radii are 1 m, walls 6 m wide
-constexpr double whole_step = 1;  // [s]
+constexpr double gate_wall = 0.1;  // [1] thickness of the wall in radii of the ball
+constexpr double lane = 16;        // [m] between shots; radii are 1 m, walls 6 m wide
+constexpr double whole_step = 1;   // [s]
 
 /// [m] How far the center is from the target's when they first touch, at most.
 double reach(GateTarget target) { return target == GateTarget::wall ? 1 + gate_wall / 2 : 2; }

@@ -48,8 +48,6 @@ struct GateRow {
   GateTally tally;
 };
 
-inline constexpr double gate_wall = 0.1;  // [1] thickness of the wall in radii of the ball
-
 /// [1] The chance that a shot is never seen.
 double missed_by_gate(const GateCell& cell);
 

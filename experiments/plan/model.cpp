@@ -16,6 +16,7 @@ namespace thinwall {
 
 namespace {
 
+constexpr double plan_dt = 1.0 / 60;           // [s]
 constexpr double spacing = 2.2, jitter = 0.7;  // [m] of the lattice of bodies; none is wider than 1.5
 constexpr double fast = 20;                    // [m/s] along each axis at most
 constexpr std::uint32_t debris = 2;            // a group that does not meet itself
@@ -219,11 +220,6 @@ PlanRace race_plans(const PlanScene& scene, const PlanRaceOptions& options) {
     race.ways[k].tunneled = count_tunneled(scene, all[k], options.steps);
   }
   return race;
-}
-
-const Way* way_named(const PlanRace& race, std::string_view name) {
-  const auto found = std::ranges::find(race.ways, name, &Way::name);
-  return found == race.ways.end() ? nullptr : &*found;
 }
 
 bool is_right(const PlanRace& race) {

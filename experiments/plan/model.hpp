@@ -19,8 +19,6 @@ struct PlanScene {
   WorldOptions options;
 };
 
-inline constexpr double plan_dt = 1.0 / 60;  // [s]
-
 std::span<const std::string_view> plan_scene_names();
 
 /// About `count` >= 2 bodies. `name` is one of the names. Bodies start apart, but for the tiles of a floor, which touch.
@@ -70,9 +68,6 @@ struct PlanRaceOptions {
 
 /// Processor time of this thread, one race at a time; each round takes every way in turn.
 PlanRace race_plans(const PlanScene& scene, const PlanRaceOptions& options);
-
-/// The way of that name, or null.
-const Way* way_named(const PlanRace& race, std::string_view name);
 
 /// True if all ways but the gate give the outcome of the plan, in every round, and the plan lets nothing through.
 bool is_right(const PlanRace& race);

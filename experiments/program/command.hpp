@@ -65,7 +65,6 @@ void add_text(CLI::App& command, const std::string& name, OptionText& text, cons
               const std::string& form);
 
 void add_json(CLI::App& command, bool& json);
-void add_seed(CLI::App& command, OptionText& seed);
 void add_threads(CLI::App& command, OptionText& threads);
 void add_out(CLI::App& command, OptionText& out);
 void add_benchmarks(CLI::App& command, OptionText& folder);
@@ -80,7 +79,6 @@ void write_own_file(std::string_view option, const std::filesystem::path& file, 
                     std::string_view command);
 
 // All throw UsageError, naming the option and what is allowed.
-std::uint64_t parse_seed(const OptionText& text);  ///< 0 if not given
 int parse_threads(const OptionText& text);         ///< every core if not given
 std::string parse_folder(const OptionText& text);  ///< empty if not given
 std::int64_t parse_positive(std::string_view option, const std::string& text, std::int64_t most);
@@ -128,6 +126,7 @@ Command merge_command();
 Command plan_command();
 Command report_command();
 Command reproduce_command();
+Command run_command();
 Command validate_command();  ///< its exit code is 1 if any verdict is wrong
 
 // ---- `thinwall report`, and the option --figures that `thinwall run` shares with it.
@@ -137,15 +136,27 @@ void add_figures(CLI::App& self, OptionText& figures);
 /// The formats in `pdf,tex`; none if it was not given. Throws UsageError.
 std::vector<std::string> parse_figures(const OptionText& figures);
 
-// ---- `thinwall plan`, and the options of every command that takes a scene.
+// ---- What a shell completes, taken from the commands themselves.
 
-void add_scene_target(CLI::App& self, std::string& target);
-void add_plan_kind(CLI::App& self, OptionText& plan);
+/// What may stand in a place: words, TOML files, folders.
+struct CompletedValue {
+  std::vector<std::string> words;
+  bool toml = false, folder = false;
+};
 
-/// Throws UsageError if `target` is empty.
-void require_scene_target(const char* command, const std::string& target);
+struct CompletedOption {
+  std::string name, meaning;  ///< `--out`
+  bool takes_value = false;
+  CompletedValue value;
+};
 
-/// "lean", "full", or empty if it was not given. Throws UsageError.
-std::string parse_plan_kind(const OptionText& plan);
+struct CompletedCommand {
+  std::string name, summary;
+  std::vector<CompletedOption> options;
+  CompletedValue target;  ///< the words after the command that are no options
+};
+
+/// Every command, with the names of the `experiments` where one may stand.
+std::vector<CompletedCommand> completed_commands(std::span<const Experiment> experiments);
 
 }  // namespace thinwall

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <fstream>
 #include <memory>
 #include <ostream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/ranks.hpp>
@@ -166,10 +168,6 @@ void add_text(CLI::App& command, const std::string& name, OptionText& text, cons
 
 void add_json(CLI::App& command, bool& json) { add_flag(command, "--json", json, "Print one JSON value on stdout"); }
 
-void add_seed(CLI::App& command, OptionText& seed) {
-  add_text(command, "--seed", seed, "Chooses the random numbers (default: 0)", "N");
-}
-
 void add_threads(CLI::App& command, OptionText& threads) {
   add_text(command, "--threads", threads, "Threads to compute with (default: all cores)", "N");
 }
@@ -186,16 +184,6 @@ void add_benchmarks(CLI::App& command, OptionText& folder) {
 void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,
                 const std::string& form) {
   command.add_option(name, target, meaning)->option_text(form);
-}
-
-std::uint64_t parse_seed(const OptionText& text) {
-  if (!text) return 0;
-  const auto seed = parsed<std::uint64_t>(*text);
-  if (!seed) {
-    throw UsageError(fmt::format("--seed: '{}' is not allowed; a whole number from 0 to {}", one_line(*text),
-                                 std::numeric_limits<std::uint64_t>::max()));
-  }
-  return *seed;
 }
 
 int parse_threads(const OptionText& text) {
@@ -222,6 +210,34 @@ std::string parse_choice(std::string_view option, const OptionText& text, std::s
         fmt::format("{}: '{}' is not allowed; {}", option, one_line(*text), spelling_hint(*text, allowed)));
   }
   return *text;
+}
+
+void write_own_file(std::string_view option, const std::filesystem::path& file, std::string_view text,
+                    std::string_view command) {
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(fmt::format("{} {}: {}", option, one_line(file.string()), why));
+  };
+  if (file.empty()) throw UsageError(fmt::format("{}: '' is not allowed; a file is needed", option));
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) refuse("is a folder; a file is needed");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) refuse("is not a file");
+  if (std::filesystem::exists(status)) {
+    std::string first;
+    std::ifstream in(file);
+    std::getline(in, first);
+    if (first != text.substr(0, text.find('\n')))
+      refuse(fmt::format("is there already, and not from {}; another name is needed", command));
+  }
+  const std::filesystem::path fresh = file.string() + ".new";
+  if (std::filesystem::exists(fresh, error)) refuse("needs the name " + one_line(fresh.string()) + ", which is taken");
+  try {
+    write_file(fresh, text);
+    std::filesystem::rename(fresh, file);
+  } catch (const std::system_error& why) {
+    std::filesystem::remove(fresh, error);
+    refuse("cannot be written: " + why.code().message());
+  }
 }
 
 std::streambuf::int_type HarmlessOutput::Buffer::overflow(int_type value) {

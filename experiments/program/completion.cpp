@@ -1,6 +1,7 @@
-#include <thinwall/experiments/program/completion.hpp>
+#include <thinwall/experiments/program/command.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <ostream>
 
@@ -12,7 +13,6 @@
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/program/command.hpp>
 
 namespace thinwall {
 
@@ -187,10 +187,6 @@ std::vector<CompletedCommand> completed_commands(std::span<const Experiment> exp
   return out;
 }
 
-std::string completion_script(std::string_view shell, std::span<const CompletedCommand> commands) {
-  return shell == "bash" ? bash_script(commands) : shell == "zsh" ? zsh_script(commands) : fish_script(commands);
-}
-
 namespace {
 
 constexpr const char* completion_examples =
@@ -199,6 +195,8 @@ constexpr const char* completion_examples =
   thinwall completion fish | source
 )";
 
+constexpr std::array<std::string_view, 3> shells = {"bash", "zsh", "fish"};
+
 struct CompletionText {
   std::string shell;
   bool json = false;
@@ -206,8 +204,9 @@ struct CompletionText {
 
 int print_completion(const CompletionText& text, const Call& call) {
   if (text.shell.empty()) throw UsageError("completion: a shell is missing; bash, zsh or fish");
-  const std::string shell = parse_choice("completion", text.shell, completion_shells);
-  const std::string script = completion_script(shell, completed_commands(call.experiments));
+  const std::string shell = parse_choice("completion", text.shell, shells);
+  const std::vector<CompletedCommand> all = completed_commands(call.experiments);
+  const std::string script = shell == "bash" ? bash_script(all) : shell == "zsh" ? zsh_script(all) : fish_script(all);
   if (text.json) {
     call.out << json_line({{"shell", shell}, {"script", script}});
   } else {

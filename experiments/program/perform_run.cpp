@@ -123,9 +123,9 @@ int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
   return exit_done;
 }
 
-int interrupted(const RunWish& wish, const std::string& kept, const Call& call) {
+int interrupted(const RunWish& wish, const Call& call) {
   const int ranks = wish.launch.count;
-  call.err << fmt::format("interrupted: {} in {}; to continue:\n{}{}\n", kept, one_line(wish.out),
+  call.err << fmt::format("interrupted: finished units are kept in {}; to continue:\n{}{}\n", one_line(wish.out),
                           ranks > 1 ? fmt::format("mpirun -n {} ", ranks) : "", shell_line(call.argv));
   return exit_interrupted;
 }
@@ -135,19 +135,20 @@ std::string default_folder(const ConfiguredRun& chosen, const std::optional<Shar
 }
 
 RunRecord record_of(const ConfiguredRun& chosen, const RunWish& wish, const Call& call, std::span<const Unit> units) {
-  RunRecord record{.experiment = std::string(chosen.experiment.name),
-                   .question = chosen.question,
-                   .config = chosen.config,
-                   .default_config = chosen.default_config,
-                   .seed = wish.merged ? wish.merged->identity.seed : wish.request.options.seed,
-                   .trials = wish.merged ? wish.merged->identity.trials : wish.request.options.trials,
-                   .argv = call.argv,
-                   .threads = wish.request.options.threads,
-                   .units = units.size(),
-                   .started = std::chrono::system_clock::now(),
-                   .finished = {},
-                   .build = this_build(),
-                   .machine = this_machine()};
+  RunRecord record;
+  record.experiment = chosen.experiment.name;
+  record.question = chosen.question;
+  record.config = chosen.config;
+  record.default_config = chosen.default_config;
+  record.seed = wish.merged ? wish.merged->identity.seed : wish.request.options.seed;
+  record.trials = wish.merged ? wish.merged->identity.trials : wish.request.options.trials;
+  record.shard = wish.shard ? to_text(*wish.shard) : "";
+  record.argv = call.argv;
+  record.threads = wish.request.options.threads;
+  record.units = units.size();
+  record.started = std::chrono::system_clock::now();
+  record.build = this_build();
+  record.machine = this_machine();
   for (const Unit& unit : units) record.total_trials += unit.trials;
   record.ranks = wish.launch.count;
   if (wish.merged) record.shards = wish.merged->records;
@@ -178,21 +179,16 @@ int perform_run(const RunWish& given, const Call& call) try {
   if (wish.list_cells) return list_cells(wish, record, units, call.out);
   if (wish.dry_run) return dry_run(wish, record, all, call);
 
-  const RunIdentity identity{.experiment = record.experiment,
-                             .config = record.config,
-                             .seed = record.seed,
-                             .trials = record.trials,
-                             .program = this_program_sha256(),
-                             .shard = wish.shard ? to_text(*wish.shard) : ""};
+  record.program = this_program_sha256();
   const Journal::Rows merged = wish.merged ? all_rows(*wish.merged, units) : Journal::Rows();
   Crew crew(wish.launch, units);
   if (!crew.leads()) {
     watch_for_stop();
     const StopGuard guard(patience, [] { std::_Exit(exit_interrupted); });
-    return crew.assist(wish.out, identity_text(identity),
+    return crew.assist(wish.out, identity_text(record),
                        {.threads = record.threads, .stop = stop_requested, .on_progress = {}});
   }
-  ResultFolder folder(wish.out, identity);
+  ResultFolder folder(wish.out, record);
   for (const std::string& note : folder.notes()) call.err << note << "\n";
   if (const auto& kept = folder.complete()) {
     Outcome outcome;
@@ -201,7 +197,7 @@ int perform_run(const RunWish& given, const Call& call) try {
     outcome.self_test_passed = kept->self_test_passed;
     return reply(wish, record, outcome, call);
   }
-  if (wish.shard && is_sealed(folder, identity)) {
+  if (wish.shard && is_sealed(folder, record)) {
     call.err << one_line(wish.out) << ": finished already; nothing was computed\n";
     return shard_reply(wish, record, call);
   }
@@ -212,7 +208,7 @@ int perform_run(const RunWish& given, const Call& call) try {
     watch_for_stop();
     guard.emplace(patience, [&] {
       if (stderr_is_terminal()) ProgressBar::erase();
-      std::_Exit(interrupted(wish, "finished units are kept", call));
+      std::_Exit(interrupted(wish, call));
     });
   }
   for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
@@ -222,12 +218,12 @@ int perform_run(const RunWish& given, const Call& call) try {
     ProgressBar bar(!wish.watch && stderr_is_terminal());
     const RunWatch watch = wish.watch.value_or(
         RunWatch{.stop = stop_requested, .on_progress = [&](const Progress& progress) { bar.show(progress); }});
-    results = crew.compute(folder, identity_text(identity),
+    results = crew.compute(folder, identity_text(record),
                            {.threads = record.threads, .stop = watch.stop, .on_progress = watch.on_progress});
   }
   if (!results.complete) {
     guard.reset();
-    return interrupted(wish, "finished units are kept", call);
+    return interrupted(wish, call);
   }
   if (!wish.merged && results.resumed > 0) {
     record.resumed_units = results.resumed;
@@ -235,7 +231,7 @@ int perform_run(const RunWish& given, const Call& call) try {
   }
   if (wish.shard) {
     record.finished = std::chrono::system_clock::now();
-    seal_shard(folder, identity, record);
+    seal_shard(folder, record);
     guard.reset();
     return shard_reply(wish, record, call);
   }

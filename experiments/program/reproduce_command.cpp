@@ -90,8 +90,7 @@ Rerun prepare(const ReproduceText& text) {
 /// Throws UsageError if this build cannot run it.
 RunWish wish_of(const Rerun& rerun, const ReproduceText& text, std::span<const Experiment> experiments) {
   RunRecord record;
-  record.experiment = rerun.recorded.run.experiment;
-  record.config = rerun.recorded.run.config;
+  static_cast<RunIdentity&>(record) = rerun.recorded.run;
   RunWish wish;
   wish.target = (rerun.result / "resolved.toml").string();  // the same text, unless somebody changed it
   wish.request.text = resolved_toml(record);

@@ -144,8 +144,6 @@ Command report_command() {
 
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr const char* cite_examples = R"(  thinwall cite                      the software
   thinwall cite results/thin_wall    the software, and that result
 )";

@@ -91,23 +91,7 @@ ConfiguredRun configured(const Experiment& chosen, Settings& settings, const Run
   return out;
 }
 
-}  // namespace
-
-ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments) {
-  const std::vector<Experiment> all = with_scenes(experiments);
-  const Experiment* const chosen = find_experiment(all, identity.experiment);
-  if (!chosen) throw UsageError(fmt::format("'{}': unknown experiment", one_line(identity.experiment)));
-  Settings settings(config_toml(identity), "configuration", chosen->default_toml);
-  settings.reject_unknown_keys();
-  ConfiguredRun out = configured(*chosen, settings, {identity.seed, identity.trials, threads});
-  RunIdentity again = identity;
-  again.config = out.config;  // JSON may spell a number otherwise
-  if (const std::string difference = identity_difference(identity_text(again), identity); !difference.empty()) {
-    throw UsageError(fmt::format("the configuration reads back as another one ({})", difference));
-  }
-  return out;
-}
-
+/// The text of a TOML file. Throws UsageError.
 std::string read_config(const std::string& file) {
   constexpr std::uintmax_t most = 16 << 20;  // [byte]; no configuration is as long
   const std::string name = one_line(file);
@@ -121,6 +105,23 @@ std::string read_config(const std::string& file) {
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw UsageError(name + ": cannot be read: " + std::generic_category().message(errno));
   return text;
+}
+
+}  // namespace
+
+ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments) {
+  const std::vector<Experiment> all = with_scenes(experiments);
+  const Experiment* const chosen = find_experiment(all, identity.experiment);
+  if (!chosen) throw UsageError(fmt::format("'{}': unknown experiment", one_line(identity.experiment)));
+  Settings settings(config_toml(identity), "configuration", chosen->default_toml);
+  settings.reject_unknown_keys();
+  ConfiguredRun out = configured(*chosen, settings, {identity.seed, identity.trials, threads});
+  RunIdentity again = identity;
+  again.config = out.config;  // JSON may spell a number otherwise
+  if (const std::string difference = identity_difference(again, identity); !difference.empty()) {
+    throw UsageError(fmt::format("the configuration reads back as another one ({})", difference));
+  }
+  return out;
 }
 
 ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
@@ -159,6 +160,71 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
 
 namespace {
 
+// Options that run, compare and plan share.
+
+/// Options of a run as they were typed.
+struct RunText {
+  RunWish wish;
+  OptionText out, seed, trials, threads, plan, figures, shard, benchmarks;
+};
+
+void add_scene_target(CLI::App& self, std::string& target) {
+  add_target(self, "scene", target, "The TOML file of a scene", "FILE.toml");
+}
+
+void add_plan_kind(CLI::App& self, OptionText& plan) {
+  add_text(self, "--plan", plan, "Of a scene: full omits nothing; the outcome is the same to the bit", "lean|full");
+}
+
+void require_scene_target(const char* command, const std::string& target) {
+  if (!target.empty()) return;
+  throw UsageError(fmt::format("{0}: the TOML file of a scene is missing; see thinwall {0} --help", command));
+}
+
+std::string parse_plan_kind(const OptionText& plan) {
+  constexpr std::array<std::string_view, 2> kinds = {"lean", "full"};
+  return parse_choice("--plan", plan, kinds);
+}
+
+void add_seed(CLI::App& command, OptionText& seed) {
+  add_text(command, "--seed", seed, "Chooses the random numbers (default: 0)", "N");
+}
+
+std::uint64_t parse_seed(const OptionText& text) {
+  if (!text) return 0;
+  const auto seed = parsed<std::uint64_t>(*text);
+  if (!seed) {
+    throw UsageError(fmt::format("--seed: '{}' is not allowed; a whole number from 0 to {}", one_line(*text),
+                                 std::numeric_limits<std::uint64_t>::max()));
+  }
+  return *seed;
+}
+
+void add_run_options(CLI::App& self, RunText& text) {
+  add_out(self, text.out);
+  add_threads(self, text.threads);
+  add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
+  add_flag(self, "--list-cells", text.wish.list_cells, "Print the key and the trials of every unit, and write nothing");
+  add_seed(self, text.seed);
+  add_plan_kind(self, text.plan);
+  add_figures(self, text.figures);
+  add_json(self, text.wish.json);
+}
+
+RunWish parse_run(const RunText& text) {
+  RunWish wish = text.wish;
+  wish.request.plan_kind = parse_plan_kind(text.plan);
+  wish.request.benchmarks = text.benchmarks.value_or("");
+  RunOptions& options = wish.request.options;
+  options.seed = parse_seed(text.seed);
+  if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
+  options.threads = parse_threads(text.threads);
+  wish.out = parse_folder(text.out);
+  wish.figures = parse_figures(text.figures);
+  if (text.shard) wish.shard = parse_shard(*text.shard);
+  return wish;
+}
+
 constexpr const char* run_examples = R"(  thinwall run thin_wall
   thinwall run my.toml --seed 7 --out results/mine
   thinwall run scene.toml --trace --plan full
@@ -186,31 +252,6 @@ Action declare_run(CLI::App& self) {
 }
 
 }  // namespace
-
-void add_run_options(CLI::App& self, RunText& text) {
-  add_out(self, text.out);
-  add_threads(self, text.threads);
-  add_flag(self, "--dry-run", text.wish.dry_run, "Print the size and an estimate of the time, and write nothing");
-  add_flag(self, "--list-cells", text.wish.list_cells, "Print the key and the trials of every unit, and write nothing");
-  add_seed(self, text.seed);
-  add_plan_kind(self, text.plan);
-  add_figures(self, text.figures);
-  add_json(self, text.wish.json);
-}
-
-RunWish parse_run(const RunText& text) {
-  RunWish wish = text.wish;
-  wish.request.plan_kind = parse_plan_kind(text.plan);
-  wish.request.benchmarks = text.benchmarks.value_or("");
-  RunOptions& options = wish.request.options;
-  options.seed = parse_seed(text.seed);
-  if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
-  options.threads = parse_threads(text.threads);
-  wish.out = parse_folder(text.out);
-  wish.figures = parse_figures(text.figures);
-  if (text.shard) wish.shard = parse_shard(*text.shard);
-  return wish;
-}
 
 Command run_command() {
   return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", run_examples, declare_run,
@@ -300,24 +341,6 @@ Action declare_plan(CLI::App& self) {
 }
 
 }  // namespace
-
-void add_scene_target(CLI::App& self, std::string& target) {
-  add_target(self, "scene", target, "The TOML file of a scene", "FILE.toml");
-}
-
-void add_plan_kind(CLI::App& self, OptionText& plan) {
-  add_text(self, "--plan", plan, "Of a scene: full omits nothing; the outcome is the same to the bit", "lean|full");
-}
-
-void require_scene_target(const char* command, const std::string& target) {
-  if (!target.empty()) return;
-  throw UsageError(fmt::format("{0}: the TOML file of a scene is missing; see thinwall {0} --help", command));
-}
-
-std::string parse_plan_kind(const OptionText& plan) {
-  constexpr std::array<std::string_view, 2> kinds = {"lean", "full"};
-  return parse_choice("--plan", plan, kinds);
-}
 
 Command plan_command() { return {"plan", "Print what a scene does not need, and why", plan_examples, declare_plan}; }
 

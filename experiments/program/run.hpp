@@ -45,9 +45,6 @@ struct ConfiguredRun {
 /// The run that has this identity, on `threads` threads. Throws UsageError if no experiment here has it.
 ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments);
 
-/// The text of a TOML file. Throws UsageError.
-std::string read_config(const std::string& file);
-
 /// `target` is an experiment's name, or a TOML file: its key `experiment` names one, or its key `scene` says that it is a
 /// scene. Throws UsageError.
 ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
@@ -129,21 +126,5 @@ struct RunWish {
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.
 int perform_run(const RunWish& given, const Call& call);
-
-// ---- `thinwall run`, and what `thinwall compare` shares with it.
-
-/// Options of a run as they were typed.
-struct RunText {
-  RunWish wish;
-  OptionText out, seed, trials, threads, plan, figures, shard, benchmarks;
-};
-
-/// --out, --threads, --seed, --plan, --figures, --dry-run and --json.
-void add_run_options(CLI::App& self, RunText& text);
-
-/// What the text means. Throws UsageError.
-RunWish parse_run(const RunText& text);
-
-Command run_command();
 
 }  // namespace thinwall

@@ -1,7 +1,6 @@
 #include <thinwall/experiments/scenes/comparison.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -89,8 +88,6 @@ Columns<Contest> compare_columns() {
       value("repeated_alike", "", "Every repeat gave the same bits.", &Contest::repeated_alike));
 }
 
-}  // namespace
-
 Table compare_table(const std::vector<Contest>& contests) {
   return in_report(table("compare", "Each time policy and step against the exact run.", compare_columns(), contests));
 }
@@ -107,6 +104,53 @@ Table compare_timings_table(const Comparison& comparison, const std::vector<Cont
       table("timings", "Run time of stepping one second of the scene, with other contenders at work on other cores.",
             columns, contests)));
 }
+
+/// What the pictures show of each.
+Table drawn_table(const Comparison& comparison, const std::vector<Contest>& contests) {
+  const double duration = comparison.scene.duration();
+  const double least = duration * std::numeric_limits<double>::epsilon();  // [s] a rounding; a logarithm has no zero
+  const auto error = [least](const Contest& c) {
+    const auto middle = median_error(c);
+    return middle ? std::optional(std::max(*middle, least)) : std::nullopt;
+  };
+  const auto run_time = [duration](const Contest& c) {
+    const auto [shortest, longest] = std::ranges::minmax(c.seconds);
+    return Measured{cost(c, duration), {shortest / duration, longest / duration}};
+  };
+  const auto columns = columns_of<Contest>(
+      key_columns(), value("step", "", "", [](const Contest& c) { return 1e3 * c.contender.dt; }),
+      fields(&Contest::trial, {"tunneled"}), value("error", "", "", error), measured("seconds", "", "", run_time));
+  return table("drawn", "", columns, contests);
+}
+
+/// Tunneled pairs and time error against the step, one series a policy.
+Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
+  Plot by_step = plot(drawn_table(comparison, contests)).x("step", Axis::log, "step [ms]").by("policy");
+  const Panel tunneled = by_step.y("tunneled", Axis::linear, "tunneled pairs [1]");
+  return {.name = "compare",
+          .title = "Discrete or swept, on this scene",
+          .caption =
+              "Above: pairs that went through each other unseen. Below: the median over pairs of how far their first "
+              "meeting is from the exact run's; errors below a rounding of the duration are drawn at that.",
+          .panels = {tunneled, by_step.y("error", Axis::log, "error of first meetings [s]")}};
+}
+
+/// Time error against run time.
+Figure error_against_time_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
+  return {.name = "error_against_time",
+          .title = "What an error of the first meetings costs",
+          .caption =
+              "Median run time of the repeats against the median error, a point for each step; bars from the "
+              "shortest to the longest repeat. A policy that misses a pair altogether has no error for it: see the "
+              "table.",
+          .panels = {plot(drawn_table(comparison, contests))
+                         .x("error", Axis::log, "median error of first meetings [s]")
+                         .y("seconds", Axis::log, "run time a second of the scene [s]")
+                         .by("policy")},
+          .is_timing = true};
+}
+
+}  // namespace
 
 Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const std::vector<Contest>& contests) {
   Outcome out;
@@ -131,53 +175,6 @@ Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const 
   out.figures = {compare_figure(comparison, contests), error_against_time_figure(comparison, contests)};
   out.self_test_passed = held && exact.tunneled == 0;
   return out;
-}
-
-namespace {
-
-/// What the pictures show of each.
-Table drawn_table(const Comparison& comparison, const std::vector<Contest>& contests) {
-  const double duration = comparison.scene.duration();
-  const double least = duration * std::numeric_limits<double>::epsilon();  // [s] a rounding; a logarithm has no zero
-  const auto error = [least](const Contest& c) {
-    const auto middle = median_error(c);
-    return middle ? std::optional(std::max(*middle, least)) : std::nullopt;
-  };
-  const auto run_time = [duration](const Contest& c) {
-    const auto [shortest, longest] = std::ranges::minmax(c.seconds);
-    return Measured{cost(c, duration), {shortest / duration, longest / duration}};
-  };
-  const auto columns = columns_of<Contest>(
-      key_columns(), value("step", "", "", [](const Contest& c) { return 1e3 * c.contender.dt; }),
-      fields(&Contest::trial, {"tunneled"}), value("error", "", "", error), measured("seconds", "", "", run_time));
-  return table("drawn", "", columns, contests);
-}
-
-}  // namespace
-
-Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
-  Plot by_step = plot(drawn_table(comparison, contests)).x("step", Axis::log, "step [ms]").by("policy");
-  const Panel tunneled = by_step.y("tunneled", Axis::linear, "tunneled pairs [1]");
-  return {.name = "compare",
-          .title = "Discrete or swept, on this scene",
-          .caption =
-              "Above: pairs that went through each other unseen. Below: the median over pairs of how far their first "
-              "meeting is from the exact run's; errors below a rounding of the duration are drawn at that.",
-          .panels = {tunneled, by_step.y("error", Axis::log, "error of first meetings [s]")}};
-}
-
-Figure error_against_time_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
-  return {.name = "error_against_time",
-          .title = "What an error of the first meetings costs",
-          .caption =
-              "Median run time of the repeats against the median error, a point for each step; bars from the "
-              "shortest to the longest repeat. A policy that misses a pair altogether has no error for it: see the "
-              "table.",
-          .panels = {plot(drawn_table(comparison, contests))
-                         .x("error", Axis::log, "median error of first meetings [s]")
-                         .y("seconds", Axis::log, "run time a second of the scene [s]")
-                         .by("policy")},
-          .is_timing = true};
 }
 
 }  // namespace thinwall

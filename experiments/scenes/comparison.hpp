@@ -87,6 +87,7 @@ struct Trial {
 };
 
 Trial run_trial(const Scene& scene);
+
 /// A contender against the exact run.
 struct Contest {
   Contender contender;
@@ -101,32 +102,9 @@ struct Contest {
 
 Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration);
 
-// ---- A comparison as tables, pictures and words.
-
-Table compare_table(const std::vector<Contest>& contests);
-Table compare_timings_table(const Comparison& comparison, const std::vector<Contest>& contests);
-
-/// Tunneled pairs and time error against the step, one series a policy.
-Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests);
-/// Time error against run time.
-Figure error_against_time_figure(const Comparison& comparison, const std::vector<Contest>& contests);
+// ---- What is said of them: tables, pictures and words.
 
 Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const std::vector<Contest>& contests);
-
-// ---- What became of a scene, as tables and pictures.
-
-/// What a body is called, by its id.
-std::string name_in(const Scene& scene, std::uint32_t id);
-
-Table steps_table(const Playback& playback);                       ///< a row a step
-Table events_table(const Scene& scene, const Playback& playback);  ///< begins and ends, in order
-Table missed_table(const Scene& scene, const Playback& playback);  ///< who went through whom
-Table bodies_table(const Scene& scene, const Playback& playback);  ///< where each is at the end
-Table plan_table(const Plan& plan);                                ///< what was left out, and why
-Table phases_table(const Playback& playback);                      ///< time a step by phase
-
-Figure tracks_figure(const Scene& scene, const Playback& playback);
-Figure course_figure(const Playback& playback);
 
 /// Everything a run of a scene hands over but the trace.
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback);

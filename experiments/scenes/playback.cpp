@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -143,20 +141,8 @@ Toi<double> impact_of_spinning(const Moving<AnyShape>& a, const Moving<AnyShape>
 
 }  // namespace
 
-struct MissedContacts::Memory {
-  std::vector<Body> before;
-  std::vector<Proxy> proxies;
-  std::vector<ProxyPair> pairs;
-};
-
-MissedContacts::MissedContacts(const World& world) : memory_(std::make_unique<Memory>()) {
-  memory_->before = world.bodies();
-}
-MissedContacts::~MissedContacts() = default;
-
 std::vector<MissedContact> MissedContacts::after_step(const World& world, double dt) {
   const std::vector<Body>& after = world.bodies();
-  std::vector<Body>& before = memory_->before;
   std::vector<bool> touched(after.size());
   const auto index_of = [&after](std::uint32_t id) {
     return static_cast<std::size_t>(std::ranges::lower_bound(after, id, {}, &Body::id) - after.begin());
@@ -167,17 +153,17 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
       if (i < after.size() && can_move(after[i])) touched[i] = true;
     }
   }
-  memory_->proxies.clear();
+  proxies_.clear();
   for (std::size_t i = 0; i < after.size(); ++i) {
-    Proxy& proxy = memory_->proxies.emplace_back(way_of(before[i], after[i], dt));
+    Proxy& proxy = proxies_.emplace_back(way_of(before_[i], after[i], dt));
     proxy.skipped |= touched[i];
   }
-  find_pairs(UniformGrid{}, memory_->proxies, memory_->pairs);
+  find_pairs(UniformGrid{}, proxies_, pairs_);
   std::vector<MissedContact> missed;
   const double start = world.time() - dt;
-  for (const ProxyPair& pair : memory_->pairs) {
-    const Body &a = before[pair.first], &b = before[pair.second];
-    const auto way = [&](std::size_t i) { return Vec3<double>(box_of(after[i]).center - box_of(before[i]).center); };
+  for (const ProxyPair& pair : pairs_) {
+    const Body &a = before_[pair.first], &b = before_[pair.second];
+    const auto way = [&](std::size_t i) { return Vec3<double>(box_of(after[i]).center - box_of(before_[i]).center); };
     const Moving<AnyShape> first{a.shape, way(pair.first)}, second{b.shape, way(pair.second)};
     const Vec3<double> spin_a = rotation_of(after[pair.first], dt), spin_b = rotation_of(after[pair.second], dt);
     const bool turns = spin_a != Vec3<double>::Zero() || spin_b != Vec3<double>::Zero();
@@ -185,27 +171,11 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
     if (toi.status != ToiStatus::hit || overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
     missed.push_back({a.id, b.id, start + toi.time * dt});
   }
-  before = after;
+  before_ = after;
   return missed;
 }
 
 namespace {
-
-/// The hands that push, in the order of time.
-class Hands {
- public:
-  explicit Hands(const std::vector<Push>& pushes) : pushes_(pushes) {}
-
-  void before_step(World& world, double time) {
-    for (; next_ < pushes_.size() && pushes_[next_].time <= time; ++next_) {
-      world.set_velocity(pushes_[next_].id, pushes_[next_].velocity);
-    }
-  }
-
- private:
-  const std::vector<Push>& pushes_;
-  std::size_t next_ = 0;
-};
 
 std::vector<Track> begin_tracks(const std::vector<Body>& bodies) {
   std::vector<std::uint32_t> ids;
@@ -260,7 +230,7 @@ StepRow Playback::sums() const {
 Playback play(const Scene& scene, const Frame& on_frame) {
   World world(scene.bodies, scene.options);
   MissedContacts referee(world);
-  Hands hands(scene.pushes);
+  auto push = scene.pushes.begin();
   Playback out;
   out.energy = world.energy();
   out.tracks = begin_tracks(world.bodies());
@@ -268,7 +238,8 @@ Playback play(const Scene& scene, const Frame& on_frame) {
   if (on_frame) on_frame(world);
   const std::int64_t stride = (scene.steps + most_points - 1) / most_points;
   for (std::int64_t step = 1; step <= scene.steps; ++step) {
-    hands.before_step(world, static_cast<double>(step - 1) * scene.dt);
+    const double start = static_cast<double>(step - 1) * scene.dt;
+    for (; push != scene.pushes.end() && push->time <= start; ++push) world.set_velocity(push->id, push->velocity);
     StepRow row = row_of(world.step(scene.dt));
     add(world.report().seconds, out);
     out.bytes = std::max(out.bytes, static_cast<std::int64_t>(world.report().bytes));

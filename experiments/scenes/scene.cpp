@@ -27,10 +27,16 @@ namespace {
 constexpr std::array<std::string_view, 5> shape_names = {"sphere", "box", "turned_box", "capsule", "none"};
 constexpr std::array<std::string_view, 3> motion_names = {"free", "driven", "static"};
 constexpr std::int64_t most_bodies = 2'000'000;
+
+/// Of a length [m], a speed [m/s], an acceleration [m/s^2] or a mass [kg]: within the longest run no place leaves the world, and no
+/// energy the range of doubles.
+constexpr double most_of_a_scene = 1e30;
+constexpr Range coordinate_range = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
+constexpr Range speed_range = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
 constexpr Range length_range = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
 
 Vec3<double> vector3(const Settings& settings, std::string_view key, const Range& range) {
-  const std::vector<double> values = settings.vector(key, 3, range);
+  const std::array<double, 3> values = settings.vector(key, range);
   return {values[0], values[1], values[2]};
 }
 
@@ -109,15 +115,15 @@ std::uint32_t take_ids(const Settings& body, std::int64_t count, std::int64_t ne
 /// One [[body]] and its copies, appended.
 void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bodies, TakenIds& taken) {
   settings.reject_unknown_keys();
-  const Vec3<double> at = vector3(settings, "at", scene_coordinate);
+  const Vec3<double> at = vector3(settings, "at", coordinate_range);
   Body body;
   body.shape = read_shape(settings, at);
   const std::string name = settings.text("name"), motion = settings.choice("motion", motion_names);
   body.is_static = motion == "static";
-  body.velocity = vector3(settings, "velocity", scene_speed);
+  body.velocity = vector3(settings, "velocity", speed_range);
   if (body.is_static && settings.given("velocity") && body.velocity != Vec3<double>::Zero())
     settings.complain("velocity", "zero: the body is static");
-  body.angular_velocity = vector3(settings, "angular_velocity", scene_spin);
+  body.angular_velocity = vector3(settings, "angular_velocity", {.lower = -1e6, .upper = 1e6, .unit = "rad/s"});
   const bool spins = body.angular_velocity != Vec3<double>::Zero();
   if (spins && settings.given("turns") && !settings.flag("turns"))
     settings.complain("turns", "true: the body has an angular velocity");
@@ -138,7 +144,7 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   body.mask = static_cast<std::uint32_t>(settings.integer("mask", 0, most_id));
 
   std::array<std::int64_t, 3> copies{};
-  const std::vector<double> counts = settings.vector("copies", 3, {.lower = 1, .upper = 1e6});
+  const std::array<double, 3> counts = settings.vector("copies", {.lower = 1, .upper = 1e6});
   for (std::size_t i = 0; i < 3; ++i) {
     copies[i] = static_cast<std::int64_t>(counts[i]);
     if (static_cast<double>(copies[i]) != counts[i]) settings.complain("copies", "three whole numbers");
@@ -146,7 +152,7 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   const double total = counts[0] * counts[1] * counts[2] + static_cast<double>(bodies.size());
   if (total > static_cast<double>(most_bodies))
     settings.complain("copies", fmt::format("at most {} bodies in all", most_bodies));
-  const Vec3<double> every = vector3(settings, "every", scene_coordinate),
+  const Vec3<double> every = vector3(settings, "every", coordinate_range),
                      jitter = vector3(settings, "jitter", length_range);
   const Vec3<double> speeds =
       vector3(settings, "velocity_jitter", {.lower = 0, .upper = most_of_a_scene, .unit = "m/s"});
@@ -182,15 +188,8 @@ std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
 }
 
 Aabb<double> box_of(const Body& body) {
-  return std::visit(
-      [](const auto& held) -> Aabb<double> {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>) {
-          return {Vec3<double>::Zero(), Vec3<double>::Zero()};
-        } else {
-          return {center(held), half_widths(held)};
-        }
-      },
-      body.shape);
+  const Aabb<double> none = {Vec3<double>::Zero(), Vec3<double>::Zero()};
+  return of_shape(body.shape, none, [](const auto& held) -> Aabb<double> { return {center(held), half_widths(held)}; });
 }
 
 Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
@@ -212,9 +211,8 @@ std::string scene_name(const Settings& settings) {
 
 WorldOptions world_options(const Settings& settings, int threads) {
   WorldOptions options;
-  const std::vector<double> gravity =
-      settings.vector("gravity", 3, {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s^2"});
-  options.gravity = {gravity[0], gravity[1], gravity[2]};
+  options.gravity =
+      vector3(settings, "gravity", {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s^2"});
   options.policy = policy_named(settings.choice("policy", policy_names));
   options.substeps = static_cast<int>(settings.integer("substeps", 1, 1000));
   options.max_events = static_cast<int>(settings.integer("max_events", 1, 1'000'000));
@@ -255,8 +253,8 @@ Push read_push(const Settings& push, const Pushable& bodies) {
     push.complain("body", "a body that moves, by its name; " + spelling_hint(name, names));
   }
   if (!found->second) push.complain("body", "a name that one moving body alone has; several have this one");
-  const std::vector<double> velocity = push.vector("velocity", 3, scene_speed);
-  return {push.number("time", {.lower = 0, .unit = "s"}), found->second->id, {velocity[0], velocity[1], velocity[2]}};
+  const Vec3<double> velocity = vector3(push, "velocity", speed_range);
+  return {push.number("time", {.lower = 0, .unit = "s"}), found->second->id, velocity};
 }
 
 void check_trace(const Settings& settings, const Scene& scene) {

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <thinwall/discrete/broad_phase/proxy.hpp>
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -17,13 +17,6 @@
 namespace thinwall {
 
 // ---- The bodies that a scene file describes.
-
-/// What a scene may say of a length [m], a speed [m/s], an acceleration [m/s^2] or a mass [kg]: within the longest run no place
-/// leaves the world, and no energy the range of doubles.
-inline constexpr double most_of_a_scene = 1e30;
-inline constexpr Range scene_coordinate = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
-inline constexpr Range scene_speed = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
-inline constexpr Range scene_spin = {.lower = -1e6, .upper = 1e6, .unit = "rad/s"};
 
 /// Every [[body]] of the file, copies made: a grid, and random numbers that depend on the seed, on the body's own place,
 /// size and grid, and on the copy's place in it alone. Ids count up from 1, in the order of the file.
@@ -49,9 +42,9 @@ struct Scene {
   std::string name;          ///< letters, digits, _ and -
   std::vector<Body> bodies;  ///< in the order of the file
   WorldOptions options;
-  double dt = 0;           ///< [s] > 0
-  std::int64_t steps = 0;  ///< >= 1
-  std::vector<Push> pushes;
+  double dt = 0;             ///< [s] > 0
+  std::int64_t steps = 0;    ///< >= 1
+  std::vector<Push> pushes;  ///< in the order of time
   bool trace = false;
   std::int64_t trace_every = 1;  ///< [1] steps between two frames
   int across = 0, up = 1;        ///< the axes of the picture
@@ -73,7 +66,6 @@ std::string trace_of(const Scene& scene);
 
 // ---- The referee of a scene: contacts that a step went through and did not see.
 //
-//
 // Between two steps a body that nothing touched moved straight, from where it was to where it is, and turned at the rate that it still
 // has. Of two such bodies, apart at both ends, the closed form says whether they touched on the way, or where one turns its sweep. If they did and the step told no contact of
 // theirs, one went through the other: it tunneled. Bodies that were in any contact in the step are not judged against
@@ -94,17 +86,15 @@ struct MissedContact {
 
 class MissedContacts {
  public:
-  explicit MissedContacts(const World& world);
-  ~MissedContacts();
-  MissedContacts(const MissedContacts&) = delete;
-  MissedContacts& operator=(const MissedContacts&) = delete;
+  explicit MissedContacts(const World& world) : before_(world.bodies()) {}
 
   /// After a step of `dt` [s]: what it missed since the last call, by id.
   std::vector<MissedContact> after_step(const World& world, double dt);
 
  private:
-  struct Memory;
-  std::unique_ptr<Memory> memory_;
+  std::vector<Body> before_;
+  std::vector<Proxy> proxies_;  // of the ways since then; kept for their memory, as the pairs are
+  std::vector<ProxyPair> pairs_;
 };
 
 // ---- A scene stepped from its beginning to its end, and everything its results need to know of that.

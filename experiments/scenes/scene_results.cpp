@@ -1,7 +1,6 @@
 #include <thinwall/experiments/scenes/comparison.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -14,6 +13,13 @@
 namespace thinwall {
 
 namespace {
+
+/// What a body is called, by its id.
+std::string name_in(const Scene& scene, std::uint32_t id) {
+  const auto found = std::ranges::find(scene.bodies, id, &Body::id);
+  const bool named = found != scene.bodies.end() && !found->name.empty();
+  return named ? found->name : "body " + std::to_string(id);
+}
 
 std::string policy_text(const Scene& scene) {
   std::string text(name_of(scene.options.policy));
@@ -71,50 +77,11 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
   return text + phases_text(playback);
 }
 
-}  // namespace
-
-bool looks_at_all_motion(TimePolicy policy, double gate) { return sweeps(policy) && gate == 0; }
-
-bool claims_held(const Scene& scene, const Playback& playback) {
-  const StepRow sums = playback.sums();
-  const bool paired = sums.begins - sums.ends == playback.live;
-  return paired && (playback.all_missed == 0 || !looks_at_all_motion(scene.options.policy, scene.options.gate));
-}
-
-Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
-  const StepRow sums = playback.sums();
-  Outcome out;
-  out.answer = fmt::format(
-      "In {} s, stepped {} at a time under {}, {} contacts began and {} ended; {} {} through each other "
-      "unseen. Energy went from {} J to {} J. State hash {:016x}.",
-      rounded_text(scene.duration(), 6), rounded_text(scene.dt, 4) + " s", policy_text(scene),
-      grouped_text(sums.begins), grouped_text(sums.ends), grouped_text(playback.all_missed),
-      playback.all_missed == 1 ? "pair went" : "pairs went", rounded_text(playback.energy, 6),
-      rounded_text(playback.rows.back().energy, 6), playback.hash);
-  out.summary = summary_text(scene, plan, playback);
-  out.tables = {plan_table(plan),      missed_table(scene, playback), events_table(scene, playback),
-                steps_table(playback), bodies_table(scene, playback), phases_table(playback)};
-  out.figures = {tracks_figure(scene, playback), course_figure(playback)};
-  out.sections = {{"Plan", to_text(plan)}};
-  out.self_test_passed = claims_held(scene, playback);
-  return out;
-}
-
-namespace {
-
 /// Who met whom.
 template <class Row> Columns<Row> pair_columns(const Scene& scene) {
   return columns_of<Row>(
       text("first", "The body with the lower id.", [&scene](const Row& row) { return name_in(scene, row.first); }),
       text("second", "The other.", [&scene](const Row& row) { return name_in(scene, row.second); }));
-}
-
-}  // namespace
-
-std::string name_in(const Scene& scene, std::uint32_t id) {
-  const auto found = std::ranges::find(scene.bodies, id, &Body::id);
-  const bool named = found != scene.bodies.end() && !found->name.empty();
-  return named ? found->name : "body " + std::to_string(id);
 }
 
 Table steps_table(const Playback& playback) {
@@ -177,11 +144,9 @@ Table phases_table(const Playback& playback) {
             [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()).value_or(0); }),
       value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
       value("share", "1", "Part of the whole step.",
-            [whole](const Row& row) { return whole > 0 ? row.time.total / whole : 0.0; }));
+            [whole](const Row& row) { return share_of(row.time.total, whole).value_or(0); }));
   return in_report(timing(table("timings", "Time a step by phase, on this machine.", columns, rows)));
 }
-
-namespace {
 
 constexpr std::size_t most_outlines = 400;
 constexpr std::size_t most_marks = 1500;  // more would be a blot: then lines
@@ -263,8 +228,6 @@ Series outlines(const Scene& scene, const Window& window) {
   return series;
 }
 
-}  // namespace
-
 Figure tracks_figure(const Scene& scene, const Playback& playback) {
   Panel panel;
   panel.x_label = std::string(1, static_cast<char>('x' + scene.across)) + " [m]";
@@ -313,6 +276,35 @@ Figure course_figure(const Playback& playback) {
               "Above: kinetic energy and energy of height at the end of each step. Below: contacts that have begun, "
               "and pairs that have gone through each other unseen.",
           .panels = {std::move(top), std::move(bottom)}};
+}
+
+}  // namespace
+
+bool looks_at_all_motion(TimePolicy policy, double gate) { return sweeps(policy) && gate == 0; }
+
+bool claims_held(const Scene& scene, const Playback& playback) {
+  const StepRow sums = playback.sums();
+  const bool paired = sums.begins - sums.ends == playback.live;
+  return paired && (playback.all_missed == 0 || !looks_at_all_motion(scene.options.policy, scene.options.gate));
+}
+
+Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
+  const StepRow sums = playback.sums();
+  Outcome out;
+  out.answer = fmt::format(
+      "In {} s, stepped {} at a time under {}, {} contacts began and {} ended; {} {} through each other "
+      "unseen. Energy went from {} J to {} J. State hash {:016x}.",
+      rounded_text(scene.duration(), 6), rounded_text(scene.dt, 4) + " s", policy_text(scene),
+      grouped_text(sums.begins), grouped_text(sums.ends), grouped_text(playback.all_missed),
+      playback.all_missed == 1 ? "pair went" : "pairs went", rounded_text(playback.energy, 6),
+      rounded_text(playback.rows.back().energy, 6), playback.hash);
+  out.summary = summary_text(scene, plan, playback);
+  out.tables = {plan_table(plan),      missed_table(scene, playback), events_table(scene, playback),
+                steps_table(playback), bodies_table(scene, playback), phases_table(playback)};
+  out.figures = {tracks_figure(scene, playback), course_figure(playback)};
+  out.sections = {{"Plan", to_text(plan)}};
+  out.self_test_passed = claims_held(scene, playback);
+  return out;
 }
 
 }  // namespace thinwall

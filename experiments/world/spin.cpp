@@ -80,17 +80,13 @@ long double energy_of_turning(const Body& body) {
 }
 
 double farthest_point(const AnyShape& shape) {
-  return std::visit(
-      []<class A>(const A& held) -> double {
-        if constexpr (std::is_same_v<A, std::monostate>) {
-          return 0;
-        } else if constexpr (std::is_same_v<A, Aabb<double>>) {
-          return safe_norm(held.half_extents);
-        } else {
-          return farthest(core_vectors(held)) + skin_radius(held);
-        }
-      },
-      shape);
+  return of_shape(shape, 0.0, []<class A>(const A& held) {
+    if constexpr (std::is_same_v<A, Aabb<double>>) {
+      return safe_norm(held.half_extents);
+    } else {
+      return farthest(core_vectors(held)) + skin_radius(held);
+    }
+  });
 }
 
 }  // namespace thinwall

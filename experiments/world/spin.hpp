@@ -1,7 +1,6 @@
 #pragma once
 /// Bodies that turn: how far within a step, what resists it, and how the two are asked when they meet.
 
-#include <algorithm>
 #include <type_traits>
 
 #include <thinwall/experiments/world/world.hpp>

@@ -1,7 +1,6 @@
 #include <thinwall/experiments/world/step.hpp>
 
 #include <chrono>
-#include <cmath>
 
 #include <thinwall/experiments/world/pairs.hpp>
 #include <thinwall/experiments/world/world.hpp>

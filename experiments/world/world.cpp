@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include <thinwall/discrete/raised_flag.hpp>
@@ -13,15 +12,8 @@
 namespace thinwall {
 
 Vec3<double> position(const Body& body) {
-  return std::visit(
-      [](const auto& shape) -> Vec3<double> {
-        if constexpr (std::is_same_v<decltype(shape), const std::monostate&>) {
-          return Vec3<double>::Zero();
-        } else {
-          return center(shape);
-        }
-      },
-      body.shape);
+  const Vec3<double> none = Vec3<double>::Zero();
+  return of_shape(body.shape, none, [](const auto& shape) { return center(shape); });
 }
 
 std::string called(const Body& body) {
@@ -29,16 +21,8 @@ std::string called(const Body& body) {
 }
 
 bool is_in_the_world(const AnyShape& shape, const Vec3<double>& displacement) {
-  const double path = displacement.cwiseAbs().sum();
-  return std::visit(
-      [&](const auto& held) {
-        if constexpr (std::is_same_v<decltype(held), const std::monostate&>) {
-          return path <= end_of_the_world;
-        } else {
-          return magnitude(held) + path <= end_of_the_world;
-        }
-      },
-      shape);
+  const double size = of_shape(shape, 0.0, [](const auto& held) { return magnitude(held); });
+  return size + displacement.cwiseAbs().sum() <= end_of_the_world;
 }
 
 void require_valid(const Body& body) {
@@ -258,7 +242,7 @@ double World::energy() const {
   return static_cast<double>(sum);
 }
 
-/// Source: the 64-bit FNV-1a hash, by whole words.
+/// Source: the 64-bit FNV-1a hash, by words of 32 bits.
 std::uint64_t World::state_hash() const {
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };

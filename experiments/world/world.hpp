@@ -61,6 +61,19 @@ struct WorldOptions {
 /// A shape that every other of the list can meet, or none.
 using AnyShape = std::variant<std::monostate, Sphere<double>, Aabb<double>, Obb<double>, Capsule<double>>;
 
+/// What `use` says of the shape; `none` where there is none.
+template <class Answer> Answer of_shape(const AnyShape& shape, const Answer& none, const auto& use) {
+  return std::visit(
+      [&]<class A>(const A& held) -> Answer {
+        if constexpr (std::is_same_v<A, std::monostate>) {
+          return none;
+        } else {
+          return use(held);
+        }
+      },
+      shape);
+}
+
 /// If it is a shape at all. `Held`: AnyShape, or a variant of fewer.
 template <class Held> void move_shape(Held& shape, const Vec3<double>& by) {
   std::visit(

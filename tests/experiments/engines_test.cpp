@@ -193,7 +193,7 @@ EnginePlan engine_plan(std::string_view text) {
 
 std::vector<EngineRow> fired(const EnginePlan& plan) {
   std::vector<EngineRow> rows = engine_rows(plan);
-  const std::vector<EngineVolley> volleys = engine_volleys(plan, rows);
+  const std::vector<EngineVolley> volleys = volleys_in_turn(rows, &EngineRow::cell, plan.shots);
   std::vector<EngineTally> tallies;
   for (const EngineVolley& v : volleys)
     tallies.push_back(fire(rows[v.row].cell, rows[v.row].setup->mode, v.first, v.shots, plan.seed));
@@ -486,7 +486,7 @@ TEST(Engines, hold_every_shot_once_in_volleys) {
   const EnginePlan plan = engine_plan("shots = 2345");
   const std::vector<EngineRow> rows = engine_rows(plan);
   std::vector<std::int64_t> next(rows.size(), 0);
-  for (const EngineVolley& volley : engine_volleys(plan, rows)) {
+  for (const EngineVolley& volley : volleys_in_turn(rows, &EngineRow::cell, plan.shots)) {
     EXPECT_EQ(volley.first, next[volley.row]);
     EXPECT_LE(volley.shots, most_shots_an_engine_volley);
     next[volley.row] += volley.shots;

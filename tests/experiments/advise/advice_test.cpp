@@ -28,7 +28,7 @@ inline const Wish bullet_wish = {.cell = bullet};
 
 /// Both kinds of steps take `ns`, known to within 1 %.
 inline StepCost costing(double ns) {
-  const QueryTime time = {ns, {0.99 * ns, 1.01 * ns}};
+  const Measured time = {ns, {0.99 * ns, 1.01 * ns}};
   return {time, time};
 }
 
@@ -145,9 +145,9 @@ TEST(Advice, the_cheapest_that_meets_the_wish_is_advised) {
   for (const AdviceRow& row : advice.rows) {
     if (met != row.meets) cost = 0;
     EXPECT_TRUE(met || !row.meets) << "what meets the wish comes first";
-    EXPECT_GE(row.cost.dearer().median, cost) << "by cost";
+    EXPECT_GE(row.cost.dearer().value, cost) << "by cost";
     met = row.meets;
-    cost = row.cost.dearer().median;
+    cost = row.cost.dearer().value;
   }
   EXPECT_EQ(advice_on({.cell = bullet, .miss = 1}).advised()->method.name, "end_of_step");
 }
@@ -276,8 +276,8 @@ TEST(AdviceText, json_has_every_number) {
     EXPECT_FALSE(row["chance_formula"].get<std::string>().empty()) << row["method"];
     EXPECT_FALSE(row["latest_formula"].get<std::string>().empty()) << row["method"];
     EXPECT_EQ(row["longest_step_s"], *advice.rows[i].longest_step);
-    EXPECT_EQ(row["contact_ns"]["median"], advice.rows[i].cost.contact.median);
-    EXPECT_EQ(row["clear_ns"]["lower"], advice.rows[i].cost.clear.spread.lower);
+    EXPECT_EQ(row["contact_ns"]["median"], advice.rows[i].cost.contact.value);
+    EXPECT_EQ(row["clear_ns"]["lower"], advice.rows[i].cost.clear.interval.lower);
   }
 }
 
@@ -308,9 +308,9 @@ TEST(AdviceCosts, are_medians_with_an_interval) {
   const Cell slow = all_sorts()[4].cell;  // its step is far too short for the grid of the poses
   EXPECT_EQ(measure_costs(slow, methods, {.queries = 64, .rounds = 1, .round_ns = 1e4}).size(), methods.size());
   for (const StepCost& cost : costs) {
-    for (const QueryTime& time : {cost.clear, cost.contact}) {
-      EXPECT_GT(time.spread.lower, 0);
-      EXPECT_TRUE(time.spread.contains(time.median));
+    for (const Measured& time : {cost.clear, cost.contact}) {
+      EXPECT_GT(time.interval.lower, 0);
+      EXPECT_TRUE(time.interval.contains(time.value));
     }
   }
 }

@@ -7,8 +7,9 @@
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/check/readers.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
-#include <thinwall/experiments/lab/svg.hpp>
+#include <thinwall/experiments/lab/gnuplot.hpp>
 
 #include "support/program.hpp"
 #include "support/said.hpp"

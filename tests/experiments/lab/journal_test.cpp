@@ -37,11 +37,11 @@ TEST_F(JournalTest, gives_back_what_was_added) {
 }
 
 TEST_F(JournalTest, knows_whose_it_is) {
-  EXPECT_EQ(Journal::identity_in(file), "");
+  EXPECT_EQ(read_journal(file).identity, "");
   write_three();
-  EXPECT_EQ(Journal::identity_in(file), "the run");
+  EXPECT_EQ(read_journal(file).identity, "the run");
   write_text(file, "something else\n");
-  EXPECT_EQ(Journal::identity_in(file), "");
+  EXPECT_EQ(read_journal(file).identity, "");
 }
 
 TEST_F(JournalTest, drops_a_torn_last_row_wherever_it_was_torn) {

@@ -17,7 +17,6 @@
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>

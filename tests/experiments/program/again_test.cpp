@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
 #include "support/said.hpp"

@@ -11,7 +11,6 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/program/command.hpp>
-#include <thinwall/experiments/program/completion.hpp>
 #include <thinwall/experiments/program/program.hpp>
 #include <thinwall/experiments/program/run.hpp>
 #include <thinwall_embedded.hpp>

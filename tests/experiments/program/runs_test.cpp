@@ -16,7 +16,6 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
-#include <thinwall/experiments/lab/sha256.hpp>
 
 #include "support/program.hpp"
 #include "support/said.hpp"

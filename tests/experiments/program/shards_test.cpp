@@ -164,13 +164,14 @@ TEST_F(ShardProgram, refuses_shards_that_do_not_go_together) {
 TEST_F(ShardProgram, refuses_shards_of_another_build) {
   run_shards(2);
   const auto rebuild = [&](const std::string& path) {  // as another build of the program would have left it
-    RunIdentity identity = parse_seal(read_text(path + "/shard.json"))->identity;
+    RunRecord run;
+    static_cast<RunIdentity&>(run) = parse_seal(read_text(path + "/shard.json"))->identity;
     const Journal::Rows rows = read_journal(path + "/journal.tsv").rows;
     std::filesystem::remove_all(path);
-    identity.program = "another";
-    ResultFolder other(path, identity);
+    run.program = "another";
+    ResultFolder other(path, run);
     other.journal().add(rows);
-    seal_shard(other, identity, {});
+    seal_shard(other, run);
   };
   rebuild(shard(2, 2));
   expect_refused({shard(1, 2), shard(2, 2)},
@@ -216,11 +217,12 @@ TEST_F(ShardProgram, refuses_damage_which_running_the_shard_again_mends) {
 TEST_F(ShardProgram, refuses_a_shard_with_the_wrong_units) {
   run_shards(2);
   const auto reseal = [&](const Journal::Rows& rows) {  // whole to look at, but for what it holds
-    const RunIdentity identity = parse_seal(read_text(shard(1, 2) + "/shard.json"))->identity;
+    RunRecord run;
+    static_cast<RunIdentity&>(run) = parse_seal(read_text(shard(1, 2) + "/shard.json"))->identity;
     std::filesystem::remove_all(shard(1, 2));
-    ResultFolder other(shard(1, 2), identity);
+    ResultFolder other(shard(1, 2), run);
     other.journal().add(rows);
-    seal_shard(other, identity, {});
+    seal_shard(other, run);
   };
   Journal::Rows rows = read_journal(shard(1, 2) + "/journal.tsv").rows;
   const auto lost = rows.extract(rows.begin());

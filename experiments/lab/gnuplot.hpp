@@ -1,7 +1,6 @@
 #pragma once
-/// A figure as SVG: axes, marks, legends.
+/// A figure as a script of gnuplot and its data: axes, marks, legends.
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,9 +10,6 @@
 namespace thinwall {
 
 // ---- The range of an axis, and where its tics stand.
-
-/// Significant digits of the ends of an axis in a script.
-inline constexpr int axis_digits = 6;
 
 struct DrawnAxis {
   bool log = false;
@@ -40,26 +36,7 @@ struct SeriesStyle {
 /// One style for each label of the figure, in the order in which they first appear.
 std::vector<SeriesStyle> series_styles(const Figure& figure);
 
-// ---- Where the parts of a figure stand on its page, in pixels from the top left.
-
-struct PanelBox {
-  double top = 0, bottom = 0;
-};
-
-struct PlotLayout {
-  double width = 760, height = 0;
-  double left = 104, right = 736;        ///< of every panel: stacked panels are aligned
-  double title_y = 24;                   ///< middle of the title
-  double legend_x = 104, legend_y = 44;  ///< left and top of the legend: above the panels, or beside them if it is long
-  std::size_t legend_rows = 1;
-  double below = 50;     ///< from the panel's lower edge to the middle of its x label
-  bool shared_x = true;  ///< one x axis for all panels, labeled once
-  std::vector<PanelBox> panels;
-};
-
-PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& styles);
-
-// ---- A figure as a gnuplot script with its data, and as the SVG that gnuplot makes of them.
+// ---- The script and the data.
 
 /// The script NAME.gp: run from inside its folder it reads NAME.dat and writes NAME.svg; with the variable `format` set to
 /// 'pdf', NAME.pdf; to 'tex', NAME-latex.tex and NAME-latex.pdf. Throws std::logic_error if the figure's name cannot be a file's, or a
@@ -69,15 +46,5 @@ std::string plot_script(const Figure& figure);
 /// The data NAME.dat: one block a series, in the order of the panels; columns x, y and, where
 /// there are bars, lower, upper and x_lower, x_upper.
 std::string plot_data(const Figure& figure);
-
-/// The files that NAME.gp writes in a format: svg, pdf or tex.
-std::vector<std::string> drawn_files(const std::string& name, const std::string& format);
-
-/// Runs `folder`/NAME.gp through gnuplot, which writes `drawn_files` there. Returns what went wrong, in one line; empty if
-/// nothing did.
-std::string draw(const std::filesystem::path& folder, const std::string& name, const std::string& format = "svg");
-
-/// An SVG to stand inside an HTML page: without its prolog, its ids made unique by `name`, and described by `label`.
-std::string inline_svg(std::string svg, const std::string& name, const std::string& label);
 
 }  // namespace thinwall
