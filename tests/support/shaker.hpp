@@ -12,6 +12,15 @@
 
 namespace thinwall::testing {
 
+/// Turns the axis u towards the axis v, by an angle of this cosine and sine.
+template <class S> Mat3<S> turn_in_plane(int u, int v, const S& cosine, const S& sine) {
+  Mat3<S> turn = Mat3<S>::Identity();
+  turn(u, u) = turn(v, v) = cosine;
+  turn(u, v) = -sine;
+  turn(v, u) = sine;
+  return turn;
+}
+
 /// Draws the same numbers in every run.
 template <class S> class Shaker {
  public:
@@ -33,12 +42,8 @@ template <class S> class Shaker {
       const S angle = way == 0 ? S(0) : way == 1 ? tiny : S(2 * plain());
       const S root = S(1) / sqrt_of(S(2));
       const S c = way == 3 ? root : S(cos(angle)), s = way == 3 ? root : S(sin(angle));
-      const int u = pick(0, 2), v = (u + 1) % 3;
-      Mat3<S> turn = Mat3<S>::Identity();
-      turn(u, u) = turn(v, v) = c;
-      turn(u, v) = -s;
-      turn(v, u) = s;
-      all = (all * turn).eval();
+      const int u = pick(0, 2);
+      all = (all * turn_in_plane(u, (u + 1) % 3, c, s)).eval();
     }
     return all;
   }
