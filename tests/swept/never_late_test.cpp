@@ -27,7 +27,7 @@ template <class S> AssertionResult judge_never_late(const oracle::Impact& truth,
 template <class A, class B> void conservative_methods_are_never_late() {
   using S = typename A::Scalar;
   const Style style = draw_style();
-  const auto [a, b] = draw_moving_pair<A, B>(style);
+  const auto [a, b] = draw_moving_pair<PairOf<A, B>>(style);
   const S gap = draw_integer(0, 2) == 0 ? draw_size<S>(style) : S(0);
   RC_LOG() << "min_separation " << gap << "\n";
   oracle::Pair pair = oracle::pair(a, b);
