@@ -3,10 +3,7 @@
 /// sizes decades apart, and pairs moved until they all but touch.
 
 #include <cstdint>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include <rapidcheck.h>
 
@@ -58,16 +55,6 @@ template <class S> Aabb<S> drawn(Style style, TypeTag<Aabb<S>>) {
 }
 template <class S> Capsule<S> drawn(Style style, TypeTag<Capsule<S>>) {
   return {draw_vector<S>(style), draw_vector<S>(style), draw_size<S>(style)};
-}
-
-/// What a failing case prints.
-template <class Thing> std::string describe(const Thing& thing) {
-  std::ostringstream out;
-  each_number(thing, [&]<class S>(const std::string& name, const S& number) {
-    out.precision(std::numeric_limits<S>::max_digits10);
-    out << name << " " << number << " ";
-  });
-  return out.str();
 }
 
 template <class S> Vec3<S> lower(const oracle::Vector& v) { return {S(v[0]), S(v[1]), S(v[2])}; }

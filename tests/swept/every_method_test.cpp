@@ -110,7 +110,6 @@ TYPED_TEST(EveryMethod, a_miss_carries_no_data) {
       EXPECT_EQ(toi.time, S(1));
       EXPECT_EQ(toi.normal, Vec3<S>(0, 0, 0));
       EXPECT_EQ(toi.point, Vec3<S>(0, 0, 0));
-      EXPECT_GE(toi.evaluations, 0);
     }
   });
 }
@@ -125,7 +124,6 @@ TYPED_TEST(EveryMethod, what_is_long_in_contact_is_found_by_all) {  // into the 
     const S early = half_digits<S>();  // the default tolerance of those that promise never to be late
     EXPECT_TRUE(toi.time >= S(0.5) - early && toi.time <= S(1));  // true contact at one half
     EXPECT_TRUE(is_unit(toi.normal));
-    EXPECT_GE(toi.evaluations, 0);
   });
 }
 

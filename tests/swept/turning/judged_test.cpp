@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <thinwall/swept/turning/turning_impact.hpp>
 
+#include "support/numbers_of.hpp"
 #include "support/thorough.hpp"
 #include "support/turning_motions.hpp"
 #include "support/turning_oracle.hpp"
@@ -41,23 +42,6 @@ template <class A, class B> double nearness(const Turning<A>& a, const Turning<B
   const bool has_radius = skin_radius(a.shape) + skin_radius(b.shape) > 0;
   const double hidden = has_radius ? 0 : half_digits<double>() * (magnitude(a) + magnitude(b));
   return std::max({tolerance * (fastest(a) + fastest(b)), rounding(a, b), hidden});
-}
-
-template <class A> std::string shown(const Turning<A>& m) {
-  const oracle::Spinner<double> body(m);
-  std::ostringstream out;
-  out << std::hexfloat;
-  const auto show = [&](const oracle::Triple<double>& v) {
-    out << " {" << v[0] << ", " << v[1] << ", " << v[2] << "}";
-  };
-  out << "center";
-  show(body.center);
-  out << " radius " << body.radius << " arms";
-  for (const auto& arm : body.arms) show(arm.start);
-  out << " path";
-  show(body.path);
-  out << " rotation {" << m.rotation[0] << ", " << m.rotation[1] << ", " << m.rotation[2] << "}\n";
-  return out.str();
 }
 
 /// What is wrong with an answer of a method that is never late; nothing if all is right.
@@ -95,7 +79,8 @@ template <class A, class B> void judge_pair() {
     const Toi<double> toi = time_of_impact(a, b);
     EXPECT_EQ(wrong_with(a, b, toi, ConservativeAdvancement<double>{}.tolerance), "")
         << "status " << static_cast<int>(toi.status) << " time " << toi.time << "\n"
-        << shown(a) << shown(b);
+        << describe(a) << "\n"
+        << describe(b);
     ++answers[static_cast<std::size_t>(toi.status)];
     frantic += style == MotionStyle::frantic ? 1 : 0;
   }
