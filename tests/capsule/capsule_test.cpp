@@ -5,6 +5,7 @@
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/capsule/capsule_from.hpp>
 
+#include "support/any_number.hpp"
 #include "support/contacts.hpp"
 #include "support/real.hpp"
 
@@ -107,11 +108,6 @@ TYPED_TEST(CapsuleQueries, core_through_a_box) {
   EXPECT_EQ(found->local_b, Vec3<S>(0, 0, 0));  // an axis-aligned box must not turn
 }
 
-TYPED_TEST(CapsuleQueries, core_within_a_box) {
-  using S = TypeParam;
-  expect_contact(contact(Aabb<S>{{0, 0, 0}, {8, 8, 4}}, this->rod), Vec3<S>(0, 0, 1), S(4.5));
-}
-
 TYPED_TEST(CapsuleQueries, a_core_without_radius_pierces_a_plate_without_thickness) {
   using S = TypeParam;
   const Aabb<S> plate{{0, 0, 0}, {0, 8, 8}};
@@ -134,18 +130,68 @@ TYPED_TEST(CapsuleQueries, a_core_that_lies_on_a_narrow_beam_touches_it_there) {
   EXPECT_TRUE(gap.point_a[0] >= S(-1) && gap.point_a[0] <= S(1)) << gap.point_a.transpose();
 }
 
-TYPED_TEST(CapsuleQueries, validity_and_nan) {
+// ---- Rays at it.
+
+template <class S> using CapsuleRays = CapsuleQueries<S>;
+TYPED_TEST_SUITE(CapsuleRays, Scalars, ScalarNames);
+
+TYPED_TEST(CapsuleRays, parallel_to_the_axis_hits_a_cap) {
   using S = TypeParam;
-  EXPECT_TRUE(valid(this->rod));
-  EXPECT_FALSE(valid(Capsule<S>{{0, 0, 0}, {1, 0, 0}, -1}));
-  for (const Capsule<S>& bad : {Capsule<S>{{nan<S>(), 0, 0}, {1, 0, 0}, 1}, Capsule<S>{{0, 0, 0}, {1, nan<S>(), 0}, 1},
-                                Capsule<S>{{0, 0, 0}, {1, 0, 0}, nan<S>()}}) {
-    EXPECT_FALSE(valid(bad));
-    EXPECT_FALSE(overlaps(bad, this->rod));
-    EXPECT_FALSE(overlaps(bad, Sphere<S>{{0, 0, 0}, 1}));
-    EXPECT_FALSE(overlaps(bad, Aabb<S>{{0, 0, 0}, {1, 1, 1}}));
-    EXPECT_FALSE(contact(this->rod, bad).has_value());
-    EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, bad).has_value());
+  const auto middle = raycast(Ray<S>{{-5, 0, 0}, {1, 0, 0}}, this->rod);
+  ASSERT_TRUE(middle.has_value());
+  EXPECT_EQ(middle->t, S(2.5));
+  EXPECT_EQ(middle->normal, Vec3<S>(-1, 0, 0));
+  EXPECT_EQ(raycast(Ray<S>{{5, 0.5, 0}, {-1, 0, 0}}, this->rod)->t, S(3));  // grazes the side from end to end
+  EXPECT_FALSE(raycast(Ray<S>{{5, next_up(S(0.5)), 0}, {-1, 0, 0}}, this->rod).has_value());
+}
+
+TYPED_TEST(CapsuleRays, inside_and_touching_hit_at_once) {
+  using S = TypeParam;
+  for (const Vec3<S>& start : {Vec3<S>(0, 0, 0), Vec3<S>(1, 0.25, 0), Vec3<S>(2.5, 0, 0), Vec3<S>(0, 0.5, 0)}) {
+    const auto hit = raycast(Ray<S>{start, {0, 1, 0}}, this->rod);
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->t, S(0));
+    EXPECT_EQ(hit->normal, Vec3<S>(0, 0, 0));
+    EXPECT_EQ(hit->point, start);
+  }
+  EXPECT_TRUE(raycast(Ray<S>{{1, 0, 0}, {0, 0, 0}}, this->rod).has_value());
+  EXPECT_FALSE(raycast(Ray<S>{{1, 1, 0}, {0, 0, 0}}, this->rod).has_value());
+}
+
+TYPED_TEST(CapsuleRays, in_the_cylinder_beyond_an_end_only_the_cap_can_be_hit) {
+  using S = TypeParam;
+  EXPECT_EQ(raycast(Ray<S>{{4, 0.25, 0}, {-2, 0, 0}}, this->rod)->normal[2], S(0));
+  EXPECT_FALSE(raycast(Ray<S>{{4, 0.25, 0}, {0, 1, 0}}, this->rod).has_value());
+  EXPECT_FALSE(raycast(Ray<S>{{4, 0, 0}, {1, 0, 0}}, this->rod).has_value());
+  EXPECT_FALSE(raycast(Ray<S>{{2.5, 4, 0}, {0.125, -4, 0}}, this->rod).has_value());  // passes the cap
+}
+
+TYPED_TEST(CapsuleRays, max_t) {
+  using S = TypeParam;
+  EXPECT_TRUE(raycast(Ray<S>{{1, 4.5, 0}, {0, -8, 0}, 0.5}, this->rod).has_value());
+  EXPECT_FALSE(raycast(Ray<S>{{1, 4.5, 0}, {0, -8, 0}, next_down(S(0.5))}, this->rod).has_value());
+}
+
+TYPED_TEST(CapsuleRays, without_length_it_is_a_ball) {
+  using S = TypeParam;
+  const Capsule<S> capsule{{1, 0, 0}, {1, 0, 0}, 1};
+  const Sphere<S> ball{{1, 0, 0}, 1};
+  const Ray<S> ray{{-4, 0.25, 0.5}, {1, 0.0625, 0}};
+  ASSERT_TRUE(raycast(ray, capsule).has_value());
+  EXPECT_EQ(raycast(ray, capsule)->t, raycast(ray, ball)->t);
+  EXPECT_EQ(raycast(ray, capsule)->normal, raycast(ray, ball)->normal);
+}
+
+TYPED_TEST(CapsuleRays, a_start_within_a_rounding_of_the_side_is_no_miss) {
+  using S = TypeParam;
+  for (int i = 0; i < 200; ++i) {  // on the side of a slanted capsule, as near as the scalar can say
+    const Vec3<S> axis(S(3) / S(7), S(i + 1) / S(11), S(5) / S(13));
+    const Vec3<S> across = cross(axis, Vec3<S>(0, 0, 1)).normalized();
+    const Capsule<S> capsule{-axis, axis, S(1) / S(3)};
+    const Vec3<S> start = axis * (S(i % 9 - 4) / S(5)) + across * capsule.radius;
+    const auto hit = raycast(Ray<S>{start, Vec3<S>(-across)}, capsule);
+    ASSERT_TRUE(hit.has_value()) << i;
+    EXPECT_TRUE(hit->t <= 64 * unit<S>() * (S(1) + axis.norm())) << i << " " << hit->t;
   }
 }
 
@@ -229,6 +275,38 @@ TYPED_TEST(CapsuleOnTriangle, a_triangle_without_area_is_its_edges) {
   using S = TypeParam;
   const Triangle<S> wire{{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}};
   this->expect_normal({{0, -1, 0}, {0, 1, 0}, 0.5}, wire, {0, 0, 1});
+}
+
+// ---- What is no shape meets nothing: a field that is not finite, or a size below zero. Of axes: ObbAxes.
+
+template <class S> class BadShapes : public ::testing::Test {};
+TYPED_TEST_SUITE(BadShapes, Scalars, ScalarNames);
+
+template <class A, class B> void expect_no_answer(const A& a, const B& b) {
+  EXPECT_FALSE(overlaps(a, b));
+  EXPECT_FALSE(contact(a, b));
+  EXPECT_NE(separation(a, b).distance, separation(a, b).distance);
+}
+
+TYPED_TEST(BadShapes, meet_nothing) {
+  using S = TypeParam;
+  for_each_type(Shapes<S>{}, []<class A>(TypeTag<A> tag) {
+    A shape = usual(tag);
+    with_every_number<S>(shape, [&](const std::string& name, const S& number) {
+      if (name.starts_with("axis")) return;
+      const bool is_size = name == "radius" || name.starts_with("half");
+      const bool is_bad = !is_finite(number) || (is_size && number < 0);
+      EXPECT_EQ(valid(shape), !is_bad);
+      if (!is_bad) return;
+      EXPECT_FALSE(raycast(Ray<S>{{-4, 0, 0}, {1, 0, 0}}, shape));
+      for_each_type(TypeList<Sphere<S>, Aabb<S>, A>{}, [&]<class B>(TypeTag<B> other) {
+        if constexpr (ServedPair<A, B>) {
+          expect_no_answer(shape, usual(other));
+          expect_no_answer(usual(other), shape);
+        }
+      });
+    });
+  });
 }
 
 }  // namespace

@@ -13,17 +13,16 @@ namespace {
 
 using packed::value;
 
-Vec3<double> drawn(PortableDraw& draw, double most) {
-  return {draw.between(-most, most), draw.between(-most, most), draw.between(-most, most)};
-}
-
 TEST(ClearSegmentBox, a_part_that_is_still_nearest_is_as_near_as_what_is_found_afresh) {
   PortableDraw draw(7);
   int asked = 0, still = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const Vec3<double> half(draw.between(0.1, 2), draw.between(0.1, 2), draw.between(0.1, 2));
-    const ClearSegmentBox core(packed::lanes(drawn(draw, 2)), packed::lanes(half), packed::lanes(drawn(draw, 1)));
-    const Vec3<double> from = drawn(draw, 5), to = from + drawn(draw, draw.one_in(2) ? 0.5 : 3);
+    const Vec3<double> half = draw.vector(0.1, 2);
+    const ClearSegmentBox core(packed::lanes(draw.vector(-2, 2)), packed::lanes(half),
+                               packed::lanes(draw.vector(-1, 1)));
+    const Vec3<double> from = draw.vector(-5, 5);
+    const double most = draw.one_in(2) ? 0.5 : 3;
+    const Vec3<double> to = from + draw.vector(-most, most);
     ClearSegmentBox::Part part = core.part(packed::lanes(from));
     const packed::Lanes gap = core.part(packed::lanes(to)).nearest.gap;
     const double distance = std::sqrt(value(dot(gap, gap)));

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string>
+#include <vector>
 
 namespace thinwall::testing {
 namespace {
@@ -17,35 +19,23 @@ std::string letters(const CollisionEvents& events) {
   return text;
 }
 
-std::string step(CollisionEvents& events, bool meets) {
-  if (meets) events.meet(1, 2, static_cast<double>(events.steps()));
-  events.finish_step(static_cast<double>(events.steps()) + 1);
-  return letters(events);
+/// What every step tells, each followed by a dot.
+std::string told(int grace, const std::vector<bool>& meets) {
+  CollisionEvents events(grace);
+  std::string all;
+  for (const bool meets_now : meets) {
+    if (meets_now) events.meet(1, 2, static_cast<double>(events.steps()));
+    events.finish_step(static_cast<double>(events.steps()) + 1);
+    all += letters(events) + ".";
+  }
+  EXPECT_EQ(events.live(), meets.back() ? 1U : 0U);
+  return all;
 }
 
-TEST(CollisionEvents, begin_once_stay_and_end) {
-  CollisionEvents events;
-  EXPECT_EQ(step(events, false), "");
-  EXPECT_EQ(step(events, true), "b");
-  EXPECT_EQ(events.live(), 1U);
-  EXPECT_EQ(step(events, true), "s");
-  EXPECT_EQ(step(events, false), "e");
-  EXPECT_EQ(events.live(), 0U);
-  EXPECT_EQ(step(events, false), "");
-  EXPECT_EQ(step(events, true), "b");
-}
-
-TEST(CollisionEvents, end_on_the_nth_consecutive_step_apart) {
-  CollisionEvents events(3);
-  std::string told;
-  for (const bool meets : {true, false, false, true, false, false, false, false}) told += step(events, meets) + ".";
-  EXPECT_EQ(told, "b...s...e..");
-}
-
-TEST(CollisionEvents, count_a_grace_below_one_as_one) {
-  CollisionEvents events(0);
-  EXPECT_EQ(step(events, true), "b");
-  EXPECT_EQ(step(events, false), "e");
+TEST(CollisionEvents, begin_once_stay_and_end_on_the_nth_consecutive_step_apart) {
+  EXPECT_EQ(told(1, {false, true, true, false, false, true}), ".b.s.e..b.");
+  EXPECT_EQ(told(3, {true, false, false, true, false, false, false, false}), "b...s...e..");
+  EXPECT_EQ(told(0, {true, false}), "b.e.");  // less than one is one
 }
 
 TEST(CollisionEvents, tell_the_ids_in_order_the_earliest_time_and_the_step) {

@@ -10,11 +10,7 @@ namespace {
 template <class S> Mat3<S> turned_eighth(int axis) {
   using std::sqrt;
   const S root = S(1) / S(sqrt(S(2)));
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  Mat3<S> turn = Mat3<S>::Identity();
-  turn(u, u) = turn(v, v) = turn(v, u) = root;
-  turn(u, v) = -root;
-  return turn;
+  return turn_in_plane((axis + 1) % 3, (axis + 2) % 3, root, root);
 }
 
 /// The area of the convex polygon that the points of a manifold span, seen along z.

@@ -9,10 +9,9 @@ namespace thinwall::fuzz {
 namespace {
 
 std::string text(const CertifiedToi& toi) {
-  constexpr std::string_view names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
   constexpr std::string_view stages[] = {"guard", "filter", "certificate", "exact"};
-  return std::string(names[static_cast<int>(toi.verdict)]) + " in [" + fuzz::text(toi.lower) + ", " +
-         fuzz::text(toi.upper) + "] by " + std::string(stages[static_cast<int>(toi.decided_by)]);
+  return fuzz::text(toi.verdict) + " in [" + fuzz::text(toi.lower) + ", " + fuzz::text(toi.upper) + "] by " +
+         std::string(stages[static_cast<int>(toi.decided_by)]);
 }
 
 const char* what_is_torn(const CertifiedToi& toi, bool is_question) {

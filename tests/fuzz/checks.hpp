@@ -11,6 +11,7 @@
 
 #include "fuzz/finding.hpp"
 #include "fuzz/numbers.hpp"
+#include "support/method_claims.hpp"
 
 namespace thinwall::fuzz {
 
@@ -253,9 +254,7 @@ template <class A, class B> void check_methods(const Scene<A, B>& scene, int cho
       if (index++ != choice) return;
       const Toi<S> toi = time_of_impact(Method{}, scene.a, scene.b);
       check_answer(scene, std::string(Method::name), toi);
-      constexpr bool claims = std::is_same_v<Method, ConservativeAdvancement<S>> ||
-                              std::is_same_v<Method, Inclusion<S>> || std::is_same_v<Method, Speculative<S>>;
-      if (!claims || !is_judged(scene)) return;
+      if (!testing::claims_of(Method{}).never_late || !is_judged(scene)) return;
       const Judgment judgment = judge_never_late(exhibit(scene.a, scene.b), toi.status, double{toi.time});
       check.no_fault(judgment, std::string(Method::name) + ": ", [&] { return text(toi) + ", "; });
     }

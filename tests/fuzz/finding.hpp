@@ -12,6 +12,7 @@
 #include <thinwall/swept/toi.hpp>
 
 #include "fuzz/judge.hpp"
+#include "fuzz/numbers.hpp"
 #include "fuzz/scene.hpp"
 
 namespace thinwall::fuzz {
@@ -49,11 +50,17 @@ template <Scalar S> std::string text(const Capsule<S>& c) {
 template <class A> std::string text(const Moving<A>& m) {
   return "Moving{" + text(m.shape) + ", " + text(m.displacement) + "}";
 }
-template <Scalar S> std::string text(const Toi<S>& toi) {
-  constexpr std::string_view names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
-  return std::string(names[static_cast<int>(toi.status)]) + " at " + text(toi.time) + ", normal " + text(toi.normal) +
-         ", point " + text(toi.point);
+inline std::string text(ToiStatus status) {
+  constexpr const char* names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
+  return names[static_cast<int>(status)];
 }
+template <Scalar S> std::string text(const Toi<S>& toi) {
+  return text(toi.status) + " at " + text(toi.time) + ", normal " + text(toi.normal) + ", point " + text(toi.point);
+}
+
+/// One input of the fuzzer: a pair with `A` as the shape of later rank, at A's scalar. Defined in pairs_of.cpp, which is compiled once for
+/// each shape and scalar.
+template <class A> void check_one_pair_of(Bytes& bytes);
 
 /// `kind` names the property and the pair; `detail` is the input and what came out.
 void report(const std::string& kind, const std::string& detail);

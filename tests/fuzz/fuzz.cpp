@@ -8,7 +8,6 @@
 #include <thinwall/swept/shapes.hpp>
 
 #include "fuzz/finding.hpp"
-#include "fuzz/pairs_of.hpp"
 
 namespace thinwall::fuzz {
 namespace {

@@ -46,40 +46,19 @@ template <Scalar S> Mat3<S> draw_axes(Numbers<S>& numbers) {
   return axes;
 }
 
-template <class A> struct Draw;
-template <Scalar S> struct Draw<Sphere<S>> {
-  static Sphere<S> shape(Numbers<S>& numbers) {
-    const Vec3<S> center = numbers.vector();
-    return {center, numbers.size()};
-  }
-};
-template <Scalar S> struct Draw<Aabb<S>> {
-  static Aabb<S> shape(Numbers<S>& numbers) {
-    const Vec3<S> center = numbers.vector();
-    return {center, numbers.sizes()};
-  }
-};
-template <Scalar S> struct Draw<Obb<S>> {
-  static Obb<S> shape(Numbers<S>& numbers) {
-    const Vec3<S> center = numbers.vector();
-    const Vec3<S> half = numbers.sizes();
-    return {center, half, draw_axes(numbers)};
-  }
-};
-template <Scalar S> struct Draw<Triangle<S>> {
-  static Triangle<S> shape(Numbers<S>& numbers) {
-    const Vec3<S> a = numbers.vector();
-    const Vec3<S> b = numbers.vector();
-    return {a, b, numbers.vector()};
-  }
-};
-template <Scalar S> struct Draw<Capsule<S>> {
-  static Capsule<S> shape(Numbers<S>& numbers) {
-    const Vec3<S> a = numbers.vector();
-    const Vec3<S> b = numbers.vector();
-    return {a, b, numbers.size()};
-  }
-};
+template <Scalar S> Sphere<S> drawn(Numbers<S>& numbers, TypeTag<Sphere<S>>) {
+  return {numbers.vector(), numbers.size()};
+}
+template <Scalar S> Aabb<S> drawn(Numbers<S>& numbers, TypeTag<Aabb<S>>) { return {numbers.vector(), numbers.sizes()}; }
+template <Scalar S> Obb<S> drawn(Numbers<S>& numbers, TypeTag<Obb<S>>) {
+  return {numbers.vector(), numbers.sizes(), draw_axes(numbers)};
+}
+template <Scalar S> Triangle<S> drawn(Numbers<S>& numbers, TypeTag<Triangle<S>>) {
+  return {numbers.vector(), numbers.vector(), numbers.vector()};
+}
+template <Scalar S> Capsule<S> drawn(Numbers<S>& numbers, TypeTag<Capsule<S>>) {
+  return {numbers.vector(), numbers.vector(), numbers.size()};
+}
 
 template <class A, class B> struct Scene {
   using S = typename A::Scalar;
@@ -113,9 +92,7 @@ template <class A, class B> void bring_together(Scene<A, B>& scene, const typena
 
 template <class A, class B> Scene<A, B> draw_scene(Numbers<typename A::Scalar>& numbers) {
   using S = typename A::Scalar;
-  const A first = Draw<A>::shape(numbers);
-  const B second = Draw<B>::shape(numbers);
-  Scene<A, B> scene{at_rest(first), at_rest(second)};
+  Scene<A, B> scene{at_rest(drawn(numbers, TypeTag<A>{})), at_rest(drawn(numbers, TypeTag<B>{}))};
   const int motion = numbers.below(4);
   if (motion != 0) scene.a.displacement = numbers.vector();
   if (motion > 1) scene.b.displacement = numbers.vector();

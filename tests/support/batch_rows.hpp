@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <thinwall/swept/batch.hpp>
 #include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/batch/table.hpp>
@@ -81,6 +83,16 @@ template <class A, class B> struct BatchRows {
     return seen[0] > 0 && seen[1] > 0 && seen[2] > 0 && seen[4] > 0;
   }
 };
+
+/// visit(target) with each kind of vectors that this machine has, of which the best is then taken again.
+template <class Visit> void for_each_target(const Visit& visit) {
+  for (const std::string& target : vector_targets()) {
+    SCOPED_TRACE(target);
+    use_vectors(target);
+    visit(target);
+  }
+  use_vectors("");
+}
 
 template <class S> struct Answers {
   std::vector<ToiStatus> status;

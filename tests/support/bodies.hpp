@@ -1,5 +1,7 @@
 #pragma once
-/// The library's shapes as the oracle sees them: inputs lifted without rounding.
+/// The library's shapes as the oracle sees them: inputs lifted without rounding; and the same scene elsewhere.
+
+#include <cmath>
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/aabb.hpp>
@@ -42,3 +44,32 @@ template <class Shape> Body body(const Moving<Shape>& moving) {
 template <class A, class B> Pair pair(const A& a, const B& b) { return {body(a), body(b), 0}; }
 
 }  // namespace thinwall::oracle
+
+// ---- The same scene elsewhere, and whether the scalar held the result exactly.
+
+namespace thinwall::testing {
+
+template <class S> S times_power(const S& x, int exponent) {
+  using std::ldexp;
+  return ldexp(x, exponent);
+}
+template <class S> Vec3<S> times_power(const Vec3<S>& v, int exponent) {
+  return {times_power(v[0], exponent), times_power(v[1], exponent), times_power(v[2], exponent)};
+}
+
+template <Shape A> A translated(const A& shape, const Vec3<typename A::Scalar>& by) { return moved(shape, by); }
+template <Shape A> Moving<A> translated(const Moving<A>& m, const Vec3<typename A::Scalar>& by) {
+  return {moved(m.shape, by), m.displacement};
+}
+
+/// True if two bodies are equal but for a factor 2^exponent and an offset: nothing was rounded on the way.
+inline bool same_body(const oracle::Body& to, const oracle::Body& from, int exponent, const oracle::Vector& by = {}) {
+  const auto grown = [&](const oracle::Vector& v) { return oracle::Real(ldexp(oracle::Real(1), exponent)) * v; };
+  if (to.center != grown(from.center) + by || to.displacement != grown(from.displacement)) return false;
+  if (to.radius != ldexp(from.radius, exponent) || to.core.box != grown(from.core.box)) return false;
+  for (std::size_t i = 0; i < from.core.generators.size(); ++i)
+    if (to.core.generators[i] != grown(from.core.generators[i])) return false;
+  return true;
+}
+
+}  // namespace thinwall::testing

@@ -7,7 +7,6 @@
 #include "support/errors.hpp"
 #include "support/judge.hpp"
 #include "support/property.hpp"
-#include "support/transforms.hpp"
 
 namespace thinwall::testing {
 
@@ -40,151 +39,186 @@ template <class S> bool is_contact_normal(const oracle::Pair& pair, const oracle
   return oracle::separation_along(pair, 0, found) >= truth.separation - 16 * rounding;
 }
 
+/// Instantiated with pairs of shapes, by the name of the suite: INSTANTIATE_TYPED_TEST_SUITE_P(DiscretePair, OneInstant, Pairs).
+template <class P> class OneInstant : public ::testing::Test {
+ protected:
+  /// The oracle tries every face of the Minkowski sum: 81 for a capsule and a box.
+  static constexpr bool is_slow =
+      std::is_same_v<typename P::A, Capsule<typename P::S>> && std::is_same_v<typename P::B, Aabb<typename P::S>>;
+  static constexpr int runs = is_slow ? 600 : 3000;
+};
+TYPED_TEST_SUITE_P(OneInstant);
+
 /// overlaps() is the sign of the separation, but for inputs within 4 u of a touch.
-template <class A, class B> void overlaps_has_the_sign_of_the_separation() {
-  using S = typename A::Scalar;
-  const auto [a, b] = draw_pair<A, B>();
-  const oracle::Pair pair = oracle::pair(a, b);
-  const oracle::Gap truth = oracle::gap(pair, 0);
-  if (abs(truth.separation) <= 4 * rounding_of<S>(pair)) return;
-  RC_ASSERT(overlaps(a, b) == (truth.separation < 0));
-  RC_ASSERT(overlaps(b, a) == (truth.separation < 0));
+TYPED_TEST_P(OneInstant, overlaps_has_the_sign_of_the_separation) {
+  using S = typename TypeParam::S;
+  check_property(this->runs, [] {
+    const auto [a, b] = draw_pair<TypeParam>();
+    const oracle::Pair pair = oracle::pair(a, b);
+    const oracle::Gap truth = oracle::gap(pair, 0);
+    if (abs(truth.separation) <= 4 * rounding_of<S>(pair)) return;
+    RC_ASSERT(overlaps(a, b) == (truth.separation < 0));
+    RC_ASSERT(overlaps(b, a) == (truth.separation < 0));
+  });
 }
 
 /// separation(): the distance within 4 u, a normal along which the shapes are that far apart, a point on each surface.
-template <class A, class B> void separation_is_the_distance() {
-  using S = typename A::Scalar;
-  const auto [a, b] = draw_pair<A, B>();
-  const oracle::Pair pair = oracle::pair(a, b);
-  const oracle::Gap truth = oracle::gap(pair, 0);
-  const Separation<S> found = separation(a, b);
+TYPED_TEST_P(OneInstant, separation_is_the_distance) {
+  using S = typename TypeParam::S;
+  check_property(this->runs, [] {
+    const auto [a, b] = draw_pair<TypeParam>();
+    const oracle::Pair pair = oracle::pair(a, b);
+    const oracle::Gap truth = oracle::gap(pair, 0);
+    const Separation<S> found = separation(a, b);
 
-  const oracle::Real error = abs(oracle::lift(found.distance) - truth.separation);
-  RC_ASSERT(error <= 4 * rounding_of<S>(pair));
-  RC_ASSERT(is_contact_normal<S>(pair, truth, found.normal));
+    const oracle::Real error = abs(oracle::lift(found.distance) - truth.separation);
+    RC_ASSERT(error <= 4 * rounding_of<S>(pair));
+    RC_ASSERT(is_contact_normal<S>(pair, truth, found.normal));
 
-  const oracle::Vector normal = oracle::lift_vector(found.normal);
-  const oracle::Real rounding = rounding_of<S>(pair);
-  const oracle::Real allowed =
-      (cores_nearly_touch(truth, rounding) ? 96 : 32) * rounding + curvature(truth.core, pair.reach(), rounding);
-  const oracle::Vector point_a = oracle::lift_vector(found.point_a), point_b = oracle::lift_vector(found.point_b);
-  RC_ASSERT(off_surface(point_a, pair.a) <= allowed);
-  RC_ASSERT(off_surface(point_b, pair.b) <= allowed);
-  const oracle::Vector between = point_b - point_a;
-  RC_ASSERT(oracle::length(between - oracle::lift(found.distance) * normal) <= allowed);
+    const oracle::Vector normal = oracle::lift_vector(found.normal);
+    const oracle::Real rounding = rounding_of<S>(pair);
+    const oracle::Real allowed =
+        (cores_nearly_touch(truth, rounding) ? 96 : 32) * rounding + curvature(truth.core, pair.reach(), rounding);
+    const oracle::Vector point_a = oracle::lift_vector(found.point_a), point_b = oracle::lift_vector(found.point_b);
+    RC_ASSERT(off_surface(point_a, pair.a) <= allowed);
+    RC_ASSERT(off_surface(point_b, pair.b) <= allowed);
+    const oracle::Vector between = point_b - point_a;
+    RC_ASSERT(oracle::length(between - oracle::lift(found.distance) * normal) <= allowed);
+  });
 }
 
 /// contact(): there when overlaps() says so; moving B by the penetration along the normal leaves a touch.
-template <class A, class B> void contact_moves_out() {
-  using S = typename A::Scalar;
-  const auto [a, b] = draw_pair<A, B>();
-  const auto found = contact(a, b);
-  RC_ASSERT(found.has_value() == overlaps(a, b));
-  if (!found) return;
-  RC_ASSERT(found->penetration >= S(0));
-  RC_ASSERT(is_unit(found->normal));
-  oracle::Pair pair = oracle::pair(a, b);
-  const oracle::Real rounding = rounding_of<S>(pair);
-  const oracle::Real shortfall = curvature(oracle::gap(pair, 0).core, oracle::lift(found->penetration), rounding);
-  pair.b.center = pair.b.center + oracle::lift(found->penetration) * oracle::lift_vector(found->normal);
-  RC_ASSERT(abs(oracle::gap(pair, 0).separation) <= 32 * rounding + shortfall);
+TYPED_TEST_P(OneInstant, contact_moves_out) {
+  using S = typename TypeParam::S;
+  check_property(this->runs, [] {
+    const auto [a, b] = draw_pair<TypeParam>();
+    const auto found = contact(a, b);
+    RC_ASSERT(found.has_value() == overlaps(a, b));
+    if (!found) return;
+    RC_ASSERT(found->penetration >= S(0));
+    RC_ASSERT(is_unit(found->normal));
+    oracle::Pair pair = oracle::pair(a, b);
+    const oracle::Real rounding = rounding_of<S>(pair);
+    const oracle::Real shortfall = curvature(oracle::gap(pair, 0).core, oracle::lift(found->penetration), rounding);
+    pair.b.center = pair.b.center + oracle::lift(found->penetration) * oracle::lift_vector(found->normal);
+    RC_ASSERT(abs(oracle::gap(pair, 0).separation) <= 32 * rounding + shortfall);
+  });
 }
 
 /// Passing A and B the other way round flips the normal and swaps the points: to the bit between different shapes. A
 /// normal that is arbitrary (the cores touch) does not flip, and takes the points with it.
-template <class A, class B> void other_way_round_is_the_same() {
-  using S = typename A::Scalar;
-  const auto [a, b] = draw_pair<A, B>();
-  const oracle::Pair pair = oracle::pair(a, b);
-  const oracle::Gap truth = oracle::gap(pair, 0);
-  const oracle::Real rounding = rounding_of<S>(pair);
-  const Separation<S> there = separation(a, b), back = separation(b, a);
-  const auto contact_there = contact(a, b), contact_back = contact(b, a);
-  if constexpr (std::is_same_v<A, B>) {
-    RC_ASSERT(abs(oracle::lift(there.distance) - oracle::lift(back.distance)) <= 8 * rounding);
-    if (abs(truth.separation) <= 4 * rounding) return;  // too near a touch to call
-    RC_ASSERT(contact_there.has_value() == contact_back.has_value());
-    if (!contact_there) return;
-    const auto penetration = oracle::lift(contact_there->penetration), other = oracle::lift(contact_back->penetration);
-    RC_ASSERT(abs(oracle::Real(penetration - other)) <= 8 * rounding);
-  } else {
-    RC_ASSERT(overlaps(a, b) == overlaps(b, a));
-    RC_ASSERT(there.distance == back.distance);
-    RC_ASSERT(contact_there.has_value() == contact_back.has_value());
-    if (contact_there) RC_ASSERT(contact_there->penetration == contact_back->penetration);
-    if (there.normal == back.normal) {
-      RC_ASSERT(cores_nearly_touch(truth, rounding));
-      return;
+TYPED_TEST_P(OneInstant, other_way_round_is_the_same) {
+  using S = typename TypeParam::S;
+  using A = typename TypeParam::A;
+  using B = typename TypeParam::B;
+  check_property(this->runs, [] {
+    const auto [a, b] = draw_pair<TypeParam>();
+    const oracle::Pair pair = oracle::pair(a, b);
+    const oracle::Gap truth = oracle::gap(pair, 0);
+    const oracle::Real rounding = rounding_of<S>(pair);
+    const Separation<S> there = separation(a, b), back = separation(b, a);
+    const auto contact_there = contact(a, b), contact_back = contact(b, a);
+    if constexpr (std::is_same_v<A, B>) {
+      RC_ASSERT(abs(oracle::lift(there.distance) - oracle::lift(back.distance)) <= 8 * rounding);
+      if (abs(truth.separation) <= 4 * rounding) return;  // too near a touch to call
+      RC_ASSERT(contact_there.has_value() == contact_back.has_value());
+      if (!contact_there) return;
+      const auto penetration = oracle::lift(contact_there->penetration),
+                 other = oracle::lift(contact_back->penetration);
+      RC_ASSERT(abs(oracle::Real(penetration - other)) <= 8 * rounding);
+    } else {
+      RC_ASSERT(overlaps(a, b) == overlaps(b, a));
+      RC_ASSERT(there.distance == back.distance);
+      RC_ASSERT(contact_there.has_value() == contact_back.has_value());
+      if (contact_there) RC_ASSERT(contact_there->penetration == contact_back->penetration);
+      if (there.normal == back.normal) {
+        RC_ASSERT(cores_nearly_touch(truth, rounding));
+        return;
+      }
+      RC_ASSERT(there.normal == -back.normal);
+      RC_ASSERT(there.point_a == back.point_b);
+      RC_ASSERT(there.point_b == back.point_a);
+      if (!contact_there) return;
+      RC_ASSERT(contact_there->normal == -contact_back->normal);
+      RC_ASSERT(contact_there->local_a == contact_back->local_b);
+      RC_ASSERT(contact_there->local_b == contact_back->local_a);
     }
-    RC_ASSERT(there.normal == -back.normal);
-    RC_ASSERT(there.point_a == back.point_b);
-    RC_ASSERT(there.point_b == back.point_a);
-    if (!contact_there) return;
-    RC_ASSERT(contact_there->normal == -contact_back->normal);
-    RC_ASSERT(contact_there->local_a == contact_back->local_b);
-    RC_ASSERT(contact_there->local_b == contact_back->local_a);
-  }
+  });
 }
 
 /// Lengths times 2^k: the same bits, as long as nothing leaves the range of the scalar.
-template <class A, class B> void same_bits_at_every_size() {
-  using S = typename A::Scalar;
-  const auto [a, b] = draw_pair<A, B>(*rc::gen::element(Style::lattice, Style::plain));
-  const int k = *rc::gen::element(-600, -90, -60, -1, 1, 60, 90, 600);
-  const A large_a = scaled(a, k);
-  const B large_b = scaled(b, k);
-  if (!same_body(oracle::body(large_a), oracle::body(a), k) || !same_body(oracle::body(large_b), oracle::body(b), k))
-    return;
-  RC_ASSERT(overlaps(large_a, large_b) == overlaps(a, b));
-  const Separation<S> here = separation(a, b), there = separation(large_a, large_b);
-  RC_ASSERT(there.distance == times_power(here.distance, k));
-  RC_ASSERT(there.normal == here.normal);
-  RC_ASSERT(there.point_a == times_power(here.point_a, k));
-  RC_ASSERT(there.point_b == times_power(here.point_b, k));
-  const auto small = contact(a, b), large = contact(large_a, large_b);
-  RC_ASSERT(small.has_value() == large.has_value());
-  if (!small) return;
-  RC_ASSERT(large->penetration == times_power(small->penetration, k));
-  RC_ASSERT(large->normal == small->normal);
-  RC_ASSERT(large->local_a == times_power(small->local_a, k));
-  RC_ASSERT(large->local_b == times_power(small->local_b, k));
+TYPED_TEST_P(OneInstant, same_bits_at_every_size) {
+  using S = typename TypeParam::S;
+  using A = typename TypeParam::A;
+  using B = typename TypeParam::B;
+  check_property(this->runs, [] {
+    const auto [a, b] = draw_pair<TypeParam>(*rc::gen::element(Style::lattice, Style::plain));
+    const int k = *rc::gen::element(-600, -90, -60, -1, 1, 60, 90, 600);
+    const A large_a = scaled(a, k);
+    const B large_b = scaled(b, k);
+    if (!same_body(oracle::body(large_a), oracle::body(a), k) || !same_body(oracle::body(large_b), oracle::body(b), k))
+      return;
+    RC_ASSERT(overlaps(large_a, large_b) == overlaps(a, b));
+    const Separation<S> here = separation(a, b), there = separation(large_a, large_b);
+    RC_ASSERT(there.distance == times_power(here.distance, k));
+    RC_ASSERT(there.normal == here.normal);
+    RC_ASSERT(there.point_a == times_power(here.point_a, k));
+    RC_ASSERT(there.point_b == times_power(here.point_b, k));
+    const auto small = contact(a, b), large = contact(large_a, large_b);
+    RC_ASSERT(small.has_value() == large.has_value());
+    if (!small) return;
+    RC_ASSERT(large->penetration == times_power(small->penetration, k));
+    RC_ASSERT(large->normal == small->normal);
+    RC_ASSERT(large->local_a == times_power(small->local_a, k));
+    RC_ASSERT(large->local_b == times_power(small->local_b, k));
+  });
 }
+
+REGISTER_TYPED_TEST_SUITE_P(OneInstant, overlaps_has_the_sign_of_the_separation, separation_is_the_distance,
+                            contact_moves_out, other_way_round_is_the_same, same_bits_at_every_size);
+
+/// Instantiated with shapes.
+template <class Target> class RayAtOneInstant : public ::testing::Test {};
+TYPED_TEST_SUITE_P(RayAtOneInstant);
 
 /// raycast() against the motion of a point over one step.
-template <class B> void raycast_is_the_motion_of_a_point() {
-  using S = typename B::Scalar;
-  const auto [point, b] = draw_pair<Sphere<S>, B>();
-  const Ray<S> ray{point.center, draw_vector<S>(draw_style()), S(1)};
-  RC_LOG() << "direction " << ray.direction.transpose() << "\n";
-  oracle::Pair pair = oracle::pair(point, b);
-  pair.a.radius = 0;
-  pair.a.displacement = oracle::lift_vector(ray.direction);
-  const oracle::Impact truth = oracle::impact(pair);
-  const auto found = raycast(ray, b);
+TYPED_TEST_P(RayAtOneInstant, raycast_is_the_motion_of_a_point) {
+  using S = typename TypeParam::Scalar;
+  check_property(std::is_same_v<TypeParam, Capsule<S>> ? 1000 : 3000, [] {
+    const auto [point, b] = draw_pair<PairOf<Sphere<S>, TypeParam>>();
+    const Ray<S> ray{point.center, draw_vector<S>(draw_style()), S(1)};
+    RC_LOG() << "direction " << ray.direction.transpose() << "\n";
+    oracle::Pair pair = oracle::pair(point, b);
+    pair.a.radius = 0;
+    pair.a.displacement = oracle::lift_vector(ray.direction);
+    const oracle::Impact truth = oracle::impact(pair);
+    const auto found = raycast(ray, b);
 
-  const bool hits = truth.verdict != oracle::Verdict::apart;
-  const oracle::Real u = oracle::unit_roundoff<S>();
-  if (found.has_value() != hits) {
-    RC_ASSERT(abs(truth.margin) <= 4 * u);
-    return;
-  }
-  if (!found) return;
-  if ((found->t == S(0)) != (truth.verdict == oracle::Verdict::overlapping)) {
-    RC_ASSERT(abs(truth.start_margin) <= 4 * u);
-    return;
-  }
-  if (truth.verdict == oracle::Verdict::overlapping) {
-    RC_ASSERT(found->normal == Vec3<S>(Vec3<S>::Zero()));
-    RC_ASSERT(found->point == ray.origin);
-    return;
-  }
-  RC_ASSERT(is_unit(found->normal));
-  const oracle::Real backward = oracle::backward_error_in_u(pair, found->t);
-  const oracle::Real forward = oracle::forward_error_in_u_kappa(truth, found->t);
-  RC_LOG() << "t " << found->t << " forward " << forward << " backward " << backward << "\n";
-  RC_ASSERT(backward <= 4);
-  RC_ASSERT(forward <= 4);
-  RC_ASSERT(off_surface(oracle::lift_vector(found->point), pair.b) <= 16 * u * size_at(pair, truth.time));
+    const bool hits = truth.verdict != oracle::Verdict::apart;
+    const oracle::Real u = oracle::unit_roundoff<S>();
+    if (found.has_value() != hits) {
+      RC_ASSERT(abs(truth.margin) <= 4 * u);
+      return;
+    }
+    if (!found) return;
+    if ((found->t == S(0)) != (truth.verdict == oracle::Verdict::overlapping)) {
+      RC_ASSERT(abs(truth.start_margin) <= 4 * u);
+      return;
+    }
+    if (truth.verdict == oracle::Verdict::overlapping) {
+      RC_ASSERT(found->normal == Vec3<S>(Vec3<S>::Zero()));
+      RC_ASSERT(found->point == ray.origin);
+      return;
+    }
+    RC_ASSERT(is_unit(found->normal));
+    const oracle::Real backward = oracle::backward_error_in_u(pair, found->t);
+    const oracle::Real forward = oracle::forward_error_in_u_kappa(truth, found->t);
+    RC_LOG() << "t " << found->t << " forward " << forward << " backward " << backward << "\n";
+    RC_ASSERT(backward <= 4);
+    RC_ASSERT(forward <= 4);
+    RC_ASSERT(off_surface(oracle::lift_vector(found->point), pair.b) <= 16 * u * size_at(pair, truth.time));
+  });
 }
+REGISTER_TYPED_TEST_SUITE_P(RayAtOneInstant, raycast_is_the_motion_of_a_point);
 
 }  // namespace thinwall::testing

@@ -34,7 +34,7 @@ template <class S, class B> class CaseTable {
   S operator()(double x) {
     const S value = static_cast<S>(x);
     if (value - value != S(0) || (value == S(0) && x != 0)) out_of_range_ = true;
-    if (oracle_differs(value, x)) as_written_ = false;
+    if (oracle::Real(value) != oracle::Real(x)) as_written_ = false;
     return value;
   }
   Vec3<S> operator()(double x, double y, double z) { return {(*this)(x), (*this)(y), (*this)(z)}; }
@@ -49,8 +49,6 @@ template <class S, class B> class CaseTable {
   const std::vector<Case>& cases() const { return cases_; }
 
  private:
-  static bool oracle_differs(const S& value, double x) { return oracle::Real(value) != oracle::Real(x); }
-
   bool out_of_range_ = false;
   bool as_written_ = true;
   std::vector<Case> cases_{};

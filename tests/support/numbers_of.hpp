@@ -2,6 +2,8 @@
 /// Every number of a shape, of one that moves or turns, or of a ray, by the name of its column in docs/data/README.md:
 ///   each_number(thing, [](const std::string& name, double& number) { ... });
 
+#include <limits>
+#include <sstream>
 #include <string>
 
 #include <thinwall/capsule/capsule.hpp>
@@ -56,6 +58,16 @@ template <class A, class F> void each_number(Turning<A>& m, const F& f) {
 template <class Thing, class F> void each_number(const Thing& thing, const F& f) {
   Thing copy = thing;
   each_number(copy, f);
+}
+
+/// What a failing case prints.
+template <class Thing> std::string describe(const Thing& thing) {
+  std::ostringstream out;
+  each_number(thing, [&]<class S>(const std::string& name, const S& number) {
+    out.precision(std::numeric_limits<S>::max_digits10);
+    out << name << " " << number << " ";
+  });
+  return out.str();
 }
 
 }  // namespace thinwall::testing

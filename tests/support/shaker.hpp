@@ -12,6 +12,15 @@
 
 namespace thinwall::testing {
 
+/// Turns the axis u towards the axis v, by an angle of this cosine and sine.
+template <class S> Mat3<S> turn_in_plane(int u, int v, const S& cosine, const S& sine) {
+  Mat3<S> turn = Mat3<S>::Identity();
+  turn(u, u) = turn(v, v) = cosine;
+  turn(u, v) = -sine;
+  turn(v, u) = sine;
+  return turn;
+}
+
 /// Draws the same numbers in every run.
 template <class S> class Shaker {
  public:
@@ -19,7 +28,7 @@ template <class S> class Shaker {
 
   int pick(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
   S plain() { return S(static_cast<double>(engine_()) / 2147483648.0 - 1.0); }
-  S coordinate() { return lattice() ? S(pick(-4, 4)) / S(2) : S(2 * plain()); }
+  S coordinate() { return pick(0, 1) == 0 ? S(pick(-4, 4)) / S(2) : S(2 * plain()); }
   Vec3<S> vector() { return {coordinate(), coordinate(), coordinate()}; }
   Vec3<S> sizes() { return vector().cwiseAbs(); }
 
@@ -27,28 +36,19 @@ template <class S> class Shaker {
   Mat3<S> axes() {
     Mat3<S> all = Mat3<S>::Identity();
     for (int turns = pick(0, 2); turns >= 0; --turns) {
-      using std::cos, std::sin;
+      using std::cos, std::sin, std::sqrt;
       const int way = pick(0, 3);
       const S tiny = power<S>(-pick(4, 2 * std::numeric_limits<S>::digits));
       const S angle = way == 0 ? S(0) : way == 1 ? tiny : S(2 * plain());
-      const S root = S(1) / sqrt_of(S(2));
+      const S root = S(1) / S(sqrt(S(2)));
       const S c = way == 3 ? root : S(cos(angle)), s = way == 3 ? root : S(sin(angle));
-      const int u = pick(0, 2), v = (u + 1) % 3;
-      Mat3<S> turn = Mat3<S>::Identity();
-      turn(u, u) = turn(v, v) = c;
-      turn(u, v) = -s;
-      turn(v, u) = s;
-      all = (all * turn).eval();
+      const int u = pick(0, 2);
+      all = (all * turn_in_plane(u, (u + 1) % 3, c, s)).eval();
     }
     return all;
   }
 
  private:
-  bool lattice() { return pick(0, 1) == 0; }
-  static S sqrt_of(const S& x) {
-    using std::sqrt;
-    return sqrt(x);
-  }
   std::mt19937 engine_;
 };
 

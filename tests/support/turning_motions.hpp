@@ -10,11 +10,14 @@
 #include <string_view>
 #include <utility>
 
+#include <thinwall/capsule/capsule.hpp>
+#include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/queries.hpp>
+#include <thinwall/discrete/triangle.hpp>
 #include <thinwall/discrete/type_list.hpp>
+#include <thinwall/swept/turning.hpp>
 
 #include "support/portable_draw.hpp"
-#include "support/spinner.hpp"
 
 namespace thinwall::testing {
 

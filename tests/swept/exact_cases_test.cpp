@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/bodies.hpp"
 #include "support/exact_cases.hpp"
 #include "support/judge.hpp"
-#include "support/pair.hpp"
-#include "support/transforms.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -82,6 +81,18 @@ TYPED_TEST(ExactCases, the_other_one_moves) {
     b.displacement = -b.displacement;
     expect_exact(a, b);
   });
+}
+
+/// x, y, z become -y, z, -x: a mirror and a change of axes at once.
+template <class S> Vec3<S> mirrored(const Vec3<S>& v) { return {S(-v[1]), v[2], S(-v[0])}; }
+template <class S> Sphere<S> mirrored(const Sphere<S>& s) { return {mirrored(s.center), s.radius}; }
+template <class S> Aabb<S> mirrored(const Aabb<S>& b) {
+  return {mirrored(b.center), mirrored(b.half_extents).cwiseAbs()};
+}
+template <class S> Capsule<S> mirrored(const Capsule<S>& c) { return {mirrored(c.a), mirrored(c.b), c.radius}; }
+
+template <class Shape> Moving<Shape> mirrored(const Moving<Shape>& m) {
+  return {mirrored(m.shape), mirrored(m.displacement)};
 }
 
 TYPED_TEST(ExactCases, mirrored) {

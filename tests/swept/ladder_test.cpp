@@ -26,14 +26,10 @@ using V = Vec3<double>;
 constexpr double u = 0x1p-53, infinity = std::numeric_limits<double>::infinity();
 const std::size_t cases = thorough(slow_build ? 2'000 : 100'000);
 
-template <class A, class B> struct Pairing {
-  using First = A;
-  using Second = B;
-};
 template <class T> class Ladder : public ::testing::Test {};
-using ClearPairs = ::testing::Types<Pairing<Ball, Ball>, Pairing<Box, Ball>, Pairing<Box, Box>, Pairing<Turned, Ball>,
-                                    Pairing<Rod, Ball>, Pairing<Rod, Box>, Pairing<Rod, Turned>, Pairing<Rod, Rod>,
-                                    Pairing<Turned, Box>, Pairing<Turned, Turned>, Pairing<Flat, Ball>>;
+using ClearPairs = ::testing::Types<PairOf<Ball, Ball>, PairOf<Box, Ball>, PairOf<Box, Box>, PairOf<Turned, Ball>,
+                                    PairOf<Rod, Ball>, PairOf<Rod, Box>, PairOf<Rod, Turned>, PairOf<Rod, Rod>,
+                                    PairOf<Turned, Box>, PairOf<Turned, Turned>, PairOf<Flat, Ball>>;
 TYPED_TEST_SUITE(Ladder, ClearPairs, );
 
 /// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
@@ -90,7 +86,7 @@ TYPED_TEST(Ladder, clear_decides_the_shots_of_a_scene) {
   Shaker<double> draw(11);
   std::size_t clear = 0;
   for (std::size_t i = 0; i < cases; ++i) {
-    clear += agrees_if_clear(everyday_shot<typename TypeParam::First, typename TypeParam::Second>(draw), 0.0) ? 1U : 0U;
+    clear += agrees_if_clear(everyday_shot<typename TypeParam::A, typename TypeParam::B>(draw), 0.0) ? 1U : 0U;
   }
   EXPECT_GE(static_cast<double>(clear), 0.99 * static_cast<double>(cases));
 }
@@ -99,10 +95,10 @@ TYPED_TEST(Ladder, clear_decides_what_is_asked_in_float) {  // whose axes, ortho
   Shaker<double> draw(41);
   std::size_t clear = 0;
   for (std::size_t i = 0; i < cases / 10; ++i) {
-    const auto shot = everyday_shot<typename TypeParam::First, typename TypeParam::Second>(draw);
+    const auto shot = everyday_shot<typename TypeParam::A, typename TypeParam::B>(draw);
     const auto a = cast<float>(shot.a);
     const auto b = cast<float>(shot.b);
-    const Motion<typename TypeParam::First, typename TypeParam::Second> wide{widened<double>(a), widened<double>(b)};
+    const Motion<typename TypeParam::A, typename TypeParam::B> wide{widened<double>(a), widened<double>(b)};
     clear += agrees_if_clear(wide, 0.0) ? 1U : 0U;
     EXPECT_EQ(time_of_impact(a, b).time, static_cast<float>(time_of_impact(wide.a, wide.b).time));
   }
@@ -127,8 +123,8 @@ template <class A, class B> Motion<A, B> straight_shot(Shaker<double>& draw) {
 }
 
 TYPED_TEST(Ladder, clear_decides_what_falls_straight) {
-  using A = typename TypeParam::First;
-  using B = typename TypeParam::Second;
+  using A = typename TypeParam::A;
+  using B = typename TypeParam::B;
   if constexpr (std::is_same_v<A, Turned> && !std::is_same_v<B, Ball>) {
     GTEST_SKIP() << "faces that are level are the careful rung's";
   }
@@ -179,7 +175,7 @@ template <class A, class B> Motion<A, B> odd_motion(Shaker<double>& draw) {
 TYPED_TEST(Ladder, clear_and_careful_agree_on_odd_motions) {
   Shaker<double> draw(37);
   for (std::size_t i = 0; i < cases; ++i) {
-    const auto motion = odd_motion<typename TypeParam::First, typename TypeParam::Second>(draw);
+    const auto motion = odd_motion<typename TypeParam::A, typename TypeParam::B>(draw);
     if (valid(motion.a) && valid(motion.b)) agrees_if_clear(motion, 0.0);
   }
 }
@@ -188,7 +184,7 @@ TYPED_TEST(Ladder, clear_and_careful_agree_on_motions_drawn_to_go_wrong) {
   Shaker<double> draw(13);
   std::size_t clear = 0;
   for (std::size_t i = 0; i < 2 * cases; ++i) {
-    auto motion = drawn_motion<typename TypeParam::First, typename TypeParam::Second>(draw);
+    auto motion = drawn_motion<typename TypeParam::A, typename TypeParam::B>(draw);
     if (draw.pick(0, 9) == 0) {
       const int scale = draw.pick(-600, 600);
       motion = {scaled(motion.a, scale), scaled(motion.b, scale)};
@@ -201,14 +197,14 @@ TYPED_TEST(Ladder, clear_and_careful_agree_on_motions_drawn_to_go_wrong) {
 TYPED_TEST(Ladder, the_front_door_climbs_it) {  // from either side
   Shaker<double> draw(17);
   for (int i = 0; i < 2000; ++i) {
-    const auto motion = drawn_motion<typename TypeParam::First, typename TypeParam::Second>(draw);
+    const auto motion = drawn_motion<typename TypeParam::A, typename TypeParam::B>(draw);
     const ClearToi rung = clear_impact(motion.a, motion.b, 0);
     const Toi<double> expected = rung.clear ? rung.toi() : careful_impact({}, motion.a, motion.b);
     const Toi<double> toi = time_of_impact(motion.a, motion.b);
     EXPECT_EQ(toi.status, expected.status);
     EXPECT_EQ(toi.time, expected.time);
     EXPECT_EQ(toi.normal, expected.normal);
-    if constexpr (!std::is_same_v<typename TypeParam::First, typename TypeParam::Second>) {
+    if constexpr (!std::is_same_v<typename TypeParam::A, typename TypeParam::B>) {
       EXPECT_EQ(time_of_impact(motion.b, motion.a).normal, V(V::Zero() - expected.normal));
     }
   }

@@ -110,12 +110,22 @@ TYPED_TEST(SweptMethods, min_separation_is_a_gap_that_counts_as_contact) {
   EXPECT_EQ(time_of_impact(CentreRay<S>{.min_separation = 2}, stopping, target).status, ToiStatus::overlapping);
 }
 
-TYPED_TEST(SweptMethods, min_separation_before_a_wall) {
+TYPED_TEST(SweptMethods, min_separation_before_a_wall) {  // 0.125 sooner along a path of 2: at 0.25
   using S = TypeParam;
-  const Toi<S> early = time_of_impact(ClosedForm<S>{.min_separation = 0.125}, this->shot, this->wall);
-  EXPECT_EQ(early.time, S(0.25));  // 0.125 sooner along a path of 2
-  const Toi<S> back = time_of_impact(ClosedForm<S>{.min_separation = 0.125}, this->wall, this->shot);
-  EXPECT_EQ(back.time, early.time);
+  const auto late_by = [this](auto method) {
+    method.min_separation = S(0.125);
+    const S time = time_of_impact(method, this->shot, this->wall).time;
+    EXPECT_EQ(time_of_impact(method, this->wall, this->shot).time, time);
+    return S(time - S(0.25));
+  };
+  const S tolerance = half_digits<S>(), rounding = 256 * unit<S>();
+  EXPECT_EQ(late_by(ClosedForm<S>{}), S(0));
+  const S bisection = late_by(Bisection<S>{}), inclusion = late_by(Inclusion<S>{});
+  EXPECT_TRUE(bisection >= S(0) && bisection <= tolerance) << bisection;
+  EXPECT_TRUE(inclusion < S(0) && inclusion >= -tolerance - 2 * rounding) << inclusion;
+  for (const S& plane : {late_by(ConservativeAdvancement<S>{}), late_by(Speculative<S>{})}) {
+    EXPECT_TRUE(plane < S(0) && plane >= -rounding) << plane;
+  }
 }
 
 }  // namespace

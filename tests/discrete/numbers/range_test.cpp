@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/discrete_properties.hpp"
+#include <thinwall/discrete/queries.hpp>
+
+#include "support/bodies.hpp"
+#include "support/real.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -83,15 +86,7 @@ TYPED_TEST(Range, rays) {
   check(Aabb<S>{{0, 0, 0}, {1, 2, 3}});
 }
 
-TEST(RangeOfDouble, the_sizes_of_the_literature) {
-  EXPECT_TRUE(overlaps(Sphere<double>{{0, 0, 0}, 1e200}, Sphere<double>{{2e200, 0, 0}, 1e200}));
-  EXPECT_FALSE(overlaps(Sphere<double>{{0, 0, 0}, 1e200}, Sphere<double>{{2.1e200, 0, 0}, 1e200}));
-  EXPECT_TRUE(overlaps(Sphere<double>{{0, 0, 0}, 1e-200}, Sphere<double>{{2e-200, 0, 0}, 1e-200}));
-  EXPECT_FALSE(overlaps(Sphere<double>{{0, 0, 0}, 1e-200}, Sphere<double>{{2.1e-200, 0, 0}, 1e-200}));
-  EXPECT_TRUE(overlaps(Sphere<float>{{0, 0, 0}, 1e21F}, Sphere<float>{{2e21F, 0, 0}, 1e21F}));
-  EXPECT_FALSE(overlaps(Sphere<float>{{0, 0, 0}, 1e21F}, Sphere<float>{{2.1e21F, 0, 0}, 1e21F}));
-  EXPECT_FALSE(overlaps(Aabb<double>{{0, 0, 0}, {1e200, 1e200, 1e200}}, Sphere<double>{{2e200, 2e200, 0}, 1.4e200}));
-  EXPECT_TRUE(overlaps(Aabb<double>{{0, 0, 0}, {1e200, 1e200, 1e200}}, Sphere<double>{{2e200, 2e200, 0}, 1.5e200}));
+TEST(RangeOfDouble, the_least_number_is_a_size) {
   const double least = std::numeric_limits<double>::denorm_min();
   EXPECT_TRUE(overlaps(Sphere<double>{{0, 0, 0}, least}, Sphere<double>{{2 * least, 0, 0}, least}));
   EXPECT_FALSE(overlaps(Sphere<double>{{0, 0, 0}, least}, Sphere<double>{{3 * least, 0, 0}, least}));

@@ -36,7 +36,7 @@ class BatchRowsOfBoxesAndBalls : public ::testing::TestWithParam<std::string> {
   BatchRows<Aabb<double>, Sphere<double>> rows{count, 3};
 };
 
-TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_for_any_split) {
+TEST_P(BatchRowsOfBoxesAndBalls, have_the_same_bits_for_any_split) {  // at any alignment
   Answers<double> whole(count), split(count);
   time_of_impact(rows.a.rows(), rows.b.rows(), whole.rows());
   std::size_t begin = 0;
@@ -98,39 +98,6 @@ TEST_P(BatchRowsOfBoxesAndBalls, have_the_scalar_codes_normals_and_points_on_req
   }
 }
 
-TEST_P(BatchRowsOfBoxesAndBalls, need_no_alignment) {
-  Answers<double> whole(count);
-  time_of_impact(rows.a.rows(), rows.b.rows(), whole.rows());
-  for (std::size_t off = 1; off < 9; ++off) {
-    Answers<double> shifted(count);
-    const ToiRows<double> part{std::span(shifted.status).subspan(off), std::span(shifted.time).subspan(off)};
-    time_of_impact(rows.a.rows(off, count), rows.b.rows(off, count), part);
-    for (std::size_t i = 0; i < off; ++i) {
-      shifted.status[i] = whole.status[i];
-      shifted.time[i] = whole.time[i];
-    }
-    EXPECT_TRUE(same_answers(whole, shifted));
-  }
-}
-
-TEST_P(BatchRowsOfBoxesAndBalls, are_not_spoiled_by_a_neighbor) {
-  RowTable<Box> boxes;
-  RowTable<Ball> balls;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < 64; ++i) {
-    boxes.push_back(at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}}));
-    balls.push_back({{{5, 0.25, 0.5}, i % 3 == 1 ? nan : 0.5}, {-8, 0, 0}});
-  }
-  Answers<double> answers(64);
-  time_of_impact(boxes.rows(), balls.rows(), answers.rows());
-  for (std::size_t i = 0; i < 64; ++i) {
-    EXPECT_EQ(answers.status[i], i % 3 == 1 ? ToiStatus::invalid : ToiStatus::hit);
-    if (i % 3 != 1) {
-      EXPECT_EQ(answers.time[i], 3.5 / 8);
-    }
-  }
-}
-
 TEST_P(BatchRowsOfBoxesAndBalls, of_points_are_answered_by_vectors) {
   RowTable<Box> boxes;
   RowTable<Ball> points;
@@ -176,28 +143,42 @@ TEST_P(BatchRowsOfBoxesAndBalls, of_which_roundings_decide_are_the_scalar_codes)
   const auto turned = at_rest(Obb<float>{{0, 0, 0}, {1, 0x1p-10F, 0x1p-10F}, unit.asDiagonal()});
   const Moving<Sphere<float>> head_on{{{1 + 0x1p-6F + 0x1p-20F + 26 * u, 0, 0}, 0x1p-20F}, {-0x1p-6F, 0, 0}};
   expect_as_scalar("an axis too long by 30 u", turned, head_on);
+  // Found by drawing five million: a slow axis is entered last, in whose noise a quick one leaves the face.
+  using F = Vec3<float>;
+  expect_as_scalar("a rim passed while a slow axis closes",
+                   Moving{Aabb<float>{F(-3.6644924F, 2, 0.99949294F), F(0.3206128F, 1.9277323F, 1.5F)},
+                          F(0.00091028214F, -5.31625F, -5.539623F)},
+                   at_rest(Sphere<float>{F(-1.3432537F, -0.5F, -1.308669F), 2}));
+  expect_as_scalar("another rim",
+                   Moving{Aabb<float>{F(-0.5F, 0.500006F, -1.4622943F), F(1.3395107F, 0, 0.5428998F)},
+                          F(-0.75F, -1.6043583e-05F, -0.25F)},
+                   at_rest(Sphere<float>{F(-2, -1, -1.0130483F), 1.5F}));
+  // The scalar code starts from the middle of the capsule, and takes a gap of a hundredth of a rounding of it for none.
+  const Capsule<double> nearly_touched{{-0.79990899469703436, 1.5, 0}, {-0.79990899469703436, 0.5, 0}, 0};
+  expect_as_scalar("a capsule's end that is all but touched",
+                   Moving{nearly_touched, Vec3<double>(1.1008612583391368, -0.56857734173536301, -2.4862988363020122)},
+                   at_rest(Sphere<double>{{-0.79628887088038658, 0.49764269878332656, -0.0045539825722720195},
+                                          0.006277015432715416}));
 }
 
 /// Rows whose boxes have bad axes among others, one at a time.
 template <class S> void expect_bad_axes_to_be_invalid() {
-  RowTable<Moving<Obb<S>>> boxes;
   RowTable<Moving<Sphere<S>>> balls;
   const std::array bad = {std::numeric_limits<S>::quiet_NaN(), std::numeric_limits<S>::infinity(), S(-3), S(0.5),
                           S(1e-3)};
   for (int i = 0; i < 90; ++i) {
-    boxes.push_back(at_rest(Obb<S>{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity()}));
     balls.push_back({{{5, 0.25, 0.5}, 0.5}, {i % 4 == 0 ? S(8) : S(-8), 0, 0}});
   }
   for (int k = 0; k < 9; ++k) {
     for (const S& off : bad) {
-      RowTable<Moving<Obb<S>>> mixed;
+      RowTable<Moving<Obb<S>>> boxes;
       for (int i = 0; i < 90; ++i) {
-        auto box = boxes[static_cast<std::size_t>(i)];
-        if (i % 3 == 1) box.shape.axes(k / 3, k % 3) += off;
-        mixed.push_back(box);
+        Obb<S> box{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity()};
+        if (i % 3 == 1) box.axes(k / 3, k % 3) += off;
+        boxes.push_back(at_rest(box));
       }
       Answers<S> answers(90);
-      time_of_impact(mixed.rows(), balls.rows(), answers.rows());
+      time_of_impact(boxes.rows(), balls.rows(), answers.rows());
       for (int i = 0; i < 90; ++i) {
         const ToiStatus fine = i % 4 == 0 ? ToiStatus::apart : ToiStatus::hit;
         EXPECT_EQ(answers.status[static_cast<std::size_t>(i)], i % 3 == 1 ? ToiStatus::invalid : fine)
@@ -233,31 +214,13 @@ TEST_P(BatchRowsOfBoxesAndBalls, of_rays_are_raycasts) {
       ASSERT_EQ(answers.time[i], toi.time) << i;
     }
   }
-  Answers<double> one(count);
-  raycast(rays[0], boxes.rows(), one.rows());
-  raycast(rays.rows(), boxes[0], one.rows());
-}
-
-// Found by drawing five million: a slow axis is entered last, in whose noise a quick one leaves the face.
-TEST_P(BatchRowsOfBoxesAndBalls, that_pass_a_rim_while_a_slow_axis_closes_are_misses) {
-  using F = Vec3<float>;
-  expect_as_scalar("the one",
-                   Moving{Aabb<float>{F(-3.6644924F, 2, 0.99949294F), F(0.3206128F, 1.9277323F, 1.5F)},
-                          F(0.00091028214F, -5.31625F, -5.539623F)},
-                   at_rest(Sphere<float>{F(-1.3432537F, -0.5F, -1.308669F), 2}));
-  expect_as_scalar("the other",
-                   Moving{Aabb<float>{F(-0.5F, 0.500006F, -1.4622943F), F(1.3395107F, 0, 0.5428998F)},
-                          F(-0.75F, -1.6043583e-05F, -0.25F)},
-                   at_rest(Sphere<float>{F(-2, -1, -1.0130483F), 1.5F}));
-}
-
-// The scalar code starts from the middle of the capsule, and takes a gap of a hundredth of a rounding of it for none.
-TEST_P(BatchRowsOfBoxesAndBalls, that_all_but_touch_a_capsules_end_are_the_scalar_codes_to_tell) {
-  using V = Vec3<double>;
-  const V top(-0.79990899469703436, 1.5, 0), motion(1.1008612583391368, -0.56857734173536301, -2.4862988363020122);
-  const V center(-0.79628887088038658, 0.49764269878332656, -0.0045539825722720195);
-  expect_as_scalar("an end", Moving{Capsule<double>{top, V(top[0], 0.5, 0), 0}, motion},
-                   at_rest(Sphere<double>{center, 0.006277015432715416}));
+  Answers<double> one_ray(count), one_box(count);
+  raycast(rays[0], boxes.rows(), one_ray.rows());
+  raycast(rays.rows(), boxes[0], one_box.rows());
+  for (std::size_t i = 0; i < count; ++i) {
+    ASSERT_EQ(one_ray.status[i], batch::cast(rays[0], boxes[i]).status) << i;
+    ASSERT_EQ(one_box.status[i], batch::cast(rays[i], boxes[0]).status) << i;
+  }
 }
 
 TEST_P(BatchRowsOfBoxesAndBalls, of_axes_that_are_longer_by_eight_roundings_are_of_longer_boxes) {

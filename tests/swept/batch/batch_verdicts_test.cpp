@@ -50,9 +50,7 @@ template <class A, class B> void judge_rows(const char* name, std::size_t count)
   SCOPED_TRACE(name);
   const BatchRows<A, B> rows(count, 7);
   ASSERT_TRUE(rows.has_every_status());
-  for (const std::string& target : vector_targets()) {
-    SCOPED_TRACE(target);
-    use_vectors(target);
+  for_each_target([&](const std::string& target) {
     Answers<S> answers(count);
     const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows());
     Faults<S> faults;
@@ -60,8 +58,7 @@ template <class A, class B> void judge_rows(const char* name, std::size_t count)
       faults.add(rows.a[i], rows.b[i], rows.truth[i], answers.status[i], answers.time[i]);
     }
     faults.report(name, target, count, report.asked_again);
-  }
-  use_vectors("");
+  });
 }
 
 /// The same of one against many, of which the first is its own row: there a first look may tell it apart.
@@ -70,9 +67,7 @@ template <class A, class B> void judge_one_against_many(const char* name, std::s
   SCOPED_TRACE(name);
   constexpr std::size_t many = 16;  // lanes, at the most
   const BatchRows<A, B> rows(count + many, 17);
-  for (const std::string& target : vector_targets()) {
-    SCOPED_TRACE(target);
-    use_vectors(target);
+  for_each_target([&](const std::string& target) {
     Answers<S> answers(many);
     Faults<S> faults;
     std::size_t asked_again = 0;
@@ -81,11 +76,10 @@ template <class A, class B> void judge_one_against_many(const char* name, std::s
       faults.add(rows.a[i], rows.b[i], rows.truth[i], answers.status[0], answers.time[0]);
     }
     faults.report(name, target, count * many, asked_again);
-  }
-  use_vectors("");
+  });
 }
 
-/// The same of rays at boxes, held against raycast.
+/// The same of verdicts of rays at boxes, held against raycast.
 template <class S> void judge_rays(std::size_t count) {
   Shaker<S> draw(11);
   RowTable<Ray<S>> rays;
@@ -97,9 +91,7 @@ template <class S> void judge_rays(std::size_t count) {
     rays.push_back({motion.a.shape.center, motion.a.displacement, most[static_cast<std::size_t>(draw.pick(0, 5))]});
     boxes.push_back(motion.b.shape);
   }
-  for (const std::string& target : vector_targets()) {
-    SCOPED_TRACE(target);
-    use_vectors(target);
+  for_each_target([&](const std::string& target) {
     Answers<S> answers(count);
     const BatchReport report = raycast(rays.rows(), boxes.rows(), answers.rows());
     std::size_t wrong = 0;
@@ -109,8 +101,7 @@ template <class S> void judge_rays(std::size_t count) {
     std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu\n", "ray aabb", target.c_str(), count,
                 100.0 * double(report.asked_again) / double(count), wrong);
     EXPECT_EQ(wrong, 0U);
-  }
-  use_vectors("");
+  });
 }
 
 template <class S> void judge_every_pair() {

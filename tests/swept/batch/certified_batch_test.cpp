@@ -4,10 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/swept/batch/run.hpp>
-#include <thinwall/swept/batch/table.hpp>
 #include <thinwall/swept/certified_batch.hpp>
 
+#include "support/batch_rows.hpp"
 #include "support/certified.hpp"
 #include "support/thorough.hpp"
 
@@ -32,9 +31,7 @@ TEST(CertifiedBatch, is_proven_by_the_integers_at_every_width) {
     a.push_back(motion.a);
     b.push_back(motion.b);
   }
-  for (const std::string& target : vector_targets()) {
-    SCOPED_TRACE(target);
-    use_vectors(target);
+  for_each_target([&](const std::string& target) {
     CertifiedAnswers answers(count);
     const BatchReport report = certified_time_of_impact(a.rows(), b.rows(), answers.rows(), {2});
     std::printf("%-7s %.2f %% asked again\n", target.c_str(), 100.0 * double(report.asked_again) / double(count));
@@ -45,8 +42,7 @@ TEST(CertifiedBatch, is_proven_by_the_integers_at_every_width) {
       EXPECT_EQ(toi.verdict, certified_time_of_impact(a[i], b[i]).verdict);
       EXPECT_TRUE(judge_exactly(a[i], b[i], toi));
     }
-  }
-  use_vectors("");
+  });
 }
 
 TEST(CertifiedBatch, names_what_is_wrong) {

@@ -1,4 +1,4 @@
-// Bisection by cases: late by at most the tolerance, bounded, and what it may miss.
+// Bisection, conservative advancement and inclusion by cases.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 
 namespace thinwall::testing {
 namespace {
+
+// ---- Bisection: late by at most the tolerance, bounded, and what it may miss.
 
 template <class S> using BisectionMethod = MethodCases<S>;
 TYPED_TEST_SUITE(BisectionMethod, Scalars, ScalarNames);
@@ -65,12 +67,6 @@ TYPED_TEST(BisectionMethod, both_searches_are_bounded) {  // a touch that no pos
   EXPECT_GE(longest, std::numeric_limits<S>::digits / 3);
 }
 
-TYPED_TEST(BisectionMethod, keeps_the_minimal_separation) {
-  using S = TypeParam;
-  const Toi<S> toi = time_of_impact(Bisection<S>{.min_separation = 0.125}, this->shot, this->wall);
-  EXPECT_TRUE(toi.time >= S(0.25) && toi.time <= S(0.25) + half_digits<S>());
-}
-
 /// Boxes that are apart by 2^-24 at first, a fortieth of what their axes in float are off by: the way from one to the other says nothing.
 TEST(BisectionInFloat, goes_by_no_slope_of_a_gap_that_is_rounding) {
   Shaker<float> draw(632056760);
@@ -88,7 +84,7 @@ TEST(BisectionInFloat, goes_by_no_slope_of_a_gap_that_is_rounding) {
   }
 }
 
-// ---- Conservative advancement by cases: never late, and bounded.
+// ---- Conservative advancement: never late, and bounded.
 
 template <class S> using Advancement = MethodCases<S>;
 TYPED_TEST_SUITE(Advancement, Scalars, ScalarNames);
@@ -133,12 +129,6 @@ TYPED_TEST(Advancement, out_of_evaluations_gives_up_with_what_is_proven) {
   this->template expect_what_is_proven<ConservativeAdvancement<TypeParam>>(true);
 }
 
-TYPED_TEST(Advancement, keeps_the_minimal_separation) {
-  using S = TypeParam;
-  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{.min_separation = 0.125}, this->shot, this->wall);
-  EXPECT_TRUE(toi.time < S(0.25) && toi.time >= S(0.25) * (1 - 1024 * unit<S>()));
-}
-
 TYPED_TEST(Advancement, leaving_is_apart_however_near) {
   using S = TypeParam;
   const Moving<Sphere<S>> leaving{Sphere<S>{{-next_up(S(0.375)), 0, 0}, 0.25}, {-1, 0, 0}};
@@ -162,7 +152,7 @@ TEST(AdvancementInFloat,
   EXPECT_EQ(below, 200);
 }
 
-// ---- The inclusion method by cases: never late, early by at most the tolerance, and bounded.
+// ---- Inclusion: never late, early by at most the tolerance, and bounded.
 
 template <class S> using InclusionMethod = MethodCases<S>;
 TYPED_TEST_SUITE(InclusionMethod, Scalars, ScalarNames);
@@ -204,12 +194,6 @@ TYPED_TEST(InclusionMethod, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
 
 TYPED_TEST(InclusionMethod, out_of_evaluations_gives_up_with_what_is_proven) {
   this->template expect_what_is_proven<Inclusion<TypeParam>>(false);
-}
-
-TYPED_TEST(InclusionMethod, keeps_the_minimal_separation) {
-  using S = TypeParam;
-  const Toi<S> toi = time_of_impact(Inclusion<S>{.min_separation = 0.125}, this->shot, this->wall);
-  EXPECT_TRUE(toi.time < S(0.25) && toi.time >= S(0.25) - half_digits<S>() - 512 * unit<S>());
 }
 
 }  // namespace

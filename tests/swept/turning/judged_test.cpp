@@ -2,13 +2,15 @@
 // is near by then, and what is called apart is proven apart.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <thinwall/swept/certified/turning_certified.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
 
+#include "support/numbers_of.hpp"
 #include "support/thorough.hpp"
 #include "support/turning_motions.hpp"
 #include "support/turning_oracle.hpp"
@@ -17,12 +19,6 @@ namespace thinwall::testing {
 namespace {
 
 using oracle::TurningOracle;
-
-/// What the answers were.
-struct Tally {
-  int motions = 0, apart = 0, hit = 0, overlapping = 0, gave_up = 0;
-  int frantic = 0;  ///< motions of a million radians, of which one may give up as many
-};
 
 /// [length] a step: no point of either is faster.
 template <class A> double fastest(const Turning<A>& m) {
@@ -48,23 +44,6 @@ template <class A, class B> double nearness(const Turning<A>& a, const Turning<B
   return std::max({tolerance * (fastest(a) + fastest(b)), rounding(a, b), hidden});
 }
 
-template <class A> std::string shown(const Turning<A>& m) {
-  const oracle::Spinner<double> body(m);
-  std::ostringstream out;
-  out << std::hexfloat;
-  const auto show = [&](const oracle::Triple<double>& v) {
-    out << " {" << v[0] << ", " << v[1] << ", " << v[2] << "}";
-  };
-  out << "center";
-  show(body.center);
-  out << " radius " << body.radius << " arms";
-  for (const auto& arm : body.arms) show(arm.start);
-  out << " path";
-  show(body.path);
-  out << " rotation {" << m.rotation[0] << ", " << m.rotation[1] << ", " << m.rotation[2] << "}\n";
-  return out.str();
-}
-
 /// What is wrong with an answer of a method that is never late; nothing if all is right.
 template <class A, class B>
 std::string wrong_with(const Turning<A>& a, const Turning<B>& b, const Toi<double>& toi, double tolerance) {
@@ -86,44 +65,29 @@ std::string wrong_with(const Turning<A>& a, const Turning<B>& b, const Toi<doubl
          std::to_string(proven);
 }
 
-template <class A, class B>
-void judge(const Turning<A>& a, const Turning<B>& b, const Toi<double>& toi, double tolerance, Tally& tally) {
-  const std::string wrong = wrong_with(a, b, toi, tolerance);
-  EXPECT_EQ(wrong, "") << "status " << static_cast<int>(toi.status) << " time " << toi.time << "\n"
-                       << shown(a) << shown(b);
-  ++tally.motions;
-  tally.apart += toi.status == ToiStatus::apart ? 1 : 0;
-  tally.hit += toi.status == ToiStatus::hit ? 1 : 0;
-  tally.overlapping += toi.status == ToiStatus::overlapping ? 1 : 0;
-  tally.gave_up += toi.status == ToiStatus::gave_up ? 1 : 0;
-}
+const std::size_t motions = thorough(slow_build ? 250 : 2'500);  ///< a pair, of eight: ten seconds of one core
 
 /// A motion of each style in turn, aimed in each way in turn.
-template <class A, class B, class Ask> Tally judge_motions(std::size_t count, const Ask& ask) {
-  Tally tally;
-  MotionDraw draw(count);
-  for (std::size_t i = 0; i < count; ++i) {
+template <class A, class B> void judge_pair() {
+  std::array<std::size_t, 5> answers{};  ///< by status
+  std::size_t frantic = 0;               ///< motions of a million radians, of which one may give up as many
+  MotionDraw draw(motions);
+  for (std::size_t i = 0; i < motions; ++i) {
     const auto style = static_cast<MotionStyle>(i % motion_styles);
     const auto aim = static_cast<Aim>(i / motion_styles % 4);
     const auto [a, b] = draw.motion<A, B>(style, aim);
-    ask(a, b, tally);
-    tally.frantic += style == MotionStyle::frantic ? 1 : 0;
+    const Toi<double> toi = time_of_impact(a, b);
+    EXPECT_EQ(wrong_with(a, b, toi, ConservativeAdvancement<double>{}.tolerance), "")
+        << "status " << static_cast<int>(toi.status) << " time " << toi.time << "\n"
+        << describe(a) << "\n"
+        << describe(b);
+    ++answers[static_cast<std::size_t>(toi.status)];
+    frantic += style == MotionStyle::frantic ? 1 : 0;
   }
-  ::testing::Test::RecordProperty("motions", tally.motions);
-  ::testing::Test::RecordProperty("hits", tally.hit);
-  ::testing::Test::RecordProperty("gave_up", tally.gave_up);
-  EXPECT_GT(tally.apart, tally.motions / 10);
-  EXPECT_GT(tally.hit, tally.motions / 10);
-  EXPECT_LE(tally.gave_up, tally.frantic + tally.motions / 200);
-  return tally;
-}
-
-const std::size_t motions = thorough(slow_build ? 250 : 2'500);  ///< a pair, of eight: ten seconds of one core
-
-template <class A, class B> Tally judge_pair() {
-  return judge_motions<A, B>(motions, [](const Turning<A>& a, const Turning<B>& b, Tally& tally) {
-    judge(a, b, time_of_impact(a, b), ConservativeAdvancement<double>{}.tolerance, tally);
-  });
+  const auto count = [&](ToiStatus status) { return answers[static_cast<std::size_t>(status)]; };
+  EXPECT_GT(count(ToiStatus::apart), motions / 10);
+  EXPECT_GT(count(ToiStatus::hit), motions / 10);
+  EXPECT_LE(count(ToiStatus::gave_up), frantic + motions / 200);
 }
 
 TEST(JudgedTurning, sphere_and_sphere) { judge_pair<Sphere<double>, Sphere<double>>(); }

@@ -102,12 +102,8 @@ Wide bound_at(const ConcaveBound<double>& bound, Wide tau) {
   return value - most;
 }
 
-struct Tightness {
-  double worst = 0;  ///< [margin] how far the true gap came below the bound with the margin given back
-};
-
-/// Checks one plane from one time on.
-void check_plane(const TurningPair<double>& pair, const Attached& attached, double time, Tightness& tightness) {
+/// Checks one plane from one time on. `worst` [margin] is how far the true gap came below the bound with the margin given back.
+void check_plane(const TurningPair<double>& pair, const Attached& attached, double time, double& worst) {
   const TurningInstant<double> now = instant(pair, time);
   const AttachedPlane<double> plane = attached.rides == Rides::edges
                                           ? plane_of_edges<double>(pair, now, attached.first, attached.second)
@@ -121,15 +117,14 @@ void check_plane(const TurningPair<double>& pair, const Attached& attached, doub
       const Wide gap = true_gap(pair, attached, attached_at, start + tau), below = bound_at(bound, tau);
       ASSERT_GE(gap, below) << "plane " << static_cast<int>(attached.rides) << ", from " << from->time << " by "
                             << static_cast<double>(tau) << ", angles " << pair.a.angle << " " << pair.b.angle;
-      if (step == 0)
-        tightness.worst = std::max(tightness.worst, static_cast<double>((below + allowed - gap) / allowed));
+      if (step == 0) worst = std::max(worst, static_cast<double>((below + allowed - gap) / allowed));
     }
   }
 }
 
 template <class A, class B> void check_pair(unsigned count) {
   PortableDraw draw(7);
-  Tightness tightness;
+  double worst = 0;
   for (unsigned i = 0; i < count; ++i) {
     const double most = draw.one_in(3) ? 20 : pi, far = draw.one_in(8) ? 1e4 : 2;
     const Turning<A> a = motion<A>(draw, most, far);
@@ -142,11 +137,11 @@ template <class A, class B> void check_pair(unsigned count) {
     for (const Rides rides : {Rides::world, Rides::a, Rides::b, Rides::edges}) {
       const V first = draw.direction(), second = draw.direction();
       const bool has_edges = pair.a.core.count > 0 && pair.b.core.count > 0;
-      if (has_edges || rides != Rides::edges) check_plane(pair, {rides, first, second}, time, tightness);
+      if (has_edges || rides != Rides::edges) check_plane(pair, {rides, first, second}, time, worst);
     }
     if (::testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_LT(tightness.worst, 0.5) << "of the margin is used up";
+  EXPECT_LT(worst, 0.5) << "of the margin is used up";
 }
 
 TEST(AttachedPlanes, are_below_the_gap) {

@@ -1,5 +1,4 @@
-// Two faces of upright boxes met at once to rounding, one of them slowly: the forward error is that of the face met last. And what is round,
-// beside a face that it meets slowly at the time at which it comes beside it.
+// Faces of boxes where roundings decide when they are met: two at once, one slowly, and those of axes that are not quite of unit length.
 
 #include <cmath>
 #include <limits>
@@ -18,7 +17,13 @@ namespace {
 
 using V = Vec3<double>;
 using Box = Aabb<double>;
-using Point = Sphere<double>;
+using Ball = Sphere<double>;
+
+const Allowance allowance = {4, 4, 1};
+const std::uint64_t motions = thorough(slow_build ? 50 : 1000);
+
+// ---- Two faces of upright boxes met at once to rounding, one of them slowly: the forward error is that of the face met last. And what is
+// round, beside a face that it meets slowly at the time at which it comes beside it.
 
 enum class Comes { as_a_box, as_a_point, as_a_ball };
 
@@ -52,14 +57,12 @@ struct Tie : PortableDraw {
     path += shift;
   }
 };
-const std::uint64_t motions = thorough(slow_build ? 50 : 1000);
 
 template <class A, class B>
 void meets_the_contract(const Moving<A>& a, const Moving<B>& b, std::uint64_t seed, double min_separation = 0) {
   oracle::Pair pair = oracle::pair(a, b);
   pair.min_separation = min_separation;
   const ClosedForm<double> method{min_separation};
-  const Allowance allowance = {4, 4, 1};
   EXPECT_TRUE(judge(pair, time_of_impact(method, a, b), allowance)) << "seed " << seed;
   EXPECT_TRUE(judge(pair, careful_impact(method, a, b), allowance)) << "careful, seed " << seed;
 }
@@ -74,7 +77,7 @@ TEST(Ties, two_boxes) {
 TEST(Ties, a_box_and_a_point) {
   for (std::uint64_t seed = 0; seed < motions; ++seed) {
     const Tie tie(seed, Comes::as_a_point);
-    meets_the_contract(tie.box, Moving{Point{tie.start, 0}, tie.path}, seed);
+    meets_the_contract(tie.box, Moving{Ball{tie.start, 0}, tie.path}, seed);
   }
 }
 
@@ -82,7 +85,7 @@ TEST(Ties, a_box_and_a_sphere) {
   for (std::uint64_t seed = 0; seed < motions; ++seed) {
     const Tie tie(seed, Comes::as_a_ball);
     const double gap = seed % 2 == 0 ? 0 : tie.radius / 4;
-    meets_the_contract(tie.box, Moving{Point{tie.start, tie.radius - gap}, tie.path}, seed, gap);
+    meets_the_contract(tie.box, Moving{Ball{tie.start, tie.radius - gap}, tie.path}, seed, gap);
   }
 }
 
@@ -101,7 +104,7 @@ TEST(Ties, a_box_and_a_ray) {
   for (std::uint64_t seed = 0; seed < motions; ++seed) {
     const Tie tie(seed, Comes::as_a_point);
     const V direction = tie.path - tie.box.displacement;
-    const oracle::Pair pair = oracle::pair(at_rest(tie.box.shape), Moving{Point{tie.start, 0}, direction});
+    const oracle::Pair pair = oracle::pair(at_rest(tie.box.shape), Moving{Ball{tie.start, 0}, direction});
     const oracle::Impact truth = oracle::impact(pair);
     for (const double max_t : {1.0, 1e300, most, never}) {
       const Ray<double> ray{tie.start, direction, max_t};
@@ -135,7 +138,7 @@ TEST(Ties, what_recedes_is_clear) {
 TEST(Ties, what_comes_from_near_is_clear) {
   for (const double gap : {3e-3, 3e-6, 3e-9, 3e-12}) {
     for (const double speed : {1e-2, 1e-6, 1e-14}) {
-      const Moving<Point> ball{{{3, 4, 1.5 + gap}, 0.5}, {0.1, 0.02, -speed}};
+      const Moving<Ball> ball{{{3, 4, 1.5 + gap}, 0.5}, {0.1, 0.02, -speed}};
       const Box floor{V::Zero(), {50, 50, 1}};
       EXPECT_TRUE(clear_impact(at_rest(floor), ball, 0.0).clear) << gap << " away, " << speed;
       const Obb<double> turned{floor.center, floor.half_extents, Mat3<double>::Identity()};
@@ -153,6 +156,76 @@ TEST(Ties, two_axes_alike) {
     EXPECT_DOUBLE_EQ(toi.time, 1 - 1 / std::abs(from[0]));
     EXPECT_EQ(toi.normal, V(from[0] > 0 ? 1 : -1, 0, 0));
   }
+}
+
+// ---- Axes are of unit length to rounding only. A box along the world's axes, whose own are off by 8 u, is met as the upright box of its
+// edges' true lengths is.
+
+/// A plate or a block at the origin, and a ball that comes from near one of its faces.
+struct NearShot : PortableDraw {
+  Moving<Obb<double>> box;
+  Moving<Aabb<double>> upright;
+  Moving<Ball> ball;
+
+  explicit NearShot(std::uint64_t seed) : PortableDraw(seed) {
+    const auto length = [this] { return 1 + (below(17) - 8) * 0x1p-53; };
+    const int side = below(3);
+    V lengths;
+    for (int i = 0; i < 3; ++i) lengths[i] = length();
+    V halves = V::Constant(8);  // powers of two: products with lengths are exact
+    halves[side] = std::ldexp(1.0, -below(8));
+    box = at_rest(Obb<double>{V::Zero(), halves, Mat3<double>(lengths.asDiagonal())});
+    upright = at_rest(Aabb<double>{V::Zero(), halves.cwiseProduct(lengths)});
+    V from = vector(-3, 3), to = vector(-6, 6);
+    from[side] = (one_in(2) ? -1 : 1) * (halves[side] + 0x1p-4 + between(0.01, 0.3));
+    to[side] = 0;
+    ball = {{from, 0x1p-4}, to - from};
+  }
+};
+
+TEST(AxesLengths, count_for_a_sphere) {
+  for (std::uint64_t seed = 0; seed < motions; ++seed) {
+    const NearShot shot(seed);
+    const oracle::Pair pair = oracle::pair(shot.upright, shot.ball);
+    EXPECT_TRUE(clear_impact(shot.box, shot.ball, 0.0).clear) << "seed " << seed;
+    EXPECT_TRUE(judge(pair, time_of_impact(shot.box, shot.ball), allowance)) << "seed " << seed;
+    EXPECT_TRUE(judge(pair, careful_impact(ClosedForm<double>{}, shot.box, shot.ball), allowance)) << "seed " << seed;
+  }
+}
+
+TEST(AxesLengths, count_for_a_capsule) {
+  for (std::uint64_t seed = 0; seed < motions / 10; ++seed) {
+    NearShot shot(seed);
+    const V start = shot.ball.shape.center, away = start.cwiseSign() * shot.between(0, 0.5);
+    const Moving capsule{Capsule<double>{start, start + away, shot.ball.shape.radius}, shot.ball.displacement};
+    EXPECT_TRUE(judge(oracle::pair(shot.upright, capsule), time_of_impact(shot.box, capsule), allowance))
+        << "seed " << seed;
+  }
+}
+
+TEST(AxesLengths, count_for_a_ray) {
+  for (std::uint64_t seed = 0; seed < motions; ++seed) {
+    const NearShot shot(seed);
+    const Ray<double> ray{shot.ball.shape.center, shot.ball.displacement, 1};
+    const oracle::Pair pair = oracle::pair(shot.upright, Moving{Ball{ray.origin, 0}, ray.direction});
+    const oracle::Impact truth = oracle::impact(pair);
+    for (const auto& hit : {raycast(ray, shot.box.shape), careful_raycast(ray, shot.box.shape)}) {
+      ASSERT_EQ(hit.has_value(), truth.verdict == oracle::Verdict::hit) << "seed " << seed;
+      if (!hit) continue;
+      EXPECT_LE(oracle::forward_error_in_u_kappa(truth, hit->t), 4) << "seed " << seed;
+      EXPECT_TRUE(is_unit(hit->normal)) << "seed " << seed;
+      EXPECT_LE(oracle::length(oracle::lift_vector(hit->point) - pair.offset(truth.time)), 0x1p-46) << "seed " << seed;
+    }
+  }
+}
+
+/// A floor leans by what its axes do, more than sizes round far from its middle.
+TEST(AxesLengths, are_not_clear_where_axes_lean) {
+  Obb<double> floor{V::Zero(), {10, 1, 0x1p-4}, Mat3<double>::Identity()};
+  const Moving<Ball> ball{{{5, 0, 0x1p-3 + 0x1p-5}, 0x1p-5}, {0, 0, -0.125}};
+  EXPECT_TRUE(clear_impact(at_rest(floor), ball, 0.0).clear);
+  floor.axes(2, 0) = 0x1p-50;
+  EXPECT_FALSE(clear_impact(at_rest(floor), ball, 0.0).clear);
 }
 
 }  // namespace
