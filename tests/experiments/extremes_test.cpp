@@ -91,20 +91,6 @@ TEST(ExtremeSettings, of_accuracy_are_a_thousand_units_a_row) {
 
 // ---- The precision ladder: who breaks where, known separations, and a self-test that fails a wrong theory.
 
-/// Two balls along two axes, small enough for a debug build.
-constexpr std::string_view few_extremes = R"(
-  axis = ["distance", "scale"]
-  distance = [1, 1e4]
-  scale = [1e-100, 1]
-  pair = ["sphere_sphere"]
-  precision = ["float", "double"]
-  queries = 6
-)";
-
-Outcome extreme_outcome(std::string_view text) {
-  return outcome_of(*run_of(extremes_experiment(), text, {.seed = 3, .trials = {}}));
-}
-
 enum : std::size_t { in_float, in_double, in_long_double, at_50_digits };
 
 /// The rows of one pair and precision along one axis.
@@ -310,7 +296,7 @@ TEST(ExtremesConfig, only_boxes_are_thin) {
 }
 
 TEST(ExtremesConfig, heat_maps_have_a_cell_for_all_that_is_asked) {
-  const Outcome outcome = extreme_outcome(few_extremes);
+  const Outcome outcome = outcome_of(extremes_experiment(), small_toml("extremes"));
   const Figure& verdicts = outcome.figures.front();
   EXPECT_EQ(verdicts.name, "verdicts");
   ASSERT_EQ(verdicts.panels.size(), 2U);            // a precision each
@@ -330,10 +316,10 @@ TEST(ExtremesConfig, heat_maps_have_a_cell_for_all_that_is_asked) {
 TEST(ExtremesConfig, answers_any_choice_in_three_sentences) {
   const std::string little = "\nqueries = 4\nprecision = ['double']";
   for (const std::string& text :
-       {std::string(few_extremes), "method = ['bisection']\naxis = ['ratio']\nratio = [1]" + little,
+       {small_toml("extremes"), "method = ['bisection']\naxis = ['ratio']\nratio = [1]" + little,
         "pair = ['capsule_triangle']\naxis = ['scale']\nscale = [1]" + little,
         "pair = ['sphere_sphere']\naxis = ['distance', 'scale']\ndistance = [1, 1e9]\nscale = [1, 2.5e100]" + little}) {
-    const Outcome outcome = extreme_outcome(text);
+    const Outcome outcome = outcome_of(extremes_experiment(), text);
     EXPECT_FALSE(outcome.summary.empty()) << text;
     const std::string& answer = outcome.answer;
     const std::regex full_stop("\\.( |$)");
