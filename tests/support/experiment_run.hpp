@@ -70,13 +70,17 @@ inline std::string refusal_of(const Experiment& experiment, std::string_view tex
   return error_of<UsageError>([&] { run_of(experiment, text); });
 }
 
-/// A text that an experiment does not take, and what it says of it.
+/// A text that an experiment does not take, and what it says of it in its one line.
 struct Refusal {
   std::string text, said;
 };
 
 inline void expect_refusals(const Experiment& experiment, const std::vector<Refusal>& refusals) {
-  for (const auto& [text, said] : refusals) EXPECT_TRUE(holds(refusal_of(experiment, text), said)) << text;
+  for (const auto& [text, said] : refusals) {
+    const std::string refusal = refusal_of(experiment, text);
+    EXPECT_TRUE(holds(refusal, said)) << text;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+  }
 }
 
 /// A configuration of a second or two.
