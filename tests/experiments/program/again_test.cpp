@@ -1,6 +1,5 @@
 /// A result run again from its manifest: the same, or what differs and why.
 
-#include <cstdlib>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -169,7 +168,7 @@ TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
 }
 
 TEST_F(SceneProgram, draws_and_checks_bodies_of_any_name) {
-  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "gnuplot is not installed";
+  if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
   std::string text = "experiment = 'scene'\nscene = 'names'\nsteps = 2\n";
   for (const char* name : {"\\\"", "''", "'first", "]]>", "]]></text><script>x</script>", "a`b`"}) {
     text += "[[body]]\nshape = 'sphere'\nradius = 1\nvelocity = [1, 0, 0]\nname = \"" + std::string(name) + "\"\n";

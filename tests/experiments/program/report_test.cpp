@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
@@ -14,8 +13,6 @@
 
 namespace thinwall {
 namespace {
-
-bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null") == 0; }
 
 struct ReportTest : ToyProgram {
   void SetUp() override {
