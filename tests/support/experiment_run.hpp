@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
@@ -56,6 +56,10 @@ inline void expect_readable(const Outcome& outcome) {
 }
 
 // ---- Runs of an experiment.
+
+inline const Experiment& experiment_called(std::string_view name) {
+  return *std::ranges::find(experiments(), name, &Experiment::name);
+}
 
 /// Configured by `text`, laid over the experiment's defaults. Throws UsageError.
 inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_view text,
