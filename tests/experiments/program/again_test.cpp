@@ -211,7 +211,8 @@ TEST_F(SceneProgram, plan_prints_what_is_left_out) {
   EXPECT_FALSE(json["full"].get<bool>());
 }
 
-TEST_F(SceneProgram, refuses_what_is_no_scene) {
+TEST_F(SceneProgram, refuses_what_is_no_scene_or_plan) {
+  expect_refused({"plan", file, "--plan", "fat"}, "--plan: 'fat' is not allowed");
   write_text(file, "experiment = 'toy'\n");
   expect_refused({"compare", file, "--out", out}, "not a scene");
   expect_refused({"plan", file}, "not a scene");
@@ -223,14 +224,6 @@ TEST_F(SceneProgram, refuses_what_is_no_scene) {
   write_text(file, "radius = 1\n");
   expect_refused({"plan", file}, "key 'radius': unknown key");
   expect_refused({"run", file, "--out", out}, "key 'experiment': missing");
-}
-
-TEST_F(SceneProgram, names_what_is_wrong_in_a_scene) {
-  expect_refused({"plan", file, "--plan", "fat"}, "--plan: 'fat' is not allowed");
-  write_text(file, bullet_text("polcy = 'clamp'\n"));
-  expect_refused({"run", file, "--out", out}, "my.toml:3: key 'polcy': unknown key; did you mean 'policy'?");
-  write_text(file, bullet_text() + "mass = 0\n");
-  expect_refused({"run", file, "--out", out}, "key 'body.mass'");
 }
 
 }  // namespace

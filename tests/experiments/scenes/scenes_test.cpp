@@ -395,24 +395,6 @@ TEST(SceneRun, traces_how_bodies_turn) {
   EXPECT_FALSE(holds(trace_of(scene_from(bullet_text())), "turning"));
 }
 
-/// Bits do not depend on threads, nor on what the plan leaves out.
-TEST(SceneRun, threads_and_plan_change_no_bit) {
-  std::uint64_t first = 0;
-  for (const int threads : {1, 2, 3}) {
-    for (const char* plan : {"lean", "full"}) {
-      Settings settings = scene_settings(
-          "scene = 'many'\nsteps = 20\ngravity = [0, -9, 0]\n[[body]]\nshape = 'sphere'\n"
-          "radius = 0.2\nrestitution = 0.5\ncopies = [4, 4, 2]\nevery = [1, 1, 1]\n"
-          "velocity_jitter = [30, 30, 30]\n[[body]]\nshape = 'box'\nmotion = 'static'\n"
-          "size = [20, 0.1, 20]\nat = [0, -1, 0]\n");
-      settings.assign("plan", plan);
-      const std::uint64_t hash = play(read_scene(settings, {.seed = 3, .trials = {}, .threads = threads})).hash;
-      if (first == 0) first = hash;
-      EXPECT_EQ(hash, first) << threads << " " << plan;
-    }
-  }
-}
-
 // ---- Time policies on one scene, held against the exact run.
 
 const std::string compared = "\n[compare]\ndt = [0.02, 0.001]\nrepeats = 2\nfiner = 2\n";
