@@ -468,45 +468,6 @@ TEST(Comparison, tells_discrete_from_swept) {
   }
 }
 
-/// Balls of 0.125 m in pairs, each on a line of its own: the exact run is held against a sheet of paper, not against a run.
-TEST(Comparison, holds_every_kind_of_pair_against_the_time_it_meets) {
-  struct Pair {
-    std::string first, second;       // motion
-    double gap, speed, other_speed;  // [m], [m/s] toward each other
-  };
-  const std::vector<Pair> pairs = {{"driven", "static", 0.9375, 11, 0},   {"driven", "static", 9.75, 1000, 0},
-                                   {"driven", "driven", 0.875, 7, 3},     {"driven", "driven", 19.75, 1000, 500},
-                                   {"free", "static", 9.75, 1000, 0},     {"free", "free", 19.75, 500, 1000},
-                                   {"driven", "free", 19.75, 1000, 1000}, {"driven", "free", 0.875, 12, 0}};
-  std::string bodies;
-  std::vector<FirstMeeting> expected;
-  const auto add = [&](const std::string& motion, double x, double speed) {
-    bodies += "[[body]]\nshape = 'sphere'\nradius = 0.125\nmotion = '" + motion + "'\n";
-    bodies += fmt::format("at = [{}, {}, 0]\nvelocity = [{}, 0, 0]\n", x, expected.size(), speed);
-  };
-  for (const Pair& pair : pairs) {
-    add(pair.first, 0, pair.speed);
-    add(pair.second, pair.gap, -pair.other_speed);
-    const auto id = static_cast<std::uint32_t>(2 * expected.size() + 1);
-    expected.push_back({id, id + 1, (pair.gap - 0.25) / (pair.speed + pair.other_speed)});
-  }
-  for (const char* way : {"response = true\n", "response = false\n", "plan = 'full'\n"}) {
-    const Comparison comparison = comparison_from("scene = 'pairs'\ndt = 0.02\nsteps = 5\n" + std::string(way) +
-                                                  bodies + "[compare]\ndt = [0.001, 0.02]\nfiner = 2\n");
-    std::vector<Contender> all = comparison.contenders;
-    all.push_back(comparison.exact);
-    for (const Contender& contender : all) {
-      if (contender.policy == TimePolicy::discrete || contender.policy == TimePolicy::substeps) continue;
-      const Trial trial = run_trial(scene_for(comparison, contender));
-      const std::string where = fmt::format("{} {} {}", contender.label(), contender.dt, way);
-      EXPECT_EQ(trial.tunneled, 0) << where;
-      ASSERT_EQ(trial.meetings.size(), expected.size()) << where;
-      for (const auto& [first, second, time] : expected)
-        EXPECT_NEAR(trial.met(first, second).value_or(-1), time, 1e-14) << where << first;
-    }
-  }
-}
-
 /// A blade that goes by a post, and a rod that comes down on a wall: their angles by hand, and each policy and the exact run against them.
 TEST(Comparison, holds_what_turns_against_the_angle_at_which_it_meets) {
   const double rate = 100, reach = 0.05, rho = 0.6, phi = 1.2;  // both radii, and where the post stands
