@@ -185,8 +185,7 @@ const json& of_method(const json& methods, const std::string& name) {
 }
 
 /// A ball flies at a rod that turns about its own length: they touch at 5/8 of the step.
-struct PublishedTurningFile : ::testing::Test {
-  TemporaryFolder folder;
+struct PublishedTurningFile : ValidateTest {
   Turning<Capsule<double>> rod{{{-2, 0, 0}, {2, 0, 0}, 0.5}, {0, 0, 0}, {3.25, 0, 0}};
   Turning<Sphere<double>> ball{{{0.5, 4, 0}, 1}, {0, -4, 0}, {0, 0, 0}};
   std::string header = testing::turning_header(rod, ball);
@@ -194,12 +193,8 @@ struct PublishedTurningFile : ::testing::Test {
   std::string row(const testing::TurningAnswer& answer) const {
     return testing::turning_row(0, "any", "none", answer, rod, ball);
   }
-  std::string write(const std::string& text, const std::string& name = "a.csv") const {
-    write_text(folder.path() / name, text);
-    return folder / name;
-  }
   void expect_refusal(const std::string& text, const std::string& said) const {
-    const std::string file = write(text);
+    const std::string file = write("a.csv", text);
     EXPECT_EQ(refusal(validate_turning(file)), file + said + "\n");
   }
 };
@@ -228,7 +223,7 @@ TEST(PublishedTurningSet, every_method_keeps_what_it_claims) {
 
 TEST_F(PublishedTurningFile, the_right_time_passes_and_a_wrong_one_is_noticed) {
   const auto reply_to = [&](const testing::TurningAnswer& answer) {
-    return validate_turning(write(header + "\n" + row(answer) + "\r\n"));
+    return validate_turning(write("a.csv", header + "\n" + row(answer) + "\r\n"));
   };
   const Reply right = reply_to({"hit", "0.625", ""});
   EXPECT_EQ(right.status, 0) << right.err;
@@ -289,7 +284,7 @@ TEST_F(PublishedTurningFile, what_is_no_file_is_refused) {
 
 TEST_F(PublishedTurningFile, numbers_are_written_and_read_to_the_bit) {
   rod.shape.radius = std::nextafter(0.5, 0);  // meets the ball 2^-56 later: the shortest text has it
-  const Reply reply = validate_turning(write(header + "\n" + row({"hit", "0.625", ""}) + "\n"), {"--json"});
+  const Reply reply = validate_turning(write("a.csv", header + "\n" + row({"hit", "0.625", ""}) + "\n"), {"--json"});
   EXPECT_EQ(reply.status, 0) << reply.err;
   const json said = json::parse(reply.out);
   EXPECT_EQ(of_method(said["methods"], "certified")["touching"], 1);
