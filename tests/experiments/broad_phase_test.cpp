@@ -9,7 +9,6 @@
 #include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 namespace {

@@ -17,7 +17,6 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 

@@ -14,7 +14,6 @@
 #include <thinwall_embedded.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 namespace {

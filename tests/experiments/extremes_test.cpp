@@ -15,7 +15,6 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 

@@ -14,7 +14,6 @@
 #include <thinwall/experiments/spinning_rod/methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 

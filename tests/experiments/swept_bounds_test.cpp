@@ -20,7 +20,6 @@
 #include <thinwall/swept/swept_volume.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 

@@ -11,7 +11,6 @@
 #include <thinwall/swept/turning/turning_methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 namespace {

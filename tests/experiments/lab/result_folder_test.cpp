@@ -7,7 +7,6 @@
 #include <thinwall/experiments/lab/comparison.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 
-#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {

@@ -9,7 +9,6 @@
 #include <thinwall/experiments/lab/sha256.hpp>
 
 #include "experiments/scenes/scene_text.hpp"
-#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {

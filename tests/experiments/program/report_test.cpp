@@ -8,7 +8,6 @@
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 
-#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {

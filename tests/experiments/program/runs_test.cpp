@@ -19,7 +19,6 @@
 #include <thinwall/experiments/lab/sha256.hpp>
 
 #include "support/program.hpp"
-#include "support/said.hpp"
 #include "support/thorough.hpp"
 #include "support/toy.hpp"
 

@@ -9,7 +9,6 @@
 #include <thinwall/experiments/lab/shards.hpp>
 
 #include "support/program.hpp"
-#include "support/said.hpp"
 #include "support/thorough.hpp"
 #include "support/toy.hpp"
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +17,6 @@
 #include "experiments/scenes/scene_text.hpp"
 #include "support/experiment_run.hpp"
 #include "support/program.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 

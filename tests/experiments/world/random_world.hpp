@@ -1,7 +1,8 @@
 #pragma once
 /// Time policies, and small worlds in which much happens: fast bodies of every shape, walls, masks, bodies in each other, ties.
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
