@@ -14,7 +14,6 @@ namespace thinwall::testing {
 constexpr TimePolicy all_policies[] = {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp,
                                        TimePolicy::event_driven};
 constexpr TimePolicy swept_policies[] = {TimePolicy::clamp, TimePolicy::event_driven};
-inline bool sweeps(TimePolicy policy) { return policy == TimePolicy::clamp || policy == TimePolicy::event_driven; }
 
 class WorldDraw {
  public:
