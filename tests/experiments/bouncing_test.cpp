@@ -22,13 +22,9 @@ namespace thinwall {
 
 namespace {
 
-std::unique_ptr<Run> bouncing_run(std::string_view text, RunOptions options = {.seed = 1, .trials = {}}) {
-  return run_of(bouncing_experiment(), text, options);
-}
-
 /// Of the small configuration, run once for all tests that only look.
 const Outcome& small_outcome() {
-  static const Outcome outcome = outcome_of(*bouncing_run(small_toml("bouncing")));
+  static const Outcome outcome = outcome_of(bouncing_experiment(), small_toml("bouncing"));
   return outcome;
 }
 
@@ -99,7 +95,7 @@ TEST(Bouncing, fails_a_wrong_theory) {
 
 /// Of the journal of a run: one crowd that went wrong.
 TEST(Bouncing, fails_a_scenario_that_went_wrong) {
-  const auto run = bouncing_run(small_toml("bouncing"));
+  const auto run = run_of(bouncing_experiment(), small_toml("bouncing"));
   const std::vector<Unit> units = run->units();
   std::vector<std::string> results = results_of(units);
   const std::vector<double> seconds(results.size(), 1e-3);
@@ -113,24 +109,8 @@ TEST(Bouncing, fails_a_scenario_that_went_wrong) {
 
 TEST(Bouncing, too_few_bounces_are_not_judged) {
   EXPECT_EQ(value_of(table_of(small_outcome(), "self_test"), "project_flip", "other_cells"), Value(std::int64_t{0}));
-  const auto run = bouncing_run(small_toml("bouncing"), {.seed = 1, .trials = 20});
-  EXPECT_EQ(value_of(table_of(outcome_of(*run), "self_test"), "linear_toi", "other_cells"), Value(std::int64_t{6}));
-}
-
-TEST(Bouncing, a_cell_keeps_its_bounces_whatever_else_is_asked) {
-  const Table& all = table_of(small_outcome(), "cells");
-  const auto run = bouncing_run(R"(
-    step = [0.016666666666666666]
-    restitution = [0.5]
-    policy = ["linear_toi"]
-    scenario = ["walls"]
-    bounces = 400
-    rounds = 1
-    runs = 2
-    run_bounces = 1)");
-  const Table one = table_of(outcome_of(*run), "cells");
-  ASSERT_EQ(one.rows.size(), 1U);
-  EXPECT_EQ(std::ranges::count(all.rows, one.rows[0]), 1);
+  const Outcome few = outcome_of(bouncing_experiment(), small_toml("bouncing"), {.seed = 1, .trials = 20});
+  EXPECT_EQ(value_of(table_of(few, "self_test"), "linear_toi", "other_cells"), Value(std::int64_t{6}));
 }
 
 BounceCell drop(double step, double restitution) { return {9.81, 1, 0.1, step, restitution}; }
@@ -174,7 +154,7 @@ TEST(BounceTally, is_the_mean_and_the_variance) {
 /// Any policy alone has an answer, tables and pictures.
 TEST(BouncingConfig, answers_for_any_one_policy_and_step) {
   for (const BouncePolicy& policy : all_bounce_policies) {
-    const auto run = bouncing_run("policy = ['" + std::string(policy.name) + R"(']
+    const Outcome outcome = outcome_of(bouncing_experiment(), "policy = ['" + std::string(policy.name) + R"(']
       step = [0.05]
       restitution = [0.5]
       scenario = ["walls"]
@@ -182,7 +162,6 @@ TEST(BouncingConfig, answers_for_any_one_policy_and_step) {
       runs = 2
       run_bounces = 2
       rounds = 1)");
-    const Outcome outcome = outcome_of(*run);
     EXPECT_NE(outcome.answer.find(policy.name), std::string::npos) << outcome.answer;
     EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
     EXPECT_EQ(outcome.figures.size(), 4U);
@@ -191,26 +170,20 @@ TEST(BouncingConfig, answers_for_any_one_policy_and_step) {
 
 /// What a factor's range allows is the factor's own; this is what goes together, or not.
 TEST(BouncingConfig, refuses_what_does_not_go_together) {
-  const std::pair<const char*, const char*> refusals[] = {
-      {"step = [0.3]", "gravity adds 0.0001 to 0.5 of the impact speed"},
-      {"step = [1e-6]", "gravity adds 0.0001 to 0.5 of the impact speed"},
-      {"radius = 1e-4", "0.001 to 10 times the height"},
-      {"radius = 11", "0.001 to 10 times the height"},
-      {"policy = ['project_flp']", "did you mean 'project_flip'?"},
-      {"mass_ratio = [0.5]", "key 'mass_ratio'"},
-      {"runs = 1", "key 'runs'"},
-      {"run_bounces = 0", "key 'run_bounces'"},
-      {"rounds = 0", "key 'rounds'"},
-      {"digits = 8", "key 'digits'"},
-  };
-  for (const auto& [text, reason] : refusals) {
-    const std::string refusal = refusal_of(bouncing_experiment(), text);
-    EXPECT_NE(refusal.find(reason), std::string::npos) << text << ": " << refusal;
-  }
+  expect_refusals(bouncing_experiment(), {{"step = [0.3]", "gravity adds 0.0001 to 0.5 of the impact speed"},
+                                          {"step = [1e-6]", "gravity adds 0.0001 to 0.5 of the impact speed"},
+                                          {"radius = 1e-4", "0.001 to 10 times the height"},
+                                          {"radius = 11", "0.001 to 10 times the height"},
+                                          {"policy = ['project_flp']", "did you mean 'project_flip'?"},
+                                          {"mass_ratio = [0.5]", "key 'mass_ratio'"},
+                                          {"runs = 1", "key 'runs'"},
+                                          {"run_bounces = 0", "key 'run_bounces'"},
+                                          {"rounds = 0", "key 'rounds'"},
+                                          {"digits = 8", "key 'digits'"}});
 }
 
 TEST(BouncingConfig, crowds_come_in_the_order_asked) {
-  const auto run = bouncing_run("scenario = ['walls', 'zeno']");
+  const auto run = run_of(bouncing_experiment(), "scenario = ['walls', 'zeno']");
   EXPECT_EQ(run->units()[0].key, "scenario walls");
   EXPECT_EQ(run->units()[1].key, "scenario zeno");
 }

@@ -9,7 +9,6 @@
 #include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 namespace {
@@ -78,14 +77,8 @@ TEST(BroadPhase, counts_as_meetings_the_balls_that_touch_and_not_the_boxes) {
   EXPECT_EQ(count_meetings(crowd, {{0, 1}, {0, 2}, {1, 2}, {0, 3}}), 3);  // 0 and 2 pass each other's corner
 }
 
-constexpr std::string_view few_crowds = "count = [30, 400]\nspeed = [0.1, 2]\nrounds = 3";
-
-std::unique_ptr<Run> broad_phase_run(std::string_view text) {
-  return run_of(broad_phase_experiment(), text, {.seed = 5, .trials = {}});
-}
-
 TEST(BroadPhase, puts_every_broad_phase_of_the_list_to_every_world) {
-  const auto run = broad_phase_run(few_crowds);
+  const auto run = run_of(broad_phase_experiment(), small_toml("broad_phase"));
   for (const Unit& unit : run->units()) {
     const auto s = from_text<Survey>(unit.compute());
     for_each_type(BroadPhases{}, [&]<class Method>(TypeTag<Method>) {
@@ -99,15 +92,6 @@ TEST(BroadPhase, puts_every_broad_phase_of_the_list_to_every_world) {
     EXPECT_LT(s.meetings, s.pairs);
     for (const Finding& f : s.findings) EXPECT_TRUE(f.is_right()) << f.finder << " misses " << f.missing;
   }
-}
-
-TEST(BroadPhase, says_the_same_of_pairs_in_every_run) {
-  const Outcome first = outcome_of(*broad_phase_run(few_crowds)), second = outcome_of(*broad_phase_run(few_crowds));
-  EXPECT_TRUE(first.self_test_passed);
-  EXPECT_EQ(table_of(first, "crowds").rows, table_of(second, "crowds").rows);
-  EXPECT_FALSE(table_of(first, "crowds").is_timing);
-  EXPECT_TRUE(table_of(first, "timings").is_timing);
-  for (const Figure& f : first.figures) EXPECT_TRUE(f.is_timing);
 }
 
 /// A finding as none is.
@@ -134,7 +118,7 @@ Outcome outcome_of_rows(const std::vector<SurveyRow>& rows) {
     counts += (counts.empty() ? "" : ", ") + std::to_string(row.crowd.count);
     results.push_back(to_text(row.survey));
   }
-  const auto run = broad_phase_run("speed = [1]\nplacement = [\"uniform\"]\ncount = [" + counts + "]");
+  const auto run = run_of(broad_phase_experiment(), "speed = [1]\nplacement = ['uniform']\ncount = [" + counts + "]");
   return run->finish(results, std::vector<double>(results.size(), 1));
 }
 
@@ -191,9 +175,9 @@ TEST(BroadPhase, fits_only_counts_beyond_the_fixed_costs_and_sees_where_the_loop
 }
 
 TEST(BroadPhase, refuses_a_world_that_nobody_would_look_at) {
-  EXPECT_TRUE(holds(
-      error_of<UsageError>([] { broad_phase_run("broad_phase = [\"all_pairs\"]\nloops_up_to = 5\ncount = [6]"); }),
-      "'broad_phase': [\"all_pairs\"] is not allowed; at least one that is not left out of 6 balls"));
+  expect_refusals(broad_phase_experiment(),
+                  {{"broad_phase = ['all_pairs']\nloops_up_to = 5\ncount = [6]",
+                    "'broad_phase': [\"all_pairs\"] is not allowed; at least one that is not left out of 6 balls"}});
 }
 
 }  // namespace

@@ -17,53 +17,41 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 
 namespace {
 
-/// Small enough for a debug build, and still with every kind of cell: at rest, chase, crossing and head-on.
-constexpr std::string_view few_crossings = R"(
-  speed = [10]
-  ratio = [0, 0.5]
-  angle_deg = [0, 90, 180]
-  offset = [1, 4]
-  shots = 1000
-)";
-
-std::unique_ptr<Run> crossing_run(std::string_view text, RunOptions options = {.seed = 1, .trials = {}}) {
-  return run_of(crossing_bullets_experiment(), text, options);
+/// Of every kind of cell, at rest, chase, crossing and head-on: run once for all tests that only look.
+const Outcome& small_outcome() {
+  static const Outcome outcome = outcome_of(crossing_bullets_experiment(), small_toml("crossing_bullets"));
+  return outcome;
 }
 
-Outcome crossing_outcome(std::string_view text) { return outcome_of(*crossing_run(text)); }
-
-std::int64_t count(const Outcome& outcome, const char* table, const char* rule, const char* column) {
-  return std::get<std::int64_t>(value_of(table_of(outcome, table), rule, column));
+std::int64_t count(const char* table, const char* rule, const char* column) {
+  return std::get<std::int64_t>(value_of(table_of(small_outcome(), table), rule, column));
 }
 
 /// The failure is specified too.
 TEST(CrossingBullets, two_bullets_head_on_pass_each_other) {
-  const Outcome outcome = crossing_outcome(few_crossings);
-  EXPECT_EQ(count(outcome, "head_on", "sweep_then_confirm", "touching"), 1000);
-  EXPECT_GT(count(outcome, "head_on", "sweep_then_confirm", "missed"), 960);
-  EXPECT_NEAR(static_cast<double>(count(outcome, "head_on", "end_of_step", "missed")), 840, 50);
-  EXPECT_EQ(count(outcome, "head_on", "swept_overlap", "missed"), 0);
-  EXPECT_EQ(count(outcome, "head_on", "closed_form", "missed"), 0);
+  EXPECT_EQ(count("head_on", "sweep_then_confirm", "touching"), 1000);
+  EXPECT_GT(count("head_on", "sweep_then_confirm", "missed"), 960);
+  EXPECT_NEAR(static_cast<double>(count("head_on", "end_of_step", "missed")), 840, 50);
+  EXPECT_EQ(count("head_on", "swept_overlap", "missed"), 0);
+  EXPECT_EQ(count("head_on", "closed_form", "missed"), 0);
 }
 
 TEST(CrossingBullets, sweeping_both_makes_false_hits_and_the_confirmed_are_none) {
-  const Outcome outcome = crossing_outcome(few_crossings);
-  EXPECT_GT(count(outcome, "rules", "swept_overlap", "false_hits"), 50);
-  EXPECT_EQ(count(outcome, "rules", "swept_overlap", "missed"), 0);
-  EXPECT_EQ(count(outcome, "rules", "sweep_then_confirm", "false_hits"), 0);
-  EXPECT_GT(count(outcome, "rules", "sweep_then_confirm", "missed"), 3000);
-  EXPECT_EQ(count(outcome, "rules", "closed_form", "missed"), 0);
-  EXPECT_EQ(count(outcome, "rules", "closed_form", "false_hits"), 0);
+  EXPECT_GT(count("rules", "swept_overlap", "false_hits"), 50);
+  EXPECT_EQ(count("rules", "swept_overlap", "missed"), 0);
+  EXPECT_EQ(count("rules", "sweep_then_confirm", "false_hits"), 0);
+  EXPECT_GT(count("rules", "sweep_then_confirm", "missed"), 3000);
+  EXPECT_EQ(count("rules", "closed_form", "missed"), 0);
+  EXPECT_EQ(count("rules", "closed_form", "false_hits"), 0);
 }
 
 TEST(CrossingBullets, agrees_with_theory) {
-  const Outcome outcome = crossing_outcome(few_crossings);
+  const Outcome& outcome = small_outcome();
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 1U + 4 * 3);
   EXPECT_EQ(table_of(outcome, "times").rows.size(), 3U);
@@ -144,18 +132,6 @@ TEST(CrossingBullets, every_miss_has_a_cause) {
   }
 }
 
-TEST(CrossingBullets, a_cell_keeps_its_encounters_whatever_else_is_asked) {
-  const Table all = table_of(crossing_outcome(few_crossings), "cells");
-  const Table one =
-      table_of(crossing_outcome(
-                   "speed = [10]\nratio = [0.5]\nangle_deg = [90]\noffset = [4]\nshots = 1000\nrule = ['end_of_step']"),
-               "cells");
-  ASSERT_EQ(one.rows.size(), 2U);  // head-on, and the cell
-  for (const std::vector<Value>& row : one.rows) {
-    EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
-  }
-}
-
 TEST(CrossingBulletsConfig, opens_with_the_head_on_bullets_and_leaves_out_no_relative_motion) {
   const Experiment experiment = crossing_bullets_experiment();
   const auto cells = make_crossings(Settings("", "test.toml", experiment.default_toml));
@@ -171,25 +147,24 @@ TEST(CrossingBulletsConfig, asks_every_method_of_the_list_that_serves_two_sphere
       EXPECT_NE(std::find(names.begin(), names.end(), Method::name), names.end()) << Method::name;
     }
   });
-  const Outcome outcome = crossing_outcome("rule = ['all']\nspeed = [10]\nratio = [1]\nangle_deg = [90]\nshots = 20");
+  const Outcome outcome = outcome_of(crossing_bullets_experiment(),
+                                     "rule = ['all']\nspeed = [10]\nratio = [1]\nangle_deg = [90]\nshots = 20");
   EXPECT_EQ(table_of(outcome, "rules").rows.size(), names.size());
 }
 
 TEST(CrossingBulletsConfig, answers_for_any_choice_of_rules) {
-  const Outcome outcome =
-      crossing_outcome("rule = ['bisection']\nspeed = [10]\nratio = [1]\nangle_deg = [90]\nshots = 20");
+  const Outcome outcome = outcome_of(crossing_bullets_experiment(),
+                                     "rule = ['bisection']\nspeed = [10]\nratio = [1]\nangle_deg = [90]\nshots = 20");
   EXPECT_TRUE(holds(outcome.answer, "bisection misses 0 of"));
   EXPECT_TRUE(outcome.figures.empty());
 }
 
 TEST(CrossingBulletsConfig, refuses_what_cannot_be_asked) {
-  const auto refusal = [](const char* text) { return error_of<UsageError>([&] { crossing_run(text); }); };
-  for (const char* text :
-       {"speed = [1e-6]", "speed = [1e8]", "ratio = [1]\nangle_deg = [1e-9]", "ratio = [1]\nangle_deg = [0]"}) {
-    EXPECT_NE(refusal(text), "") << text;
-  }
-  EXPECT_TRUE(holds(refusal("speed = [1e8]"), "a path of 0.01 to 10000 contact distances a step"));
-  EXPECT_TRUE(holds(refusal("ratio = [1]\nangle_deg = [1e-9]"), "not so at ratio 1"));
+  expect_refusals(crossing_bullets_experiment(),
+                  {{"speed = [1e-6]", "a path of 0.01 to 10000 contact distances a step"},
+                   {"speed = [1e8]", "a path of 0.01 to 10000 contact distances a step"},
+                   {"ratio = [1]\nangle_deg = [1e-9]", "not so at ratio 1"},
+                   {"ratio = [1]\nangle_deg = [0]", "an angle at which balls of equal speed move against each other"}});
 }
 
 // ---- The crossing bullets' encounters, oracle and theory, without any rule: limits that have a formula of their own.

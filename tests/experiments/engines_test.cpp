@@ -1,5 +1,5 @@
-/// The shots that engines get and the oracle's time of contact; the chance of going through, averaged over angles; and what a flight
-/// is taken for, on flights made up by hand.
+/// The shots that engines get and the oracle's time of contact; the chance of going through, averaged over angles; what a flight is
+/// taken for, on flights made up by hand; and the stages that engines play.
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@
 #include <thinwall/experiments/engines/speaker.hpp>
 #include <thinwall/experiments/engines/stages.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
+#include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/tunneling_theory.hpp>
 
 #include "support/experiment_run.hpp"
@@ -187,8 +188,9 @@ constexpr std::string_view few_engine_shots = R"(
   stage_shots = 20
 )";
 
-EnginePlan engine_plan(std::string_view text) {
-  return make_engine_plan(Settings(text, "test.toml", engines_experiment().default_toml), {.seed = 1, .trials = {}});
+EnginePlan engine_plan(std::string_view text, std::optional<std::int64_t> trials = {}) {
+  return make_engine_plan(Settings(text, "test.toml", engines_experiment().default_toml),
+                          {.seed = 1, .trials = trials});
 }
 
 std::vector<EngineRow> fired(const EnginePlan& plan) {
@@ -219,6 +221,19 @@ struct EngineRows {
     GTEST_SKIP() << name << " is not in this build: " << engine_called(engine_list(), name).package \
                  << " and -DTHINWALL_PEERS=ON bring it";                                            \
   }
+
+/// Calls `use` with each engine of npm that is in this build. Says which are not, and what brings them.
+template <class Use> std::string with_npm_engines(const Use& use) {
+  std::string missing;
+  for (const Engine& engine : npm_engines()) {
+    if (engine.is_there()) {
+      use(engine);
+    } else {
+      missing += " " + engine.called;
+    }
+  }
+  return missing.empty() ? "" : "not in this build:" + missing + "; " + npm_engines().front().remedy;
+}
 
 TEST(Engines, ours_lets_no_ball_through_where_it_sweeps_and_wastes_no_energy) {
   for (const char* mode : {"clamp", "event_driven"}) {
@@ -287,11 +302,9 @@ TEST(Engines, box2d_stops_balls_at_its_skin_and_no_ball_further_than_it_moves_an
 }
 
 TEST(Engines, of_npm_follow_theory_where_they_look_at_poses) {
-  std::string missing;
   std::vector<CellCount> counts;
-  for (const Engine& engine : npm_engines()) {
-    if (!engine.is_there()) missing += " " + engine.called;
-    if (!engine.is_there() || engine.name == "mujoco") continue;  // its contacts are springs, which give way
+  const std::string missing = with_npm_engines([&](const Engine& engine) {
+    if (engine.name == "mujoco") return;  // its contacts are springs, which give way
     const EnginePlan plan = engine_plan("engine = ['" + engine.name + "']" + std::string(few_engine_shots));
     for (const EngineRow& row : fired(plan)) {
       EXPECT_EQ(row.tally.unanswered, 0) << row.setup->label();
@@ -301,9 +314,9 @@ TEST(Engines, of_npm_follow_theory_where_they_look_at_poses) {
         EXPECT_EQ(row.tally.wrong(), 0) << row.setup->label();
       }
     }
-  }
-  if (!missing.empty()) GTEST_SKIP() << "not in this build:" << missing << "; " << npm_engines().front().remedy;
+  });
   EXPECT_TRUE(all_passed(self_test(counts)));
+  if (!missing.empty()) GTEST_SKIP() << missing;
 }
 
 TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
@@ -379,12 +392,7 @@ TEST(EngineCasts, of_npm_meet_what_they_fly_at_and_nothing_else) {
   const nlohmann::json ball = shape("sphere", 0.1, -2), box = shape("box", {0.1, 0.1, 0.1}, -2),
                        large = shape("sphere", 0.2, 0), wall = shape("box", {0.5, 0.3, 0.2}, 0);
   const nlohmann::json pairs = {{ball, wall}, {shape("sphere", 0.1, -6), wall}, {ball, large}, {box, wall}};
-  std::string missing;
-  for (const Engine& engine : npm_engines()) {
-    if (!engine.is_there()) {
-      missing += " " + engine.called;
-      continue;
-    }
+  const std::string missing = with_npm_engines([&](const Engine& engine) {
     Speaker speaker(engine.called, {"node", "serve.mjs", engine.name}, THINWALL_SOURCE "/experiments/engines/npm");
     const nlohmann::json offer = speaker.hear(60);
     EXPECT_EQ(offer.at("casts").empty(), engine.name == "mujoco");
@@ -405,8 +413,8 @@ TEST(EngineCasts, of_npm_meet_what_they_fly_at_and_nothing_else) {
       EXPECT_GT(answer.at("call_seconds").get<double>(), 0);
     }
     EXPECT_TRUE(speaker.ask({{"id", 2}, {"cast", "nonsense"}, {"pairs", pairs}}, 60).contains("error"));
-  }
-  if (!missing.empty()) GTEST_SKIP() << "not in this build:" << missing << "; " << npm_engines().front().remedy;
+  });
+  if (!missing.empty()) GTEST_SKIP() << missing;
 }
 
 /// In every engine of the build: no shot knows of another, on whatever thread.
@@ -495,14 +503,10 @@ TEST(Engines, hold_every_shot_once_in_volleys) {
 }
 
 TEST(Engines, answer_with_theory_and_hand_over_pictures_of_which_one_is_of_times) {
-  const Outcome outcome = outcome_of(*run_of(engines_experiment(), "shots = 3\nstage_shots = 3"));
+  const Outcome outcome = outcome_of(engines_experiment(), "shots = 3\nstage_shots = 3");
   EXPECT_TRUE(table_of(outcome, "timings").is_timing);
   for (const Figure& figure : outcome.figures) EXPECT_EQ(figure.is_timing, figure.name == "times");
   EXPECT_TRUE(holds(outcome.answer, "theory says 93.1 %"));
-}
-
-std::string refusal(const std::string& text) {
-  return error_of<UsageError>([&] { run_of(engines_experiment(), text); });
 }
 
 TEST(EnginesConfig, paths_are_sorted_and_engines_keep_their_order) {
@@ -514,34 +518,30 @@ TEST(EnginesConfig, paths_are_sorted_and_engines_keep_their_order) {
 }
 
 TEST(EnginesConfig, names_the_setting_that_is_out_of_range) {
-  for (const auto& [key, text] : {std::pair{"path", "path = [0]"},
-                                  {"path", "path = []"},
-                                  {"path", "path = [0.01]"},
-                                  {"path", "path = [1e6]\nwall_size = [1e6]"},
-                                  {"step", "step = 0"},
-                                  {"radius", "radius = 0"},
-                                  {"thickness", "thickness = -1"},
-                                  {"wall_size", "wall_size = [100]"},
-                                  {"angle_deg", "angle_deg = 90"},
-                                  {"steps", "steps = 3"},
-                                  {"steps", "steps = 1001"},
-                                  {"shots", "shots = 0"},
-                                  {"swept_radius", "swept_radius = [0]"},
-                                  {"swept_radius", "swept_radius = [1.5]"},
-                                  {"motion_threshold", "motion_threshold = 0"},
-                                  {"substeps", "substeps = [1]"},
-                                  {"engine", "engine = ['unity']"}}) {
-    const std::string said = refusal(text);
-    EXPECT_TRUE(holds(said, "key '" + std::string(key) + "'")) << text << ": " << said;
-    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
-  }
-  EXPECT_TRUE(holds(refusal("wall_size = [100]"), "at least 201 m"));
-  EXPECT_TRUE(holds(refusal("path = [0.01]"), "at least 0.0275 m"));
+  expect_refusals(engines_experiment(),
+                  {{"path = [0]", "key 'path'"},
+                   {"path = [0.01]", "at least 0.0275 m"},
+                   {"path = [1e6]\nwall_size = [1e6]", "key 'path'"},
+                   {"step = 0", "key 'step'"},
+                   {"radius = 0", "key 'radius'"},
+                   {"wall_size = [100]", "at least 201 m"},
+                   {"angle_deg = 90", "key 'angle_deg'"},
+                   {"steps = 3", "key 'steps'"},
+                   {"steps = 1001", "key 'steps'"},
+                   {"shots = 0", "key 'shots'"},
+                   {"swept_radius = [0]", "key 'swept_radius'"},
+                   {"swept_radius = [1.5]", "key 'swept_radius'"},
+                   {"motion_threshold = 0", "key 'motion_threshold'"},
+                   {"substeps = [1]", "key 'substeps'"},
+                   {"engine = ['unity']", "key 'engine'"},
+                   {"stage = ['brick']", "key 'stage'"},
+                   {"stage_path = 0.66", "at least 0.67 m, so that what is not stopped has passed"}});
+  EXPECT_EQ(refusal_of(engines_experiment(), "stage_path = 0.67"), "");
 }
 
 TEST(EnginesConfig, an_engine_asked_for_by_name_is_there_or_refused_with_what_brings_it) {
   for (const Engine& engine : engine_list()) {
-    const std::string said = refusal("engine = ['" + engine.name + "']");
+    const std::string said = refusal_of(engines_experiment(), "engine = ['" + engine.name + "']");
     if (engine.is_there()) {
       EXPECT_EQ(said, "");
     } else {
@@ -551,14 +551,120 @@ TEST(EnginesConfig, an_engine_asked_for_by_name_is_there_or_refused_with_what_br
 }
 
 TEST(EnginesConfig, an_engine_with_no_path_that_it_can_do_is_refused) {
-  const auto engines = engine_list();
-  for (const Engine& engine : engines) {
-    if (engine.name != "box2d" || !engine.is_there()) continue;
-    const std::string said = refusal("engine = ['box2d']\npath = [3, 5]");
-    EXPECT_TRUE(holds(said, "one of at most 2 m"));
-    return;
+  SKIP_WITHOUT("box2d");
+  expect_refusals(engines_experiment(), {{"engine = ['box2d']\npath = [3, 5]", "one of at most 2 m"}});
+}
+
+// ---- The stages: what is right on each, on flights made up by hand and in our world, and what passes where only poses are looked at.
+
+constexpr StageSize meter = {.path = 1, .step = 1.0 / 60, .radius = 0.05, .thickness = 0.01};
+
+const StageKind& stage_called(std::string_view name) {
+  return *std::ranges::find(stage_kinds(), name, &StageKind::name);
+}
+
+constexpr const char* one_cell = "\npath = [1]\nwall_size = [250]";
+
+std::vector<StageRow> played(const EnginePlan& plan) {
+  std::vector<StageRow> rows = stage_rows(plan);
+  for (StageRow& row : rows) row.tally = play(row, 0, plan.stage_shots, plan.seed);
+  return rows;
+}
+
+/// Where bodies that meet nothing are at the end of each step.
+EngineFlights::Flight straight(const StageShot& shot, const StageSize& size, std::int64_t steps) {
+  EngineFlights::Flight flight;
+  std::vector<BodyState> at = shot.start;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    for (BodyState& body : at) body.position += size.step * body.velocity;
+    flight.push_back(at);
   }
-  GTEST_SKIP() << "box2d is not in this build: libbox2d-dev and -DTHINWALL_PEERS=ON bring it";
+  return flight;
+}
+
+TEST(EngineStages, tell_who_passes_from_who_flies_away) {
+  for (const StageKind& kind : stage_kinds()) {
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const StageShot shot = kind.shot(meter, random_words({3, 4}, i, 0));
+      EXPECT_EQ(shot.start.size(), kind.stage(meter).moving.size()) << kind.name;
+      StageTally tally;
+      EngineFlights::Flight flight = straight(shot, meter, kind.steps);
+      judge(kind, shot, flight, tally);
+      EXPECT_EQ(tally.passed, kind.name == "near_miss" ? 0 : 1) << kind.name << " " << i;
+      EXPECT_EQ(tally.disturbed, 0) << kind.name << " " << i;
+
+      StageTally turned;  // where it was, with the velocity that is right
+      flight = {shot.start};
+      if (shot.velocity) flight.back().front().velocity = *shot.velocity;
+      judge(kind, shot, flight, turned);
+      EXPECT_EQ(turned.passed + turned.disturbed + turned.lost, 0) << kind.name << " " << i;
+      EXPECT_EQ(turned.most_error, shot.velocity ? 0 : no_most) << kind.name << " " << i;
+    }
+  }
+}
+
+TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
+  const StageKind& kind = stage_called("near_miss");
+  const StageShot shot = kind.shot(meter, random_words({3, 4}, 0, 0));
+  const auto off_by = [&](double share) {
+    StageTally tally;
+    EngineFlights::Flight flight = {shot.start};
+    flight.back().front().velocity[1] += share * shot.velocity->norm();
+    judge(kind, shot, flight, tally);
+    return tally;
+  };
+  EXPECT_EQ(off_by(0.009).disturbed, 0);
+  EXPECT_EQ(off_by(0.011).disturbed, 1);
+  EXPECT_NEAR(off_by(0.5).most_error, 0.5, 1e-12);
+  const StageTally lost = off_by(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(lost.lost, 1);
+  EXPECT_EQ(lost.disturbed, 0);
+}
+
+TEST(EngineStages, along_a_wall_count_what_is_lost_along_it) {
+  const StageKind& kind = stage_called("tiles");
+  const StageShot shot = kind.shot(meter, random_words({3, 4}, 0, 0));
+  StageTally tally;
+  EngineFlights::Flight flight = {shot.start};
+  flight.back().front().velocity = {0, shot.velocity->y(), 0};  // stopped by the wall, not along it
+  judge(kind, shot, flight, tally);
+  EXPECT_EQ(tally.disturbed, 0);
+  flight.back().front().velocity[1] += 0.02 * shot.velocity->norm();
+  judge(kind, shot, flight, tally);
+  EXPECT_EQ(tally.disturbed, 1);
+}
+
+TEST(EngineStages, are_played_without_fault_by_ours_where_it_sweeps_and_to_theory_where_it_looks_at_poses) {
+  const EnginePlan plan = engine_plan(std::string("engine = ['thinwall']") + one_cell, 500);
+  std::vector<StageRow> rows = played(plan);
+  EXPECT_EQ(rows.size(), 4U * 7) << "four modes; no mesh";
+  EXPECT_TRUE(all_passed(self_test(own_counts(rows))));
+  std::int64_t passed = 0;
+  for (const StageRow& row : rows) {
+    EXPECT_EQ(row.tally.shots, 500);
+    EXPECT_EQ(row.tally.lost, 0);
+    if (row.setup->mode.name == "discrete") passed += row.tally.passed;
+  }
+  EXPECT_GT(passed, 1000) << "the foil lets bodies pass";
+  for (StageRow& row : rows) {
+    if (row.setup->mode.exact && row.kind->name == "near_miss") row.tally.disturbed = 1;
+  }
+  EXPECT_FALSE(all_passed(self_test(own_counts(rows)))) << "one that is disturbed is too many";
+}
+
+TEST(EngineStages, follow_theory_in_npm_engines_that_look_at_poses) {
+  std::vector<CellCount> counts;
+  const std::string missing = with_npm_engines([&](const Engine& engine) {
+    if (engine.name == "mujoco") return;  // its contacts are springs, which give way
+    const std::string stages = "engine = ['" + engine.name + "']\nstage = ['head_on', 'crossing']";
+    const EnginePlan plan = engine_plan(stages + one_cell, 200);
+    for (const StageRow& row : played(plan)) {
+      EXPECT_EQ(row.tally.unanswered, 0) << row.setup->label();
+      if (row.theory) counts.push_back({row.setup->label(), "float", row.tally.shots, row.tally.passed, *row.theory});
+    }
+  });
+  EXPECT_TRUE(all_passed(self_test(counts)));
+  if (!missing.empty()) GTEST_SKIP() << missing;
 }
 
 }  // namespace

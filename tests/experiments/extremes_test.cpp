@@ -15,19 +15,10 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 
 namespace {
-
-const Experiment& experiment(std::string_view name) {
-  return *std::ranges::find(experiments(), name, &Experiment::name);
-}
-
-std::string refusal(std::string_view name, const std::string& text) {
-  return error_of<UsageError>([&] { run_of(experiment(name), text); });
-}
 
 TEST(ExtremeSettings, are_refused_by_key_and_with_what_is_allowed) {
   struct Refused {
@@ -50,7 +41,7 @@ TEST(ExtremeSettings, are_refused_by_key_and_with_what_is_allowed) {
       {"crossing_bullets", "radius = 1e-300\nstep = 1\nspeed = [1e-300]", "radius'"},
       {"stiff_contact", "thickness = 1e-300\nradius = 0\nspeed = 1e-300", "thickness'"}};
   for (const Refused& c : all) {
-    const std::string complaint = refusal(c.experiment, c.text);
+    const std::string complaint = refusal_of(experiment_called(c.experiment), c.text);
     EXPECT_TRUE(complaint.starts_with("test.toml:1: key '" + c.refusal)) << complaint;
   }
 }
@@ -70,7 +61,7 @@ TEST(ExtremeSettings, of_too_many_cells_are_refused_before_they_are_built) {
         Crowded{"broad_phase", "count", "speed"}, Crowded{"engines", "path", "wall_size"},
         Crowded{"bouncing", "step", "restitution"}, Crowded{"plan", "shot_path", "shot_gate"},
         Crowded{"stiff_contact", "stiffness", "step"}}) {
-    const std::string complaint = refusal(name, list_of(longest, 200000) + list_of(other, 20000));
+    const std::string complaint = refusal_of(experiment_called(name), list_of(longest, 200000) + list_of(other, 20000));
     EXPECT_TRUE(complaint.starts_with(fmt::format("test.toml:1: key '{}'", longest))) << complaint.substr(0, 200);
     EXPECT_TRUE(holds(complaint, fmt::format("{} (200,000)", longest)));
     EXPECT_TRUE(holds(complaint, fmt::format("{} (20,000)", other)));
@@ -81,29 +72,15 @@ TEST(ExtremeSettings, of_too_many_cells_are_refused_before_they_are_built) {
 TEST(ExtremeSettings, of_many_values_are_not_too_many) {
   std::string text = "rule = ['closed_form']\nspeed = [10]\nangle_deg = [60]\noffset = [1]\nratio = [";
   for (int i = 1; i <= 100000; ++i) text += std::to_string(i) + "e-5,";
-  EXPECT_EQ(run_of(experiment("crossing_bullets"), text + "]")->units().size(), 100001u);
+  EXPECT_EQ(run_of(crossing_bullets_experiment(), text + "]")->units().size(), 100001u);
 }
 
 TEST(ExtremeSettings, of_accuracy_are_a_thousand_units_a_row) {
-  const auto run = run_of(experiment("accuracy"), "pair = ['sphere_sphere']", {.seed = 1, .trials = 1'000'000'000});
+  const auto run = run_of(accuracy_experiment(), "pair = ['sphere_sphere']", {.seed = 1, .trials = 1'000'000'000});
   EXPECT_LE(run->units().size(), 5000u);
 }
 
 // ---- The precision ladder: who breaks where, known separations, and a self-test that fails a wrong theory.
-
-/// Two balls along two axes, small enough for a debug build.
-constexpr std::string_view few_extremes = R"(
-  axis = ["distance", "scale"]
-  distance = [1, 1e4]
-  scale = [1e-100, 1]
-  pair = ["sphere_sphere"]
-  precision = ["float", "double"]
-  queries = 6
-)";
-
-Outcome extreme_outcome(std::string_view text) {
-  return outcome_of(*run_of(extremes_experiment(), text, {.seed = 3, .trials = {}}));
-}
 
 enum : std::size_t { in_float, in_double, in_long_double, at_50_digits };
 
@@ -310,7 +287,7 @@ TEST(ExtremesConfig, only_boxes_are_thin) {
 }
 
 TEST(ExtremesConfig, heat_maps_have_a_cell_for_all_that_is_asked) {
-  const Outcome outcome = extreme_outcome(few_extremes);
+  const Outcome outcome = outcome_of(extremes_experiment(), small_toml("extremes"));
   const Figure& verdicts = outcome.figures.front();
   EXPECT_EQ(verdicts.name, "verdicts");
   ASSERT_EQ(verdicts.panels.size(), 2U);            // a precision each
@@ -330,10 +307,10 @@ TEST(ExtremesConfig, heat_maps_have_a_cell_for_all_that_is_asked) {
 TEST(ExtremesConfig, answers_any_choice_in_three_sentences) {
   const std::string little = "\nqueries = 4\nprecision = ['double']";
   for (const std::string& text :
-       {std::string(few_extremes), "method = ['bisection']\naxis = ['ratio']\nratio = [1]" + little,
+       {small_toml("extremes"), "method = ['bisection']\naxis = ['ratio']\nratio = [1]" + little,
         "pair = ['capsule_triangle']\naxis = ['scale']\nscale = [1]" + little,
         "pair = ['sphere_sphere']\naxis = ['distance', 'scale']\ndistance = [1, 1e9]\nscale = [1, 2.5e100]" + little}) {
-    const Outcome outcome = extreme_outcome(text);
+    const Outcome outcome = outcome_of(extremes_experiment(), text);
     EXPECT_FALSE(outcome.summary.empty()) << text;
     const std::string& answer = outcome.answer;
     const std::regex full_stop("\\.( |$)");
@@ -344,12 +321,16 @@ TEST(ExtremesConfig, answers_any_choice_in_three_sentences) {
 }
 
 TEST(ExtremesConfig, refuses_what_cannot_be_asked) {
-  for (const std::string text :
-       {"scale = [1e-200]", "distance = [0.5]", "speed = [0]", "thickness = [2]", "offset = [1e13]", "grazing = [1]",
-        "ratio = [0]", "tolerance = 0.5", "one_in_at_50_digits = 0"}) {
-    EXPECT_TRUE(holds(refusal("extremes", text), fmt::format("key '{}'", text.substr(0, text.find(' ')))));
-  }
-  EXPECT_TRUE(holds(refusal("extremes", "pair = ['capsule_obb']\nprecision = ['50_digits']"), "key 'precision'"));
+  expect_refusals(extremes_experiment(), {{"scale = [1e-200]", "key 'scale'"},
+                                          {"distance = [0.5]", "key 'distance'"},
+                                          {"speed = [0]", "key 'speed'"},
+                                          {"thickness = [2]", "key 'thickness'"},
+                                          {"offset = [1e13]", "key 'offset'"},
+                                          {"grazing = [1]", "key 'grazing'"},
+                                          {"ratio = [0]", "key 'ratio'"},
+                                          {"tolerance = 0.5", "key 'tolerance'"},
+                                          {"one_in_at_50_digits = 0", "key 'one_in_at_50_digits'"},
+                                          {"pair = ['capsule_obb']\nprecision = ['50_digits']", "key 'precision'"}});
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -37,16 +36,13 @@ HitscanCell without_drag(HitscanCell c) {
   return c;
 }
 
-std::unique_ptr<Run> configured(std::string_view text) { return run_of(hitscan_experiment(), text); }
-
 std::vector<HitscanCell> cells_of(const char* text) {
   return make_hitscan_cells(Settings(text, "test.toml", hitscan_experiment().default_toml));
 }
 
-/// Small enough for a debug build, and still with every kind of cell: near and far, thin and thick, steep and flat.
+/// Of every kind of cell, near and far, thin and thick, steep and flat: run once for all tests that only look.
 const Outcome& small_outcome() {
-  static const Outcome outcome =
-      outcome_of(*configured("range = [3, 30]\nspeed = [30, 300]\nradius = [0, 0.02]\nwind = [5]\nshots = 1000"));
+  static const Outcome outcome = outcome_of(hitscan_experiment(), small_toml("hitscan"));
   return outcome;
 }
 
@@ -162,14 +158,6 @@ TEST(Hitscan, fails_a_wrong_theory) {
   EXPECT_FALSE(pass_with([](R& r) { r.tally.lateness.least = -2 * contact_window(r.cell).until; }));
 }
 
-TEST(Hitscan, a_cell_keeps_its_shots_whatever_else_is_asked) {
-  const Table& all = table_of(small_outcome(), "cells");
-  const Outcome alone = outcome_of(
-      *configured("range = [30]\nspeed = [300]\nradius = [0.02]\nwind = [5]\nshots = 1000\nrule = ['next_frame']"));
-  ASSERT_EQ(table_of(alone, "cells").rows.size(), known_shots.size() + 1);
-  for (const auto& row : table_of(alone, "cells").rows) EXPECT_EQ(std::ranges::count(all.rows, row), 1);
-}
-
 TEST(HitscanConfig, takes_the_known_shots_and_every_combination_that_arrives) {
   const std::size_t known = known_shots.size();
   const auto cells = cells_of("range = [3, 10]\nspeed = [30, 300]\nradius = [0, 0.02]\nwind = [0, 5]");
@@ -185,26 +173,24 @@ TEST(HitscanConfig, takes_the_known_shots_and_every_combination_that_arrives) {
 
 /// Without the rules of the question, and without anything that pulls, there is still an answer.
 TEST(HitscanConfig, answers_for_any_choice_of_rules) {
-  const Outcome ball = outcome_of(*configured("rule = ['hitscan_ball']\nrange = [3]\nspeed = [30]\nshots = 20"));
+  const Outcome ball =
+      outcome_of(hitscan_experiment(), "rule = ['hitscan_ball']\nrange = [3]\nspeed = [30]\nshots = 20");
   EXPECT_NE(ball.answer.find("hitscan_ball misses"), std::string::npos) << ball.answer;
   const Outcome still =
-      outcome_of(*configured("gravity = 0\nwind = [0]\nrange = [3]\nspeed = [30]\nradius = [0]\nshots = 200"));
+      outcome_of(hitscan_experiment(), "gravity = 0\nwind = [0]\nrange = [3]\nspeed = [30]\nradius = [0]\nshots = 200");
   EXPECT_TRUE(still.self_test_passed) << still.summary;
   EXPECT_FALSE(still.answer.empty());
 }
 
 /// What a factor's range allows is the factor's own; this is what goes together, or not.
 TEST(HitscanConfig, refuses_what_does_not_go_together) {
-  using Refusal = std::pair<const char*, const char*>;
-  for (const auto& [text, reason] : {Refusal{"range = [0.2]", "more than 2 * (target + radius)"},
-                                     Refusal{"target = [2]\nrange = [3]", "more than 2 * (target + radius)"},
-                                     Refusal{"speed = [3]\nrange = [3]", "fast enough to fly nearly straight"},
-                                     Refusal{"speed = [30]\nrange = [100]", "a range that some bullet reaches"},
-                                     Refusal{"drag = [40]\nspeed = [1000]\nrange = [3]", "drag * step at most 0.5"},
-                                     Refusal{"step = [1e-9]", "a path of at least 0.01"},
-                                     Refusal{"rule = ['next_fram']", "did you mean 'next_frame'?"}}) {
-    EXPECT_NE(refusal_of(hitscan_experiment(), text).find(reason), std::string::npos) << text;
-  }
+  expect_refusals(hitscan_experiment(), {{"range = [0.2]", "more than 2 * (target + radius)"},
+                                         {"target = [2]\nrange = [3]", "more than 2 * (target + radius)"},
+                                         {"speed = [3]\nrange = [3]", "fast enough to fly nearly straight"},
+                                         {"speed = [30]\nrange = [100]", "a range that some bullet reaches"},
+                                         {"drag = [40]\nspeed = [1000]\nrange = [3]", "drag * step at most 0.5"},
+                                         {"step = [1e-9]", "a path of at least 0.01"},
+                                         {"rule = ['next_fram']", "did you mean 'next_frame'?"}});
 }
 
 // ---- Without any rule's shots: the arc against 100 digits and its equation of motion, the oracle against the arc, and

@@ -16,19 +16,6 @@
 namespace thinwall {
 namespace {
 
-constexpr std::string_view few_steps = R"(
-  count = 60
-  steps = 8
-  rounds = 2
-  shots = 300
-  shot_path = [0.4, 3]
-  shot_gate = [0.5, 4]
-)";
-
-std::unique_ptr<Run> plan_run(std::string_view text) {
-  return run_of(plan_experiment(), text, {.seed = 5, .trials = {}});
-}
-
 /// The races of few steps, scene by scene.
 std::vector<PlanRace> few_races() {
   std::vector<PlanRace> races;
@@ -168,13 +155,15 @@ TEST(Plan, self_test_fails_a_bit_that_differs_and_a_pair_that_passes_unseen) {
 
 /// Whatever a unit of the run finds decides: the last one here is made up.
 TEST(Plan, says_of_a_whole_run_what_its_units_found) {
-  const auto run = plan_run(
-      "scene = [\"town\"]\ncount = 60\nsteps = 8\nrounds = 1\nshots = 300\n"
-      "shot_path = [3]\nshot_gate = [4]");
+  const auto run = run_of(plan_experiment(),
+                          "scene = [\"town\"]\ncount = 60\nsteps = 8\nrounds = 1\nshots = 300\n"
+                          "shot_path = [3]\nshot_gate = [4]");
   std::vector<std::string> results = results_of(run->units());
   ASSERT_EQ(results.size(), 3U);
   const std::vector<double> seconds(results.size(), 1);
-  EXPECT_TRUE(run->finish(results, seconds).self_test_passed);
+  const Outcome right = run->finish(results, seconds);
+  EXPECT_TRUE(right.self_test_passed);
+  EXPECT_TRUE(holds(right.answer, "No omission changes a bit"));
   auto tally = from_text<GateTally>(results[2]);
   tally.early = 1;
   EXPECT_FALSE(run->finish({results[0], results[1], to_text(tally)}, seconds).self_test_passed);
@@ -186,17 +175,6 @@ TEST(Plan, says_of_a_whole_run_what_its_units_found) {
   EXPECT_EQ(value_of(table_of(wrong, "ways"), 1, "same_as_plan"), Value(false));
 }
 
-TEST(Plan, says_the_same_of_outcomes_in_every_run) {
-  const Outcome first = outcome_of(*plan_run(few_steps)), second = outcome_of(*plan_run(few_steps));
-  EXPECT_TRUE(first.self_test_passed) << first.summary;
-  for (const char* const name : {"ways", "gate"}) {
-    EXPECT_EQ(table_of(first, name).rows, table_of(second, name).rows);
-    EXPECT_FALSE(table_of(first, name).is_timing);
-  }
-  EXPECT_TRUE(table_of(first, "savings").is_timing);
-  EXPECT_TRUE(holds(first.answer, "No omission changes a bit"));
-}
-
 TEST(Plan, is_an_experiment_after_run_and_a_command_alone) {
   const auto call = [](const Words& words) { return call_program(words, {plan_experiment()}); };
   EXPECT_EQ(refusal(call({"run", "plan", "--trace"})), "--trace: only a scene has a trace\n");  // it was found
@@ -204,8 +182,7 @@ TEST(Plan, is_an_experiment_after_run_and_a_command_alone) {
 }
 
 TEST(Plan, refuses_a_path_that_is_a_gate) {
-  EXPECT_TRUE(
-      holds(error_of<UsageError>([] { plan_run("shot_path = [2]\nshot_gate = [2]"); }), "any but 2, which is a gate"));
+  expect_refusals(plan_experiment(), {{"shot_path = [2]\nshot_gate = [2]", "any but 2, which is a gate"}});
 }
 
 }  // namespace

@@ -18,11 +18,16 @@ const std::string our_rows = bench_row("time_of_impact/sphere_aabb/front_door", 
 const std::string peer_rows = bench_row("time_of_impact/sphere_aabb/thinwall", 44, 0, 0, 1e-15) + ", " +
                               bench_row("time_of_impact/sphere_aabb/bullet_gjk_cast", 880, 376, 4, 3e-2);
 
-/// pairs and peers, with Bullet but without ODE.
-void write_both(const std::filesystem::path& folder) {
-  write_bench(folder, "pairs", bench_json(our_rows));
-  write_bench(folder, "peers", bench_json(peer_rows, R"("peer_Bullet": "built in", "peer_ODE": "missing")"));
-}
+struct Speed : ::testing::Test {
+  TemporaryFolder folder;  ///< of the programs
+
+  /// pairs and peers, with Bullet but without ODE.
+  void write_both() const {
+    write_bench(folder.path(), "pairs", bench_json(our_rows));
+    write_bench(folder.path(), "peers", bench_json(peer_rows, R"("peer_Bullet": "built in", "peer_ODE": "missing")"));
+  }
+  Outcome result(const std::string& more = "") const { return outcome_of(*speed_run(folder.path(), more)); }
+};
 
 std::string whole_text(const Outcome& outcome) {
   std::string text = outcome.answer + "\n" + outcome.summary;
@@ -31,9 +36,8 @@ std::string whole_text(const Outcome& outcome) {
   return text;
 }
 
-TEST(Speed, gathers_rows_of_every_program_and_round) {
-  const TemporaryFolder folder;
-  write_both(folder.path());
+TEST_F(Speed, gathers_rows_of_every_program_and_round) {
+  write_both();
   const auto run = speed_run(folder.path());
   EXPECT_EQ(run->units().size(), 2 * bench_program_names().size());
   const Outcome outcome = outcome_of(*run);
@@ -52,7 +56,7 @@ TEST(Speed, gathers_rows_of_every_program_and_round) {
   EXPECT_EQ(value_of(errors, 4, "length_p99"), Value(3e-2));
 }
 
-TEST(Speed, errors_are_no_part_of_what_changes_with_the_machine) {
+TEST_F(Speed, errors_are_no_part_of_what_changes_with_the_machine) {
   const TemporaryFolder first, second;
   write_bench(first.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 40, 0, 0, 1e-15)));
   write_bench(second.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 77, 0, 0, 1e-15)));
@@ -66,10 +70,9 @@ TEST(Speed, errors_are_no_part_of_what_changes_with_the_machine) {
   for (const Figure& figure : a.figures) EXPECT_TRUE(figure.is_timing) << figure.name;
 }
 
-TEST(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
-  const TemporaryFolder folder;
-  write_both(folder.path());
-  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+TEST_F(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
+  write_both();
+  const Outcome outcome = result();
   ASSERT_EQ(outcome.figures.size(), 3U);
   const Panel& race = outcome.figures[0].panels.at(0);
   EXPECT_TRUE(race.log_x && race.log_y);
@@ -84,12 +87,11 @@ TEST(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
   EXPECT_TRUE(holds(text, "take 20.0 to 20 times as long"));  // 880 ns to the 44 of the same run
 }
 
-TEST(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
-  const TemporaryFolder folder;
+TEST_F(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
   const std::string row = R"({"run_name": "time_of_impact/sphere_aabb/jolt_cast_shape/iterations:1/manual_time", )"
                           R"("cpu_time": 5e8, "time_unit": "ns", "ns_row": 1400, "call_ns": 5$$, "missed": 0})";
   write_script(folder.path(), "peers", "cat >\"$out\" <<END\n" + bench_json(row) + "\nEND");
-  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+  const Outcome outcome = result();
   EXPECT_TRUE(outcome.self_test_passed);  // though it was another number in each round
   const Table& timings = table_of(outcome, "timings");
   ASSERT_EQ(timings.rows.size(), 1U);
@@ -98,32 +100,30 @@ TEST(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
   EXPECT_NE(value_of(timings, 0, "call_ns"), Value());
 }
 
-TEST(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_rest) {
-  const TemporaryFolder folder;
-  write_both(folder.path());
-  const std::string text = whole_text(outcome_of(*speed_run(folder.path())));
+TEST_F(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_rest) {
+  write_both();
+  const std::string text = whole_text(result());
   EXPECT_TRUE(holds(text, "Left out: batch: it is not in the folder of the benchmarks"));
   EXPECT_TRUE(holds(text, "Left out: peers: built without ODE: install"));
   std::filesystem::remove(folder.path() / "peers");
-  const std::string without = whole_text(outcome_of(*speed_run(folder.path())));
+  const std::string without = whole_text(result());
   EXPECT_TRUE(holds(without, "No other library took part."));
   EXPECT_TRUE(holds(without, "configure with -DTHINWALL_PEERS=ON and build again"));
 }
 
-TEST(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
-  const TemporaryFolder folder;
+TEST_F(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
   write_bench(folder.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 40, 1, 0, 1e-15)));
-  EXPECT_FALSE(outcome_of(*speed_run(folder.path())).self_test_passed);
+  EXPECT_FALSE(result().self_test_passed);
   write_script(folder.path(), "pairs",
                "cat >\"$out\" <<END\n" +
                    bench_json(R"({"run_name": "raycast/aabb/plain", "cpu_time": 1, "time_unit": "ns", "missed": $$})") +
                    "\nEND");
-  const Outcome outcome = outcome_of(*speed_run(folder.path()));  // the number of the process, in every round another
+  const Outcome outcome = result();  // the number of the process, in every round another
   EXPECT_FALSE(outcome.self_test_passed);
   EXPECT_TRUE(holds(outcome.summary, "FAILED"));
 }
 
-TEST(Speed, reads_units_items_and_options) {
+TEST_F(Speed, reads_units_items_and_options) {
   const BenchOutput output = bench_output_from_json(
       "world", bench_json(R"({"run_name": "world/rain_10/clamp/iterations:12", "cpu_time": 1.5, "time_unit": "ms"},
                              {"run_name": "a/b/c", "cpu_time": 9, "time_unit": "ns", "items_per_second": 2e9},
@@ -138,8 +138,7 @@ TEST(Speed, reads_units_items_and_options) {
   EXPECT_EQ(output.floors, (std::vector<Counter>{{"division_ns", 1.5}}));
 }
 
-TEST(Speed, draws_batches_by_where_they_lie_with_their_floor) {
-  const TemporaryFolder folder;
+TEST_F(Speed, draws_batches_by_where_they_lie_with_their_floor) {
   std::string rows;
   for (const char* way : {"f64/cache/scalar", "f64/cache/AVX2", "f32/memory/AVX2"}) {
     rows += fmt::format(
@@ -147,7 +146,7 @@ TEST(Speed, draws_batches_by_where_they_lie_with_their_floor) {
         rows.empty() ? "" : ", ", way, std::string_view(way).ends_with("scalar") ? 12 : 4);
   }
   write_bench(folder.path(), "batch", bench_json(rows));
-  const Outcome outcome = outcome_of(*speed_run(folder.path()));
+  const Outcome outcome = result();
   EXPECT_EQ(value_of(table_of(outcome, "timings"), 1, "nanoseconds"), Value(4.0));
   ASSERT_EQ(outcome.figures.size(), 1U);
   const std::vector<Panel>& panels = outcome.figures[0].panels;
@@ -160,8 +159,7 @@ TEST(Speed, draws_batches_by_where_they_lie_with_their_floor) {
   EXPECT_TRUE(holds(outcome.answer, "takes 4 to 4 ns a row at its quickest, 3 to 3 times"));
 }
 
-TEST(Speed, says_which_program_failed_and_how_in_one_line) {
-  const TemporaryFolder folder;
+TEST_F(Speed, says_which_program_failed_and_how_in_one_line) {
   for (
       const auto& [body, said] :
       {std::pair{"kill -9 $$", "was killed by a signal"},
@@ -181,20 +179,19 @@ TEST(Speed, says_which_program_failed_and_how_in_one_line) {
   }
 }
 
-TEST(Speed, a_filter_may_leave_a_program_without_a_row) {
-  const TemporaryFolder folder;
+TEST_F(Speed, a_filter_may_leave_a_program_without_a_row) {
   write_script(folder.path(), "pairs", "true");
   EXPECT_TRUE(run_bench_program(folder.path(), "pairs", {.filter = "nothing"}).rows.empty());
-  EXPECT_TRUE(holds(outcome_of(*speed_run(folder.path(), "filter = \"nothing\"")).answer, "no race"));
+  EXPECT_TRUE(holds(result("filter = \"nothing\"").answer, "no race"));
 }
 
 std::string complaint_of(const std::filesystem::path& folder, const std::string& more) {
   return error_of<UsageError>([&] { speed_run(folder, more); });
 }
 
-TEST(Speed, refuses_a_filter_that_is_none_and_a_folder_without_a_program) {
-  const TemporaryFolder folder, empty;
-  write_both(folder.path());
+TEST_F(Speed, refuses_a_filter_that_is_none_and_a_folder_without_a_program) {
+  const TemporaryFolder empty;
+  write_both();
   EXPECT_EQ(complaint_of(folder.path(), ""), "");
   EXPECT_TRUE(holds(complaint_of(folder.path(), "filter = \"(\""), "is not allowed; a regular expression, or"));
   EXPECT_TRUE(holds(complaint_of(folder.path(), "programs = [\"world\"]"), "is not allowed; a folder that holds"));

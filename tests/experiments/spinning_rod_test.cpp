@@ -14,21 +14,12 @@
 #include <thinwall/experiments/spinning_rod/methods.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 
 namespace {
 
 using std::numbers::pi;
-
-constexpr std::string_view few_rods = R"(
-  tilt_deg = [90, 30]
-  spin_deg = [0, 90, 450]
-  step_ratio = [0.4, 0.7, 2, 16]
-  post_spin_deg = [20, 60, 150]
-  flights = 400
-)";
 
 /// At the default rod and wall.
 RodFlight rod_flight(double spin_deg, double step_ratio, double tilt_deg = 90) {
@@ -196,28 +187,25 @@ TEST(SpinningRod, a_linear_sweep_is_so_deep_at_worst) {
   }
 }
 
-TEST(SpinningRod, passes_its_self_test) {
-  const Outcome outcome = outcome_of(*run_of(spinning_rod_experiment(), few_rods));
-  EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
-  EXPECT_EQ(outcome.figures.size(), 4U);
-}
-
 TEST(SpinningRodConfig, answers_for_any_choice_of_methods) {
   for (const std::string_view name : rod_method_names()) {
-    const Outcome outcome = outcome_of(*run_of(spinning_rod_experiment(),
-                                               "spin_deg = [90]\ntilt_deg = [0, 90]\nstep_ratio = [2]\nflights = 20\n"
-                                               "post_spin_deg = [60]\nmethod = ['" +
-                                                   std::string(name) + "']"));
+    const Outcome outcome = outcome_of(spinning_rod_experiment(),
+                                       "spin_deg = [90]\ntilt_deg = [0, 90]\nstep_ratio = [2]\nflights = 20\n"
+                                       "post_spin_deg = [60]\nmethod = ['" +
+                                           std::string(name) + "']");
     EXPECT_TRUE(holds(outcome.answer, name));
     EXPECT_FALSE(outcome.figures.empty());
   }
 }
 
 TEST(SpinningRodConfig, refuses_what_cannot_be_asked) {
-  for (const char* text : {"post_distance = 0.1", "post_distance = 0.6", "post_spin_deg = [152]", "step_ratio = [0.01]",
-                           "spin_deg = [1000]", "tilt_deg = [91]", "substeps = [1]"}) {
-    EXPECT_THROW(run_of(spinning_rod_experiment(), text), UsageError) << text;
-  }
+  expect_refusals(spinning_rod_experiment(), {{"post_distance = 0.1", "more than radius + post_radius"},
+                                              {"post_distance = 0.6", "at most half_length"},
+                                              {"post_spin_deg = [152]", "so that one end alone is near the post"},
+                                              {"step_ratio = [0.01]", "key 'step_ratio'"},
+                                              {"spin_deg = [1000]", "key 'spin_deg'"},
+                                              {"tilt_deg = [91]", "key 'tilt_deg'"},
+                                              {"substeps = [1]", "key 'substeps'"}});
 }
 
 }  // namespace

@@ -20,7 +20,6 @@
 #include <thinwall/swept/swept_volume.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
 
 namespace thinwall {
 
@@ -168,22 +167,6 @@ TEST(SweepTheory, knows_from_which_path_on_to_turn) {
 
 // ---- The swept bounds' settings and answers: who makes false hits, who misses, what it costs, and does theory agree?
 
-/// Small enough for a debug build, and still with every shape, motion along an axis, across and oblique.
-constexpr std::string_view few_sweeps = R"(
-  speed = [2.5, 40]
-  angle_deg = [0, 30, 90]
-  turn_deg = [0, 45]
-  obstacle = [0.1, 1]
-  shots = 1000
-  timing_repeats = 0
-)";
-
-std::unique_ptr<Run> sweep_run(std::string_view text, RunOptions options = {.seed = 1, .trials = {}}) {
-  return run_of(swept_bounds_experiment(), text, options);
-}
-
-Outcome sweep_outcome(std::string_view text) { return outcome_of(*sweep_run(text)); }
-
 SweepPlan sweep_plan(std::string_view text) {
   return make_sweeps(Settings(text, "test.toml", swept_bounds_experiment().default_toml));
 }
@@ -222,7 +205,7 @@ TEST(SweptBounds, the_exact_make_no_false_hit_the_naive_do_and_none_misses_what_
 }
 
 TEST(SweptBounds, agrees_with_theory) {
-  const Outcome outcome = sweep_outcome(few_sweeps);
+  const Outcome outcome = outcome_of(swept_bounds_experiment(), small_toml("swept_bounds"));
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 6U * 4);  // six bounds, four events
 }
@@ -297,18 +280,6 @@ TEST(SweptBounds, grazing_balls_find_a_bound_that_is_a_little_too_small) {
   EXPECT_GT(found(boxed, small.axes, tight), 200);
 }
 
-TEST(SweptBounds, a_cell_keeps_its_balls_whatever_else_is_asked) {
-  const Table all = table_of(sweep_outcome(few_sweeps), "cells");
-  const Table one = table_of(
-      sweep_outcome("shape = ['rod']\nspeed = [40]\nangle_deg = [30]\nturn_deg = [45]\nobstacle = [0.1]\nshots = 1000\n"
-                    "bound = ['oriented_box']\ntiming_repeats = 0"),
-      "cells");
-  ASSERT_EQ(one.rows.size(), 2U);  // the diagonal cube, and the cell
-  for (const std::vector<Value>& row : one.rows) {
-    EXPECT_NE(std::find(all.rows.begin(), all.rows.end(), row), all.rows.end());
-  }
-}
-
 TEST(SweptBoundsConfig, opens_with_the_diagonals) {
   const SweepPlan plan = sweep_plan("");
   EXPECT_EQ(plan.cells[0], diagonals[0]);
@@ -328,9 +299,10 @@ TEST(SweptBoundsConfig, draws_what_is_nearest_to_the_diagonal) {
 
 /// Only the table of times may know how long anything took.
 TEST(SweptBoundsConfig, what_is_not_a_timing_does_not_depend_on_the_clock) {
-  const auto run = sweep_run(
-      "shape = ['sphere', 'cube']\nspeed = [10]\nangle_deg = [45]\nturn_deg = [0]\nobstacle = [1]\nshots = 100\n"
-      "timing_repeats = 2");
+  const auto run =
+      run_of(swept_bounds_experiment(),
+             "shape = ['sphere', 'cube']\nspeed = [10]\nangle_deg = [45]\nturn_deg = [0]\nobstacle = [1]\nshots = 100\n"
+             "timing_repeats = 2");
   const std::vector<std::string> results = results_of(run->units());
   const Outcome fast = run->finish(results, std::vector<double>(results.size(), 1e-6));
   const Outcome slow = run->finish(results, std::vector<double>(results.size(), 1));
@@ -362,19 +334,20 @@ TEST(SweptBoundsConfig, times_are_medians_over_the_rounds) {
 TEST(SweptBoundsConfig, answers_for_any_choice_of_bounds_and_shapes) {
   for (const char* text : {"bound = ['closed_form']", "shape = ['sphere']\nbound = ['capsule']", "obstacle = [0]",
                            "angle_deg = [0]", "shape = ['plate']\nturn_deg = [90]\nangle_deg = [90]"}) {
-    const Outcome outcome = sweep_outcome(std::string("speed = [10]\nshots = 50\ntiming_repeats = 0\n") + text);
+    const Outcome outcome =
+        outcome_of(swept_bounds_experiment(), std::string("speed = [10]\nshots = 50\ntiming_repeats = 0\n") + text);
     EXPECT_TRUE(holds(outcome.answer, "the bounds miss 0"));
     EXPECT_TRUE(outcome.self_test_passed) << text;
   }
 }
 
 TEST(SweptBoundsConfig, refuses_what_cannot_be_asked) {
-  const auto refusal = [](std::string_view text) { return error_of<UsageError>([&] { sweep_run(text); }); };
-  EXPECT_TRUE(holds(refusal("shape = ['sphere']\nbound = ['oriented_box']"), "one that serves one of the shapes"));
-  EXPECT_TRUE(holds(refusal("bound = ['oriented_bax']"), "did you mean 'oriented_box'?"));
-  for (const char* speed : {"speed = [1e-6]", "speed = [1e8]"})
-    EXPECT_TRUE(holds(refusal(speed), "a path of 0.001 to 10000 widths a step"));
-  EXPECT_TRUE(holds(refusal("angle_deg = [91]"), "key 'angle_deg'"));
+  expect_refusals(swept_bounds_experiment(),
+                  {{"shape = ['sphere']\nbound = ['oriented_box']", "one that serves one of the shapes"},
+                   {"bound = ['oriented_bax']", "did you mean 'oriented_box'?"},
+                   {"speed = [1e-6]", "a path of 0.001 to 10000 widths a step"},
+                   {"speed = [1e8]", "a path of 0.001 to 10000 widths a step"},
+                   {"angle_deg = [91]", "key 'angle_deg'"}});
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -151,24 +150,15 @@ TEST(ThinWallBounce, unturned_share_is_what_the_normals_say) {
 
 // ---- The thin wall's settings, answers and verdicts: who tunnels, who goes through, and does theory agree?
 
-/// Small enough for a debug build, and still with every kind of cell.
-const std::string small = R"(
-  speed = [3, 40]
-  step = [0.01, 0.05]
-  radius = [0, 0.02]
-  thickness = [0.01]
-  angle_deg = [0, 60]
-  wall = ["infinite", "finite"]
-  shots = 400
-)";
+const std::string small = small_toml("thin_wall");  // every kind of cell
 const std::string bouncing = small + "response = 'bounce'\n";
 
-std::unique_ptr<Run> configured(std::string_view text, std::optional<std::int64_t> trials = {}) {
-  return run_of(thin_wall_experiment(), text, {.seed = 1, .trials = trials});
+std::unique_ptr<Run> small_run(std::int64_t trials) {
+  return run_of(thin_wall_experiment(), small, {.seed = 1, .trials = trials});
 }
 
 const Outcome& small_outcome() {
-  static const Outcome outcome = outcome_of(*configured(small));
+  static const Outcome outcome = outcome_of(thin_wall_experiment(), small);
   return outcome;
 }
 
@@ -229,15 +219,9 @@ TEST(ThinWall, fails_a_wrong_theory) {
   EXPECT_FALSE(passes(going_through, [](const Cell& c) { return (c.radius + c.thickness) / cosine(c); }));
 }
 
-TEST(ThinWall, a_cell_keeps_its_shots_whatever_else_is_fired_at_a_seed) {
-  const std::string few =
-      "speed = [40]\nstep = [0.05]\nradius = [0.02]\nthickness = [0.01]\nangle_deg = [60]\n"
-      "wall = ['finite']\nshots = 400\nmethod = ['end_of_step']\nscalar = ['double']";
-  const Table all = table_of(small_outcome(), "cells"), one = table_of(outcome_of(*configured(few)), "cells");
-  ASSERT_EQ(one.rows.size(), 2U);  // the bullet, and the cell
-  for (const std::vector<Value>& row : one.rows) EXPECT_EQ(std::ranges::count(all.rows, row), 1);
-  const auto other = run_of(thin_wall_experiment(), few, {.seed = 2, .trials = {}});
-  EXPECT_NE(table_of(outcome_of(*other), "cells").rows, one.rows);
+TEST(ThinWall, fires_other_shots_at_another_seed_and_in_another_cell) {
+  const Outcome other = outcome_of(thin_wall_experiment(), small, {.seed = 2, .trials = {}});
+  EXPECT_NE(table_of(other, "cells").rows, table_of(small_outcome(), "cells").rows);
   Cell faster = bullet;
   faster.speed = 11;
   EXPECT_NE(random_stream(bullet, 1).stream, random_stream(faster, 1).stream);
@@ -248,7 +232,7 @@ TEST(ThinWall, draws_no_figure_and_no_panel_without_a_measured_point) {
   const auto figures_and_panels = [](const std::string& more) {
     Names out;
     const Outcome outcome =
-        outcome_of(*configured("speed = [40]\nradius = [0.02]\nshots = 400\nstep = [0.01]\n" + more));
+        outcome_of(thin_wall_experiment(), "speed = [40]\nradius = [0.02]\nshots = 400\nstep = [0.01]\n" + more);
     for (const Figure& f : outcome.figures) out.push_back(f.name + " " + std::to_string(f.panels.size()));
     return out;
   };
@@ -262,10 +246,11 @@ TEST(ThinWall, draws_no_figure_and_no_panel_without_a_measured_point) {
 /// 4.2 cm apart: every ball is seen, and two in five go through all the same, so that the safe step halves. What is
 /// swept bounces.
 TEST(ThinWallBounce, goes_through_unseen_or_seen_too_late) {
-  const Outcome outcome = outcome_of(
-      *configured("speed = [10]\nstep = [0.016666666666666666]\nradius = [0.02]\nthickness = [0.01]\n"
-                  "angle_deg = [0]\nwall = ['infinite']\nshots = 4000\nresponse = 'bounce'\nscalar = ['double']\n"
-                  "substeps = [4, 8]\nmethod = ['end_of_step', 'substeps', 'closed_form', 'swept_volume_ray']"));
+  const Outcome outcome =
+      outcome_of(thin_wall_experiment(),
+                 "speed = [10]\nstep = [0.016666666666666666]\nradius = [0.02]\nthickness = [0.01]\n"
+                 "angle_deg = [0]\nwall = ['infinite']\nshots = 4000\nresponse = 'bounce'\nscalar = ['double']\n"
+                 "substeps = [4, 8]\nmethod = ['end_of_step', 'substeps', 'closed_form', 'swept_volume_ray']");
   const auto is_near = [&](const char* method, const char* column, double share) {
     return std::abs(standard_residual(count(table_of(outcome, "bounce"), method, column), 4000, share)) < 4;
   };
@@ -279,7 +264,7 @@ TEST(ThinWallBounce, goes_through_unseen_or_seen_too_late) {
 
 /// The same shots, and the same verdicts on them.
 TEST(ThinWallBounce, agrees_with_theory_and_changes_no_other_count) {
-  const Outcome bounced = outcome_of(*configured(bouncing)), &still = small_outcome();
+  const Outcome bounced = outcome_of(thin_wall_experiment(), bouncing), &still = small_outcome();
   EXPECT_TRUE(bounced.self_test_passed) << bounced.summary;
   EXPECT_EQ(table_of(bounced, "bounce_self_test").rows.size(), 22U);
   EXPECT_EQ(bounced.figures.front().name, "bounce");
@@ -344,7 +329,7 @@ TEST(Stratified, number_of_phases_is_prime) {
 
 TEST(ThinWallVolley, adds_up_to_the_same_tally_in_any_order) {
   for (const char* response : {"none", "bounce"}) {
-    const ShotPlan plan = plan_of(std::string(small) + "response = \"" + response + "\"\n", 50);
+    const ShotPlan plan = plan_of(small + "response = \"" + response + "\"\n", 50);
     for (const ThinWallRow& row : rows_of(plan)) {
       const Tally whole = fire(row.cell, *row.method, {.first = 0, .shots = plan.shots}, plan.seed);
       Tally forward, backward;
@@ -361,7 +346,7 @@ TEST(ThinWallVolley, adds_up_to_the_same_tally_in_any_order) {
 TEST(ThinWallVolley, is_a_unit_of_its_own_in_a_large_run_and_the_whole_cell_in_a_small_one) {
   const auto units = [](std::int64_t trials) {
     std::int64_t fired = 0;
-    for (const Unit& unit : configured(small, trials)->units()) {
+    for (const Unit& unit : small_run(trials)->units()) {
       EXPECT_LE(unit.trials, most_shots_a_volley);
       EXPECT_EQ(unit.key.find(" from ") != std::string::npos,
                 trials > most_shots_a_volley && !unit.key.ends_with(" stratified"));
@@ -374,7 +359,7 @@ TEST(ThinWallVolley, is_a_unit_of_its_own_in_a_large_run_and_the_whole_cell_in_a
 
 /// Results made up for every unit; what comes out must depend on their sums alone.
 TEST(ThinWallVolley, makes_a_row_of_the_volleys_of_a_cell) {
-  const auto whole = configured(small, 60), halves = configured(small, 2 * most_shots_a_volley);
+  const auto whole = small_run(60), halves = small_run(2 * most_shots_a_volley);
   const std::vector<std::string> in_one = results_of(whole->units());
   std::vector<std::string> in_two;
   std::size_t next = 0;
@@ -390,13 +375,13 @@ TEST(ThinWallVolley, makes_a_row_of_the_volleys_of_a_cell) {
 }
 
 TEST(ThinWallVolley, has_room_for_no_more_shots_a_cell_than_its_sums_do) {
-  EXPECT_NO_THROW(configured(small, most_shots_a_cell));
-  EXPECT_THROW(configured(small, most_shots_a_cell + 1), UsageError);
+  EXPECT_NO_THROW(small_run(most_shots_a_cell));
+  EXPECT_THROW(small_run(most_shots_a_cell + 1), UsageError);
 }
 
 /// What the default run promises: every method of the list, ten million shots, the whole range.
 TEST(ThinWallConfig, default_fires_everything_and_ten_million_shots_over_the_whole_range) {
-  const auto units = configured("")->units();
+  const auto units = run_of(thin_wall_experiment(), "")->units();
   std::int64_t shots = 0;
   for (const Unit& unit : units) shots += unit.trials;
   EXPECT_GE(shots, 10'000'000);
@@ -418,16 +403,15 @@ TEST(ThinWallConfig, default_fires_everything_and_ten_million_shots_over_the_who
 
 /// What a factor's own range allows is refused by every experiment's test.
 TEST(ThinWallConfig, refuses_what_cannot_be_fired) {
-  using Refusal = std::pair<const char*, const char*>;
-  for (const auto& [text, key] :
-       {Refusal{"radius = [0]\nthickness = [0]", "thickness"},
-        Refusal{"radius = [1e-10]\nthickness = [0]", "thickness"}, Refusal{"speed = [1e-9]", "speed"},
-        Refusal{"speed = [1e9]", "speed"}, Refusal{"step = [1e-9]", "step"}, Refusal{"wall_size = 0.01", "wall_size"},
-        Refusal{"substeps = [1]", "substeps"}, Refusal{"method = ['closedform']", "method"},
-        Refusal{"response = 'bounces'", "response"}}) {
-    EXPECT_NE(refusal_of(thin_wall_experiment(), text).find(std::string("key '") + key + "'"), std::string::npos)
-        << text;
-  }
+  expect_refusals(thin_wall_experiment(), {{"radius = [0]\nthickness = [0]", "key 'thickness'"},
+                                           {"radius = [1e-10]\nthickness = [0]", "key 'thickness'"},
+                                           {"speed = [1e-9]", "key 'speed'"},
+                                           {"speed = [1e9]", "key 'speed'"},
+                                           {"step = [1e-9]", "key 'step'"},
+                                           {"wall_size = 0.01", "key 'wall_size'"},
+                                           {"substeps = [1]", "key 'substeps'"},
+                                           {"method = ['closedform']", "key 'method'"},
+                                           {"response = 'bounces'", "key 'response'"}});
 }
 
 }  // namespace

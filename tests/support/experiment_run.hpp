@@ -1,18 +1,19 @@
 #pragma once
-/// What the tables of every experiment owe their reader.
+/// Runs of an experiment in memory, for its tests, and what the result of every experiment owes its reader.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
@@ -20,9 +21,21 @@
 
 namespace thinwall {
 
+// ---- What a reader is owed.
+
+/// No line of it is too long for a terminal.
+inline void expect_narrow(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto letters =
+        std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+    EXPECT_LE(letters, 100) << line;
+  }
+}
+
 /// Every row of a table is as long as its columns are many, no number in it is none, and every column has a description and,
-/// if it is a number, a unit.
-inline void expect_described_tables(const Outcome& outcome) {
+/// if it is a number, a unit. There is an answer, and a summary that fits a terminal.
+inline void expect_readable(const Outcome& outcome) {
   const auto is_nan = [](const Value& value) {
     const double* const number = std::get_if<double>(&value);
     return number != nullptr && std::isnan(*number);
@@ -38,9 +51,15 @@ inline void expect_described_tables(const Outcome& outcome) {
           << t.name << " " << column.name;
     }
   }
+  EXPECT_FALSE(outcome.answer.empty());
+  expect_narrow(outcome.summary);
 }
 
-// ---- Runs of an experiment in memory, for its tests.
+// ---- Runs of an experiment.
+
+inline const Experiment& experiment_called(std::string_view name) {
+  return *std::ranges::find(experiments(), name, &Experiment::name);
+}
 
 /// Configured by `text`, laid over the experiment's defaults. Throws UsageError.
 inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_view text,
@@ -53,6 +72,19 @@ inline std::unique_ptr<Run> run_of(const Experiment& experiment, std::string_vie
 /// What is said against such a text; empty if it is taken.
 inline std::string refusal_of(const Experiment& experiment, std::string_view text) {
   return error_of<UsageError>([&] { run_of(experiment, text); });
+}
+
+/// A text that an experiment does not take, and what it says of it in its one line.
+struct Refusal {
+  std::string text, said;
+};
+
+inline void expect_refusals(const Experiment& experiment, const std::vector<Refusal>& refusals) {
+  for (const auto& [text, said] : refusals) {
+    const std::string refusal = refusal_of(experiment, text);
+    EXPECT_TRUE(holds(refusal, said)) << text;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+  }
 }
 
 /// A configuration of a second or two.
@@ -71,6 +103,13 @@ inline Outcome outcome_of(const Run& run) {
   const std::vector<std::string> results = results_of(run.units());
   return run.finish(results, std::vector<double>(results.size(), 1e-3));
 }
+
+inline Outcome outcome_of(const Experiment& experiment, std::string_view text,
+                          RunOptions options = {.seed = 1, .trials = {}}) {
+  return outcome_of(*run_of(experiment, text, options));
+}
+
+// ---- What is in a result.
 
 inline const Table& table_of(const Outcome& outcome, const std::string& name) {
   return *std::find_if(outcome.tables.begin(), outcome.tables.end(), [&](const Table& t) { return t.name == name; });

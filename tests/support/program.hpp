@@ -70,6 +70,8 @@ inline std::map<std::string, std::string> files_in(const std::filesystem::path& 
   return files;
 }
 
+inline bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null") == 0; }
+
 // ---- The commands of a document and what they print, as a reader would type and see them.
 //
 //     ```console

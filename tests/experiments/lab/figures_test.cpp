@@ -34,14 +34,21 @@ Figure two_panels() {
                      {"x [1]", "r [1]", true, false, 0.4, {residuals}}}};
 }
 
-bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null") == 0; }
+struct DrawnPlot : ::testing::Test {
+  TemporaryFolder folder;
 
-TEST(Plot, is_drawn_the_same_every_time_and_again_by_a_reader) {
-  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const TemporaryFolder folder;
-  write_text(folder / "probability.gp", plot_script(two_panels()));
-  write_text(folder / "probability.dat", plot_data(two_panels()));
-  ASSERT_EQ(draw(folder.path(), "probability"), "");
+  void SetUp() override {
+    if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
+  }
+  void expect_drawn(const Figure& figure, const std::string& format = "svg") const {
+    write_text(folder / (figure.name + ".gp"), plot_script(figure));
+    write_text(folder / (figure.name + ".dat"), plot_data(figure));
+    ASSERT_EQ(draw(folder.path(), figure.name, format), "") << format;
+  }
+};
+
+TEST_F(DrawnPlot, is_drawn_the_same_every_time_and_again_by_a_reader) {
+  expect_drawn(two_panels());
   const std::string first = read_text(folder / "probability.svg");
   ASSERT_EQ(std::system(("cd " + folder.path().string() + " && gnuplot probability.gp").c_str()), 0);
   EXPECT_EQ(read_text(folder / "probability.svg"), first);
@@ -52,8 +59,7 @@ TEST(Plot, is_drawn_the_same_every_time_and_again_by_a_reader) {
 }
 
 /// A name is the user's, and stands in the script, the legend, at the tics and as the title.
-TEST(Plot, no_name_breaks_a_figure) {
-  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+TEST_F(DrawnPlot, no_name_breaks_a_figure) {
   for (const std::string name :
        {"'",    "''",     "'a",       "a''b",         "it's",         "\"",   "a\"b",  "'\"'\"", "a\\",
         "\\'",  "\\047'", "'`date`'", "'@small'",     "a{b}_c^d",     "#",    "%g",    "$1",     "a, b; c",
@@ -61,10 +67,8 @@ TEST(Plot, no_name_breaks_a_figure) {
     Figure figure = two_panels();
     figure.title = figure.panels[0].series[0].label = name;
     figure.panels[0].y_tics = {{0, name}, {1, "one"}};
-    const TemporaryFolder folder;
-    write_text(folder / "probability.gp", plot_script(figure));
-    write_text(folder / "probability.dat", plot_data(figure));
-    ASSERT_EQ(draw(folder.path(), "probability"), "") << name;
+    SCOPED_TRACE(name);
+    expect_drawn(figure);
     const std::string svg = read_text(folder / "probability.svg");
     EXPECT_EQ(xml_fault(svg), "") << name;
     std::string shown = one_line(name);
@@ -74,9 +78,7 @@ TEST(Plot, no_name_breaks_a_figure) {
   }
 }
 
-TEST(Plot, says_what_gnuplot_minds) {
-  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const TemporaryFolder folder;
+TEST_F(DrawnPlot, says_what_gnuplot_minds) {
   write_text(folder / "broken.gp", "set nonsense\n");
   const std::string trouble = draw(folder.path(), "broken");
   EXPECT_TRUE(trouble.starts_with("gnuplot ended with 1: ")) << trouble;
@@ -101,7 +103,7 @@ TEST(Plot, bars_may_lie_along_both_axes) {
   EXPECT_THROW(plot_script(figure), std::logic_error);
 }
 
-TEST(Plot, cells_stand_between_names) {
+TEST_F(DrawnPlot, cells_stand_between_names) {
   Figure figure;
   figure.name = "heat";
   Series cells{.label = "much", .mark = Mark::cells, .x = {1, 2}, .y = {1, 1}, .lower = {}, .upper = {}};
@@ -115,24 +117,16 @@ TEST(Plot, cells_stand_between_names) {
   EXPECT_TRUE(holds(script, "linecolor rgb '#123456'"));
   EXPECT_TRUE(holds(script, "with boxxyerror"));
   EXPECT_TRUE(holds(script, "set xrange [0.4:2.6]"));
-  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const TemporaryFolder folder;
-  write_text(folder / "heat.gp", script);
-  write_text(folder / "heat.dat", plot_data(figure));
-  ASSERT_EQ(draw(folder.path(), "heat"), "");
+  expect_drawn(figure);
   const std::string svg = read_text(folder / "heat.svg");
   for (const char* text : {"ten_thousand", "a rather long name of a row", "group", "much"}) {
     EXPECT_TRUE(holds(svg, text));
   }
 }
 
-TEST(Plot, is_drawn_in_every_format_from_one_script) {
-  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const TemporaryFolder folder;
-  write_text(folder / "probability.gp", plot_script(two_panels()));
-  write_text(folder / "probability.dat", plot_data(two_panels()));
+TEST_F(DrawnPlot, is_drawn_in_every_format_from_one_script) {
   for (const char* format : {"svg", "pdf", "tex"}) {
-    ASSERT_EQ(draw(folder.path(), "probability", format), "") << format;
+    expect_drawn(two_panels(), format);
     for (const std::string& file : drawn_files("probability", format))
       EXPECT_FALSE(read_text(folder / file).empty()) << file;
   }

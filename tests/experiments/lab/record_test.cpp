@@ -1,5 +1,4 @@
 /// Records: their text, their sums, and the groups of rows that have one.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

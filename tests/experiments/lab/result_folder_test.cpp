@@ -7,7 +7,6 @@
 #include <thinwall/experiments/lab/comparison.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 
-#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
@@ -135,26 +134,6 @@ TEST_F(ResultFolderTest, clears_what_a_run_left_that_was_killed_while_it_wrote) 
   EXPECT_EQ(run().status, 0);
   EXPECT_FALSE(std::filesystem::exists(out + "/data/half.csv"));
   for (const auto& [name, text] : files_in(out)) EXPECT_FALSE(name.starts_with(".")) << name;
-}
-
-TEST_F(ResultFolderTest, takes_no_row_of_another_seed) {
-  ASSERT_EQ(run().status, 0);
-  const std::string cells = read_text(out + "/data/cells.csv");
-  std::map<std::string, std::string> journals;
-  for (const char* seed : {"0", "99"}) {
-    out = folder / seed;
-    ToyControl::interrupt_after = 8;
-    ASSERT_EQ(run({"--threads", "1", "--seed", seed}).status, 130);
-    journals[seed] = read_text(out + "/journal.tsv");
-  }
-  out = folder / "0";
-  const auto first_row = [](const std::string& text) { return text.find('\n') + 1; };
-  write_text(out + "/journal.tsv",
-             journals["0"].substr(0, first_row(journals["0"])) + journals["99"].substr(first_row(journals["99"])));
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 0) << reply.err;
-  EXPECT_TRUE(holds(reply.err, "journal.tsv:2: the row of 'cell 0' is damaged, or of another run"));
-  EXPECT_EQ(read_text(out + "/data/cells.csv"), cells);
 }
 
 // ---- A manifest from anywhere: whatever it holds, every command that reads it answers in a line.

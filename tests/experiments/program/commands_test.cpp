@@ -18,7 +18,6 @@
 #include "experiments/scenes/scene_text.hpp"
 #include "experiments/speed_run.hpp"
 #include "support/program.hpp"
-#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {

@@ -3,19 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 
-#include "support/said.hpp"
 #include "support/toy.hpp"
 
 namespace thinwall {
 namespace {
-
-bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null") == 0; }
 
 struct ReportTest : ToyProgram {
   void SetUp() override {
@@ -110,10 +106,7 @@ TEST_F(ReportTest, sees_a_manifest_that_was_edited) {
                  {"\"cells\": 20", "\"cells\": 21", "resolved.toml: is not the configuration"},
                  {"run toy --seed", "run toy  --seed", "resolved.toml: does not give the manifest's line"},
                  {"\"self_test_passed\": true", "\"self_test_passed\": false",
-                  "report.html: does not give the manifest's verdict"},
-                 {"\"seed\": 3", "\"seed\": 3.5", "manifest.json: key 'seed': 3.5 is not allowed; a whole"},
-                 {"\"seed\": 3", "\"seed\": -3", "manifest.json: key 'seed': -3 is not allowed; a whole"},
-                 {"\"trials\": null", "\"trials\": 1.5", "manifest.json: key 'trials': 1.5 is not"}});
+                  "report.html: does not give the manifest's verdict"}});
 }
 
 TEST_F(ReportTest, recomputes_a_run_id_however_json_spells_the_numbers) {

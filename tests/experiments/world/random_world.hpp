@@ -1,7 +1,8 @@
 #pragma once
-/// Small worlds in which much happens: fast bodies of every shape, walls, masks, bodies in each other, ties.
+/// Time policies, and small worlds in which much happens: fast bodies of every shape, walls, masks, bodies in each other, ties.
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include <thinwall/experiments/world.hpp>
 
 namespace thinwall::testing {
+
+constexpr TimePolicy all_policies[] = {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp,
+                                       TimePolicy::event_driven};
+constexpr TimePolicy swept_policies[] = {TimePolicy::clamp, TimePolicy::event_driven};
 
 class WorldDraw {
  public:

@@ -1,12 +1,12 @@
 // What a world sees does not depend on what it does about it: every pair at the time that a sheet of paper gives.
 
-#include <thinwall/experiments/world.hpp>
-
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include <gtest/gtest.h>
+
+#include "experiments/world/random_world.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -70,8 +70,7 @@ std::vector<Encounter> encounters() {
 }
 
 TEST(SeenContacts, are_told_at_their_time_whatever_follows_from_them) {
-  for (const TimePolicy policy :
-       {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp, TimePolicy::event_driven}) {
+  for (const TimePolicy policy : all_policies) {
     for (const Encounter& encounter : encounters()) {
       for (const bool response : {true, false}) {
         for (const bool full_plan : {true, false}) {
@@ -110,7 +109,7 @@ TEST(SeenContacts, are_the_same_with_and_without_a_plan_and_an_answer) {
     height += 1;
     expected[bodies[bodies.size() - 2].id] = encounter.touch();
   }
-  for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
+  for (const TimePolicy policy : swept_policies) {
     for (const bool response : {true, false}) {
       for (const bool full_plan : {true, false}) {
         const WorldOptions options = {.policy = policy, .response = response, .full_plan = full_plan};
@@ -131,7 +130,7 @@ TEST(SeenContacts, are_the_same_with_and_without_a_plan_and_an_answer) {
 /// It is stopped by a post at 0.0875 s; what nothing stops comes by at 0.38 s, and is gone at the end of the step.
 TEST(SeenContacts, of_a_body_that_waits_are_told_too) {
   const Body post = ball(3, Motion::fixed, {1.125, 0, 0}, {0, 0, 0});
-  for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
+  for (const TimePolicy policy : swept_policies) {
     const WorldOptions options = {.policy = policy, .max_events = 1};
     World world(
         {ball(1, Motion::free, {0, 0, 0}, {10, 0, 0}), ball(2, Motion::driven, {0.725, -4, 0}, {0, 10, 0}), post},
@@ -147,7 +146,7 @@ TEST(SeenContacts, of_a_body_that_waits_are_told_too) {
 
 /// The bounce off the first must not hide the second, which it no longer approaches.
 TEST(SeenContacts, of_one_instant_are_all_told) {
-  for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
+  for (const TimePolicy policy : swept_policies) {
     std::vector<Body> bodies = {ball(3, Motion::free, {0, 1.125, 0}, {0, -2, 0})};
     for (const std::uint32_t id : {1U, 2U, 4U}) {  // of a floor
       Body tile = ball(id, Motion::fixed, {0, 0, 0}, {0, 0, 0});

@@ -16,7 +16,6 @@ namespace thinwall::testing {
 namespace {
 
 constexpr double immovable = std::numeric_limits<double>::infinity();
-constexpr TimePolicy swept_policies[] = {TimePolicy::clamp, TimePolicy::event_driven};
 
 Body body_of(std::uint32_t id, const AnyShape& shape, double mass = 1) {
   return {.id = id, .name = {}, .shape = shape, .mass = mass, .restitution = 1};
@@ -66,8 +65,7 @@ TEST(Spin, inertia_is_that_of_the_solid) {
 }
 
 TEST(Spin, a_body_that_nothing_touches_turns_by_its_rate_and_stays_true) {
-  for (const TimePolicy policy :
-       {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp, TimePolicy::event_driven}) {
+  for (const TimePolicy policy : all_policies) {
     const WorldOptions options = {.policy = policy, .substeps = 3};
     const Vec3<double> rate(0.3, -0.5, 0.9);
     const Body rod = spinning_body(1, rod_along_x(1, 0.1), rate),
@@ -147,16 +145,14 @@ TEST(Spin, a_blade_meets_a_post_at_its_angle_and_a_discrete_one_goes_through) {
   const Body post =
       body_of(2, Capsule<double>{place - Vec3<double>(0, 0, 1), place + Vec3<double>(0, 0, 1), post_radius});
   const double dt = 0.021;  // 2.1 rad a step: past the post
-  for (const TimePolicy policy :
-       {TimePolicy::discrete, TimePolicy::substeps, TimePolicy::clamp, TimePolicy::event_driven}) {
+  for (const TimePolicy policy : all_policies) {
     for (const bool is_free : {false, true}) {
       const WorldOptions options = {.policy = policy, .substeps = 2};  // 1.05 rad: still before it
       World world({blade, is_free ? post : fixed(post)}, options);
       world.step(dt);
-      const bool sweeps = policy == TimePolicy::clamp || policy == TimePolicy::event_driven;
-      ASSERT_EQ(world.hits().size(), sweeps ? 1U : 0U) << name_of(policy);
+      ASSERT_EQ(world.hits().size(), sweeps(policy) ? 1U : 0U) << name_of(policy);
       EXPECT_EQ(world.find(1)->angular_velocity, Vec3<double>(0, 0, rate));
-      if (!sweeps) continue;
+      if (!sweeps(policy)) continue;
       EXPECT_NEAR(world.hits()[0].time, angle / rate, 1e-12) << name_of(policy);
       EXPECT_LE(world.hits()[0].time, angle / rate) << "never late";
       if (!is_free) continue;

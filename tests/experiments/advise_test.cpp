@@ -1,9 +1,9 @@
-/// A wish, and advice on it with costs that nobody measured.
+/// A wish, and advice on it with costs that nobody measured; of a rod that spins, too.
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
+#include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,45 +14,47 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/spinning_rod/methods.hpp>
 #include <thinwall/experiments/thin_wall/model.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 #include <thinwall/swept/certified.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
 
 #include "support/experiment_run.hpp"
-#include "support/said.hpp"
+#include "support/reply.hpp"
 
 namespace thinwall {
 
+namespace {
+
 /// The bullet of the textbook: it tunnels 7 times in 10, and a step is 3 1/3 times as long as its contact.
-inline const Wish bullet_wish = {.cell = bullet};
+const Wish bullet_wish = {.cell = bullet};
 
 /// Both kinds of steps take `ns`, known to within 1 %.
-inline StepCost costing(double ns) {
+StepCost costing(double ns) {
   const Measured time = {ns, {0.99 * ns, 1.01 * ns}};
   return {time, time};
 }
 
 /// The methods cost 10, 20, 30 ... ns in the order of the list.
-inline Advice advice_on(const Wish& wish) {
+Advice advice_on(const Wish& wish) {
   const std::vector<Candidate> methods = candidates(wish);
   std::vector<StepCost> costs;
   for (std::size_t i = 0; i < methods.size(); ++i) costs.push_back(costing(10 * static_cast<double>(i + 1)));
   return advise(wish, methods, costs);
 }
 
-inline const AdviceRow& row_of(const Advice& advice, const std::string& method) {
+const AdviceRow& row_of(const Advice& advice, const std::string& method) {
   const auto row = std::ranges::find_if(advice.rows, [&](const AdviceRow& r) { return r.method.name == method; });
   if (row == advice.rows.end()) throw std::runtime_error("no row of " + method);
   return *row;
 }
 
-inline bool has_row(const Advice& advice, const std::string& method) {
+bool has_row(const Advice& advice, const std::string& method) {
   return std::ranges::any_of(advice.rows, [&](const AdviceRow& row) { return row.method.name == method; });
 }
 
 // ---- The choice, with costs that are given: nothing is timed here.
-
-namespace {
 
 Wish with_step(Wish wish, double step) {
   wish.cell.step = step;
@@ -152,28 +154,24 @@ TEST(Advice, the_cheapest_that_meets_the_wish_is_advised) {
   EXPECT_EQ(advice_on({.cell = bullet, .miss = 1}).advised()->method.name, "end_of_step");
 }
 
-TEST(Advice, the_dearer_kind_of_step_counts) {
+/// What is advised on the bullet where every method costs 100 ns but these.
+std::string advised_at(const std::map<std::string, StepCost>& costs_of) {
   const std::vector<Candidate> methods = candidates(bullet_wish);
-  std::vector<StepCost> costs(methods.size(), costing(100));
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (methods[i].name == "centre_ray") costs[i] = {costing(1).clear, costing(200).contact};
-    if (methods[i].name == "inclusion") costs[i] = {costing(90).clear, costing(80).contact};
-  }
-  EXPECT_EQ(advise(bullet_wish, methods, costs).advised()->method.name, "inclusion");
+  std::vector<StepCost> costs;
+  for (const Candidate& method : methods)
+    costs.push_back(costs_of.contains(method.name) ? costs_of.at(method.name) : costing(100));
+  return advise(bullet_wish, methods, costs).advised()->method.name;
+}
+
+TEST(Advice, the_dearer_kind_of_step_counts) {
+  const StepCost clear_is_cheap = {costing(1).clear, costing(200).contact},
+                 both_are_not_dear = {costing(90).clear, costing(80).contact};
+  EXPECT_EQ(advised_at({{"centre_ray", clear_is_cheap}, {"inclusion", both_are_not_dear}}), "inclusion");
 }
 
 TEST(Advice, of_costs_that_cannot_be_told_apart_the_least_late_wins) {
-  const std::vector<Candidate> methods = candidates(bullet_wish);
-  std::vector<StepCost> costs(methods.size(), costing(100));
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (methods[i].name == "centre_ray") costs[i] = costing(50);
-    if (methods[i].name == "closed_form") costs[i] = costing(50.5);  // within 1 % of it
-  }
-  EXPECT_EQ(advise(bullet_wish, methods, costs).advised()->method.name, "closed_form");
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (methods[i].name == "closed_form") costs[i] = costing(53);
-  }
-  EXPECT_EQ(advise(bullet_wish, methods, costs).advised()->method.name, "centre_ray");
+  EXPECT_EQ(advised_at({{"centre_ray", costing(50)}, {"closed_form", costing(50.5)}}), "closed_form");  // within 1 %
+  EXPECT_EQ(advised_at({{"centre_ray", costing(50)}, {"closed_form", costing(53)}}), "centre_ray");
 }
 
 /// A method that a stranger adds to the list has no theory until he gives one.
@@ -211,7 +209,7 @@ TEST(Advice, of_nothing_is_nothing) { EXPECT_EQ(advise(bullet_wish, {}, {}).advi
 
 std::vector<Wish> all_sorts() {
   std::vector<Wish> wishes(5, bullet_wish);
-  wishes[1] = {.cell = {123456.789, 1.0 / 3, 0.0123456789, 1e-9, 89.87654321, Wall::infinite, 0}, .miss = 0.123456789};
+  wishes[1] = {.cell = {123456.789, 1.0 / 3, 0.0123456789, 1e-9, 89.87654321}, .miss = 0.123456789};
   wishes[1].late = 1.23456789e-7;
   wishes[2].cell.radius = wishes[2].cell.thickness = 0;
   wishes[3].miss = 1;
@@ -223,8 +221,7 @@ TEST(AdviceText, fits_a_terminal) {
   for (const Wish& wish : all_sorts()) {
     const std::string text = advice_text(advice_on(wish));
     EXPECT_TRUE(text.ends_with(".\n"));
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+    expect_narrow(text);
   }
 }
 
@@ -330,8 +327,8 @@ class Fired {
  public:
   explicit Fired(const Wish& wish)
       : wish_(wish),
-        outcome_(outcome_of(
-            *run_of(thin_wall_experiment(), check_config(wish, candidates(wish)), {.seed = 3, .trials = shots}))) {}
+        outcome_(
+            outcome_of(thin_wall_experiment(), check_config(wish, candidates(wish)), {.seed = 3, .trials = shots})) {}
 
   bool self_test_passed() const { return outcome_.self_test_passed; }
 
@@ -389,31 +386,12 @@ void expect_agreement(const Wish& wish) {
   }
 }
 
-TEST(AdviceAgreement, bullet_of_the_textbook) { expect_agreement(bullet_wish); }
-
-TEST(AdviceAgreement, slanted_and_fast) {
-  Wish wish = bullet_wish;
-  wish.cell = {700, 1.0 / 240, 0.003, 0.02, 35, Wall::infinite, 0};
-  wish.miss = 0.95;
-  expect_agreement(wish);
-}
-
-TEST(AdviceAgreement, a_point_and_a_wall) {
-  Wish wish = bullet_wish;
-  wish.cell.radius = 0;
-  wish.miss = 0.5;
-  expect_agreement(wish);
-}
-
-TEST(AdviceAgreement, a_sheet_and_a_bound_on_lateness) {
-  Wish wish = {.cell = {50, 0.01, 0.05, 0, 70, Wall::infinite, 0}, .miss = 0.2, .late = 0.1};
-  expect_agreement(wish);
-}
-
-TEST(AdviceAgreement, a_step_shorter_than_the_contact) {
-  Wish wish = bullet_wish;
-  wish.cell.step = 0.001;
-  expect_agreement(wish);
+TEST(AdviceAgreement, is_there_whatever_is_wished) {
+  expect_agreement(bullet_wish);
+  expect_agreement({.cell = {700, 1.0 / 240, 0.003, 0.02, 35}, .miss = 0.95});    // slanted and fast
+  expect_agreement({.cell = {10, 1.0 / 60, 0, 0.01, 0}, .miss = 0.5});            // a point and a wall
+  expect_agreement({.cell = {50, 0.01, 0.05, 0, 70}, .miss = 0.2, .late = 0.1});  // a sheet
+  expect_agreement({.cell = {10, 0.001, 0.02, 0.01, 0}});                         // a step shorter than the contact
 }
 
 /// At the longest step that is called safe the count is within the wish, and a tenth beyond it is not.
@@ -463,6 +441,105 @@ TEST(AdviceAgreement, certified_answers_miss_no_shot_and_are_never_late) {
     EXPECT_LE(toi.lower, contact * (1 + 1e-15));
     EXPECT_LE(contact - toi.lower, theory.widest / aimed.step_length + 1e-15);
   }
+}
+
+// ---- Advice on a rod that spins: the theory of docs/spinning_rod.md in a wish's own units, and what is refused.
+
+/// 0.6 m end to end, half a meter of core and 5 cm around, at a wall of 5 cm; a step of s m, 90 deg in it.
+Wish tumbling(double s) {
+  Wish wish;
+  wish.cell = {.speed = 10 * s,
+               .step = 0.1,
+               .radius = 0.05,
+               .thickness = 0.05,
+               .angle_deg = 0,
+               .wall = Wall::infinite,
+               .wall_size = 0};
+  wish.rod = TumblingRod{0.6, 900};
+  return wish;
+}
+
+double chance(const Wish& wish, const std::string& method) {
+  for (const Candidate& c : rod_candidates(wish))
+    if (c.name == method) return c.theory(wish.cell).probability.value_or(-1);
+  return -2;
+}
+
+TEST(RodAdvice, long_steps_see_the_mean_width_alone) {
+  Wish wish = tumbling(2);  // 1 - (w + 2 r + 2 c / pi) / s
+  const double expected = 1 - (0.15 + 1 / std::numbers::pi) / 2;
+  EXPECT_NEAR(chance(wish, "end_of_step"), expected, 1e-12);
+  wish.rod->spin = 0;
+  EXPECT_NEAR(chance(wish, "end_of_step"), expected, 1e-12) << "spin drops out";
+  wish.cell.angle_deg = 60;  // half as far along the normal
+  EXPECT_NEAR(chance(wish, "end_of_step"), 1 - (0.15 + 1 / std::numbers::pi), 1e-12);
+}
+
+TEST(RodAdvice, spin_shields_on_short_steps) {
+  Wish wish = tumbling(0.39);  // w + 2 r + c sin(90 deg) / 2 = 0.4
+  EXPECT_EQ(chance(wish, "end_of_step"), 0);
+  wish.rod->spin = 0;
+  EXPECT_GT(chance(wish, "end_of_step"), 0.05);
+  for (const char* method : {"linear_sweep", "speculative", "conservative_advancement", "certified"})
+    EXPECT_EQ(chance(wish, method), 0) << method;
+}
+
+/// What is advised by formula is what the rod's own flights do.
+TEST(RodAdvice, agrees_with_flights) {
+  const Wish wish = tumbling(0.8);
+  const RodFlight flight = {
+      .half_length = 0.25, .radius = 0.05, .thickness = 0.05, .tilt_deg = 90, .spin_deg = 90, .step_ratio = 0.8 / 0.65};
+  const std::vector<std::string> names = {"end_of_step"};
+  const RodTally tally = fly(flight, rod_methods(names, {})[0], 20'000, 5);
+  const double p = chance(wish, "end_of_step");
+  EXPECT_NEAR(static_cast<double>(tally.tunneled) / 20'000, p, 4 * std::sqrt(p * (1 - p) / 20'000));
+}
+
+TEST(RodAdvice, steps_are_before_the_wall_and_at_it) {
+  const Wish wish = tumbling(0.8);
+  for (const RodStep& step : rod_steps(wish, 100, 0))
+    EXPECT_EQ(time_of_impact(step.rod, step.wall).status, ToiStatus::hit);
+  for (const RodStep& step : rod_steps(wish, 100, 1))
+    EXPECT_EQ(time_of_impact(step.rod, step.wall).status, ToiStatus::apart);
+}
+
+/// [s] A longest step does at any spin, and at the spin of the wish all the more.
+TEST(RodAdvice, the_longest_step_is_safe_at_any_spin) {
+  Wish wish = tumbling(0.8);
+  wish.miss = 0.1;
+  for (const Candidate& c : rod_candidates(wish)) {
+    const auto longest = longest_step(wish, c.at_any_spin);
+    ASSERT_TRUE(longest) << c.name;
+    if (*longest == allowed_step.upper) continue;
+    for (const double spin : {0.0, 300.0, 900.0, 2000.0}) {
+      Wish other = wish;
+      other.rod->spin = spin;
+      other.cell.step = *longest;
+      EXPECT_LE(chance(other, c.name), 0.1 + 1e-12) << c.name << " " << spin;
+    }
+  }
+}
+
+TEST(RodAdvice, is_asked_for_by_length_and_spin) {
+  const Words question = {"advise", "--speed", "20", "--radius", "0.05", "--thickness", "0.05", "--fps", "10"};
+  const Reply reply = call_program(joined(question, {"--length", "0.6", "--spin", "900", "--json"}));
+  EXPECT_EQ(reply.status, 0) << reply.err;
+  const auto json = nlohmann::json::parse(reply.out);
+  EXPECT_EQ(json["length_m"], 0.6);
+  EXPECT_EQ(json["spin_deg_s"], 900);
+  EXPECT_NEAR(json["contact_m"], 0.15 + 1 / std::numbers::pi, 1e-12);
+  EXPECT_EQ(json["methods"].size(), 8U);
+  const auto refused = [&](const Words& more, const std::string& why) {
+    EXPECT_EQ(refusal(call_program(joined(question, more))), why + "\n");
+  };
+  refused({"--spin", "3"}, "--spin: a ball looks the same however it spins; of a rod, give --length [m] too");
+  refused({"--length", "0.1"},
+          "--length: a rod 0.1 m long, end to end, is no longer than it is wide, 0.1 m; without --length it is a ball");
+  refused({"--length", "1", "--spin", "-1"}, "--spin: '-1' is not allowed; a number >= 0 and <= 1000000000 [deg/s]");
+  refused({"--length", "inf"}, "--length: 'inf' is not allowed; a number > 0 and <= 1000 [m]");
+  refused({"--length", "1", "--spin", "1e6"}, "--spin 1000000: in a step of 0.1 s that is 278 turns; at most 100");
+  refused({"--length", "1", "--toml", "-"},
+          "--toml: thin_wall fires balls; rods are fired by thinwall run spinning_rod");
 }
 
 }  // namespace
