@@ -203,14 +203,15 @@ THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<dou
 
 template <bool apart_too> THINWALL_HOT ClearContact clear_boxes_gap(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
-  return clear_boxes_gap<apart_too>(of_a, a.half_extents, of_b, b.half_extents,
-                                    {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)},
-                                    packed::lanes(b.center) - packed::lanes(a.center));
+  return clear_boxes_gap<apart_too>(of_a, ClearBoxPair(of_a, a.half_extents, of_b, b.half_extents,
+                                                       {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)},
+                                                       packed::lanes(b.center) - packed::lanes(a.center)));
 }
 template <bool apart_too> THINWALL_HOT ClearContact clear_boxes_gap(const Aabb<double>& a, const Obb<double>& b) {
   const ClearFrame of_b(b.axes);
-  return clear_boxes_gap<apart_too>(ClearUpright{}, a.half_extents, of_b, b.half_extents, of_b.rows,
-                                    packed::lanes(b.center) - packed::lanes(a.center));
+  return clear_boxes_gap<apart_too>(ClearUpright{},
+                                    ClearBoxPair(ClearUpright{}, a.half_extents, of_b, b.half_extents, of_b.rows,
+                                                 packed::lanes(b.center) - packed::lanes(a.center)));
 }
 THINWALL_HOT ClearContact clear_contact(const Obb<double>& a, const Obb<double>& b) {
   return clear_boxes_gap<false>(a, b);

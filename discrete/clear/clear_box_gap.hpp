@@ -10,6 +10,85 @@
 
 namespace thinwall {
 
+/// The boxes a and b, seen from the center of a along its axes, which are made of unit length, as those of b are.
+struct ClearBoxPair {
+  packed::Lanes ha, hb, d;                      ///< [length] half extents, and the center of b
+  packed::Vectors<packed::Lanes> rows, axes_b;  ///< of each of a's axes what b's have along it; and b's axes
+  packed::Pair size, noise;                     ///< [length]
+  bool clear;                                   ///< valid, in range, and their axes clear
+
+  /// `turned` are the rows of ClearBoxAxes, of axes as they are.
+  template <class FrameA>
+  THINWALL_HOT ClearBoxPair(const FrameA& of_a, const Vec3<double>& half_a, const ClearFrame& of_b,
+                            const Vec3<double>& half_b, const packed::Vectors<packed::Lanes>& turned,
+                            const packed::Lanes& between) {
+    using packed::both;
+    const packed::Lanes per_a = of_a.per_length(), per_b = of_b.per_length();
+    const packed::Vectors<packed::Lanes> each_per_a = spread(per_a);
+    ha = packed::lanes(half_a) / per_a, hb = packed::lanes(half_b) / per_b, d = of_a.into(between) * per_a;
+    rows = {turned.x * (each_per_a.x * per_b), turned.y * (each_per_a.y * per_b), turned.z * (each_per_a.z * per_b)};
+    axes_b = packed::transposed(rows.x, rows.y, rows.z);
+    size = sum(abs(between) + (ha + hb)), noise = size * both(0x1p-46);
+    const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
+    const bool is_valid = both(all_of(packed::all(0) <= min(ha, hb)), both(of_a.clear(), of_b.clear()));
+    clear = both(both(is_valid, axes().in_range()), all_of(in_range));
+  }
+  THINWALL_HOT ClearBoxAxes axes() const { return {rows, ha, hb, all(noise)}; }
+  THINWALL_HOT packed::Lanes from_b(const packed::Lanes& own) const {
+    const packed::Vectors<packed::Lanes> part = spread(own);
+    return (axes_b.x * part.x + axes_b.y * part.y) + axes_b.z * part.z;
+  }
+  /// How far they overlap along the unit vector n, from a to b.
+  THINWALL_HOT packed::Pair overlap(const packed::Lanes& n) const {
+    return (dot(ha, abs(n)) + dot(hb, abs(dot(spread(n), rows)))) - dot(n, d);
+  }
+};
+
+/// A place on each of two boxes, one straight along n from the other.
+struct ClearFacing {
+  bool clear;
+  packed::Lanes n, on_a, on_b;
+};
+
+/// Where the boxes overlap least, along the one axis whose bit is set: a corner of one and the face of the other that is across it, or two edges.
+/// Clear if no face or edge is level with the other box; of edges, if they also cross within both.
+struct ClearFeatures : ClearFacing {
+  bool edges_face;  ///< they are edges, and the two places within them
+
+  THINWALL_HOT ClearFeatures(const ClearBoxPair& boxes, unsigned axes) {
+    using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
+    const Lanes zero = all(0), &ha = boxes.ha, &hb = boxes.hb;
+    const ClearAxis& k = ClearAxis::of(axes);
+    const LanesMask is_own = zero < all(k.own), is_its = zero < all(k.its);
+    const LanesMask along_a = packed::lowest(k.edge_a), along_b = packed::lowest(k.edge_b);
+    const Lanes edge_a = ClearUpright::axis(k.a);
+    const Lanes edge_b = only(packed::lowest(1U << static_cast<unsigned>(k.b)), boxes.rows);
+    const Lanes product = cross(edge_a, edge_b), axis = select(is_own, edge_a, select(is_its, edge_b, product));
+    const Pair square_sine = dot(product, product), toward = dot(axis, boxes.d);
+    n = unit(against(zero - axis, all(toward)));
+
+    // the corner of each that is farthest along n, or the middle of an edge
+    const Lanes g = dot(spread(n), boxes.rows);
+    const Lanes from_a = select(along_a, zero, against(zero - ha, n));
+    const Lanes from_b = boxes.d + boxes.from_b(select(along_b, zero, against(hb, g))), way = from_b - from_a;
+    const Pair on_edges = two_sums(way * edge_a, way * edge_b), cosine = dot(edge_a, edge_b);
+    const Pair along = (on_edges - swapped(on_edges) * cosine) / square_sine;  // of a's edge, and back along b's
+    const Lanes depth = n * all(boxes.overlap(n));
+    on_a = select(is_own, from_b + depth, from_a + keep(along_a, all(firsts(along))));
+    on_b = on_a - depth;
+
+    const LanesMask leans_a = (all(boxes.noise) < abs(n) * ha) | (ha <= zero) | along_a | is_own;
+    const LanesMask leans_b = (all(boxes.noise) < abs(g) * hb) | (hb <= zero) | along_b | is_its;
+    const PairMask crossed = both(0x1p-6) < square_sine;
+    const bool is_product = k.edge_a != 0;
+    const PairMask within = (firsts(abs(along)) <= dot(keep(along_a, ha), all(1))) &
+                            (seconds(abs(along)) <= dot(keep(along_b, hb), all(1)));
+    edges_face = both(both(k.alone, is_product), all_of(within & crossed));
+    clear = both(both(k.alone, all_of(leans_a & leans_b)),
+                 both(all_of(boxes.noise < abs(toward)), all_of(crossed) || !is_product));
+  }
+};
+
 /// Of the eight corners middle +- x +- y +- z of a box, the one nearest to the box [-h, h].
 struct ClearCorner {
   packed::Lanes at, gap;  ///< the corner, and from the box to it
@@ -35,91 +114,58 @@ struct ClearCorner {
   }
 };
 
-/// The boxes a and b, `between` away from it: `turned` are the rows of ClearBoxAxes. Of boxes that are apart nothing more is said, unless
-/// `apart_too`.
-template <bool apart_too, class FrameA>
-THINWALL_HOT ClearContact clear_boxes_gap(const FrameA& of_a, const Vec3<double>& half_a, const ClearFrame& of_b,
-                                          const Vec3<double>& half_b, const packed::Vectors<packed::Lanes>& turned,
-                                          const packed::Lanes& between) {
-  using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::Vectors, packed::all, packed::both;
-  const Lanes zero = all(0), per_a = of_a.per_length(), per_b = of_b.per_length();
-  const Lanes ha = packed::lanes(half_a) / per_a, hb = packed::lanes(half_b) / per_b, d = of_a.into(between) * per_a;
-  const Vectors<Lanes> D = spread(d), HA = spread(ha), HB = spread(hb), PA = spread(per_a);
-  const Vectors<Lanes> rows{turned.x * (PA.x * per_b), turned.y * (PA.y * per_b), turned.z * (PA.z * per_b)};
-  const Vectors<Lanes> axes_b = packed::transposed(rows.x, rows.y, rows.z);
-  const auto from_b = [&](const Lanes& own) {
-    const Vectors<Lanes> part = spread(own);
-    return (axes_b.x * part.x + axes_b.y * part.y) + axes_b.z * part.z;
-  };
-  const Pair size = sum(abs(between) + (ha + hb)), noise = size * both(0x1p-46);
-  const PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
-  const ClearBoxAxes boxes{rows, ha, hb, all(noise)};
+/// A corner of one box and what of the other is nearest to it, of boxes that are apart.
+THINWALL_HOT ClearFacing clear_nearest_corner(const ClearBoxPair& boxes) {
+  using packed::Lanes, packed::all;
+  const packed::Vectors<Lanes>&rows = boxes.rows, &axes_b = boxes.axes_b, in_a = spread(boxes.ha),
+        in_b = spread(boxes.hb);
+  const ClearCorner of_b(boxes.d, {axes_b.x * in_b.x, axes_b.y * in_b.y, axes_b.z * in_b.z}, boxes.ha);
+  const ClearCorner of_a(all(0) - dot(spread(boxes.d), rows), {rows.x * in_a.x, rows.y * in_a.y, rows.z * in_a.z},
+                         boxes.hb);
+  const packed::LanesMask is_of_b = all(of_b.square) <= all(of_a.square);
+  const Lanes gap = select(is_of_b, of_b.gap, all(0) - boxes.from_b(of_a.gap));
+  const Lanes on_b = select(is_of_b, of_b.at, boxes.d + boxes.from_b(of_a.at) + gap);
+  return {true, unit(gap), on_b - gap, on_b};
+}
 
-  LanesMask apart = all(1) < zero, within = zero <= min(ha, hb);
+/// Of boxes that are apart nothing more is said, unless `apart_too`.
+template <bool apart_too, class FrameA>
+THINWALL_HOT ClearContact clear_boxes_gap(const FrameA& of_a, const ClearBoxPair& boxes) {
+  using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both;
+  const Lanes zero = all(0);
+  const packed::Vectors<Lanes> d = spread(boxes.d);
+  LanesMask apart = all(1) < zero, within = zero <= zero;
   Lanes least[5], most[5];  // of how far they overlap on each axis
   int group = 0;
-  boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& rounding, const Lanes& square) {
-    const Lanes overlap = reach - abs(along(D)), length = root(square);
+  boxes.axes().each_group([&](const auto& along, const Lanes& reach, const Lanes& rounding, const Lanes& square) {
+    const Lanes overlap = reach - abs(along(d)), length = root(square);
     const LanesMask has_length = zero < square;
     apart = apart | (overlap < zero - rounding);
     within = within & (rounding <= overlap);
     least[group] = select(has_length, (overlap - rounding) / length, all(ClearEntry::never));
     most[group++] = select(has_length, (overlap + rounding) / length, all(ClearEntry::never));
   });
-  const bool parted = any_of(apart), in_order = both(both(of_a.clear(), of_b.clear()), boxes.in_range());
-  ClearContact answer{both(in_order, all_of(in_range)), !parted, zero, zero, zero, both(0)};
-  if (parted && !apart_too) return answer;
+  const bool parted = any_of(apart);
+  if (parted && !apart_too) return {boxes.clear, false, zero, zero, zero, both(0)};
 
-  // The axis of least overlap, n from a to b and g in the axes of b; of each box the corner that is farthest along it, or the middle of an edge.
   const Pair bound = smallest_of(min(min(most[0], most[1]), min(min(most[2], most[3]), most[4])));
   unsigned axes = 0;
   for (unsigned i = 0; i < 5; ++i) axes |= bits(least[i] <= all(bound)) << 3U * i;
-  const ClearAxis& k = ClearAxis::of(axes);
-  const LanesMask is_own = zero < all(k.own), is_its = zero < all(k.its);
-  const LanesMask along_a = packed::lowest(k.edge_a), along_b = packed::lowest(k.edge_b);
-  const Lanes edge_a = ClearUpright::axis(k.a), edge_b = only(packed::lowest(1U << static_cast<unsigned>(k.b)), rows);
-  const Lanes product = cross(edge_a, edge_b), axis = select(is_own, edge_a, select(is_its, edge_b, product));
-  const Pair sine = dot(product, product), toward = dot(axis, d);
-  Lanes n = unit(against(zero - axis, all(toward)));
-  const Lanes g = dot(spread(n), rows);
-  const Lanes corner_a = select(along_a, zero, against(zero - ha, n)), corner_b = select(along_b, zero, against(hb, g));
-  const Lanes at_b = d + from_b(corner_b), r = at_b - corner_a;
-  answer.depth = (dot(ha, abs(n)) + dot(hb, abs(g))) - dot(n, d);
-  const Pair to_edges = two_sums(r * edge_a, r * edge_b), cosine = dot(edge_a, edge_b);
-  const Pair along =
-      (to_edges - swapped(to_edges) * cosine) / sine;  // from the middle of a's edge, and back from that of b's
-  const bool is_product = k.edge_a != 0;
-  const PairMask crossed = both(0x1p-6) < sine;
-  Lanes on_a = select(is_own, at_b + n * all(answer.depth), corner_a + keep(along_a, all(firsts(along))));
-  Lanes on_b = on_a - n * all(answer.depth);
-
-  if (!parted) {
-    const LanesMask leans_a = (all(noise) < abs(n) * ha) | (ha <= zero) | along_a | is_own;
-    const LanesMask leans_b = (all(noise) < abs(g) * hb) | (hb <= zero) | along_b | is_its;
-    const bool lies_so = both(all_of(within & leans_a & leans_b), all_of(noise < abs(toward)));
-    answer.clear = both(both(answer.clear, k.alone), both(lies_so, all_of(crossed) || !is_product));
+  const ClearFeatures features(boxes, axes);
+  ClearFacing facing = features;
+  if (parted && !features.edges_face) facing = clear_nearest_corner(boxes);
+  Pair depth = boxes.overlap(facing.n);
+  if (parted) {  // no plane parts them by more than they are apart: one that does so by all of it proves it
+    const Pair distance = dot(facing.on_b - facing.on_a, facing.n);
+    facing.clear = all_of((distance + depth <= boxes.size * both(0x1p-51)) & (boxes.size * both(0x1p-20) <= distance));
+    depth = both(0) - distance;
   } else {
-    const PairMask inside = (firsts(abs(along)) <= dot(keep(along_a, ha), all(1))) &
-                            (seconds(abs(along)) <= dot(keep(along_b, hb), all(1)));
-    if (!(k.alone && is_product && all_of(inside & crossed))) {
-      const ClearCorner of_b(d, {axes_b.x * HB.x, axes_b.y * HB.y, axes_b.z * HB.z}, ha);
-      const ClearCorner of_a(zero - dot(D, rows), {rows.x * HA.x, rows.y * HA.y, rows.z * HA.z}, hb);
-      const LanesMask is_bs = all(of_b.square) <= all(of_a.square);
-      const Lanes gap = select(is_bs, of_b.gap, zero - from_b(of_a.gap));
-      on_b = select(is_bs, of_b.at, d + from_b(of_a.at) + gap);
-      on_a = on_b - gap;
-      n = unit(gap);
-    }
-    const Pair distance = dot(on_b - on_a, n);
-    const Pair parts = dot(n, d) - (dot(ha, abs(n)) + dot(hb, abs(dot(spread(n), rows))));
-    answer.clear =
-        both(answer.clear, all_of((distance - parts <= size * both(0x1p-51)) & (size * both(0x1p-20) <= distance)));
-    answer.depth = both(0) - distance;
+    facing.clear = both(facing.clear, all_of(within));
   }
-  answer.normal = of_a.out_of(n * per_a);
-  answer.local_a = of_a.out_of(on_a * per_a);
-  answer.local_b = of_a.out_of((on_b - d) * per_a);
-  return answer;
+  const Lanes per_a = of_a.per_length();
+  return {both(boxes.clear, facing.clear),  !parted,
+          of_a.out_of(facing.on_a * per_a), of_a.out_of((facing.on_b - boxes.d) * per_a),
+          of_a.out_of(facing.n * per_a),    depth};
 }
 
 }  // namespace thinwall
