@@ -8,6 +8,7 @@
 #include "support/any_number.hpp"
 #include "support/contacts.hpp"
 #include "support/real.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -77,6 +78,20 @@ TYPED_TEST(CapsuleQueries, crossed_apart_and_touching) {
 TYPED_TEST(CapsuleQueries, crossing_cores_part_across_both) {
   using S = TypeParam;
   expect_contact(contact(this->rod, Capsule<S>{{0, -2, 0}, {0, 2, 0}, 0.25}), Vec3<S>(0, 0, 1), S(0.75));
+}
+
+TEST(CrossingCores, part_across_both_at_the_smallest_angle) {
+  Shaker<double> draw(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3<double> d = safe_unit(draw.vector()), e = safe_unit(thinwall::cross<double>(d, draw.vector()));
+    if (e == Vec3<double>::Zero()) continue;
+    const Vec3<double> beside = d + e * std::ldexp(1.0, -draw.pick(20, 46));
+    const Capsule<double> a{-d, d, 0.5}, b{-beside, beside, 0.5};
+    const auto found = contact(a, b);
+    ASSERT_TRUE(found);
+    const Capsule<double> parted = moved<double>(b, Vec3<double>(found->normal * found->penetration));
+    EXPECT_NEAR(separation(a, parted).distance, 0, 1e-13) << i;
+  }
 }
 
 TYPED_TEST(CapsuleQueries, parallel_and_collinear) {
@@ -275,6 +290,10 @@ TYPED_TEST(CapsuleOnTriangle, a_triangle_without_area_is_its_edges) {
   using S = TypeParam;
   const Triangle<S> wire{{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}};
   this->expect_normal({{0, -1, 0}, {0, 1, 0}, 0.5}, wire, {0, 0, 1});
+}
+
+TYPED_TEST(CapsuleOnTriangle, a_ball_on_a_triangle_without_area_leaves_sideways) {
+  this->expect_normal({{0, 0, 0}, {0, 0, 0}, 1}, {{-4, 0, 0}, {4, 0, 0}, {4, 0, 0}}, {0, 1, 0});
 }
 
 // ---- What is no shape meets nothing: a field that is not finite, or a size below zero. Of axes: ObbAxes.

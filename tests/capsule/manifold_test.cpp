@@ -74,6 +74,15 @@ TYPED_TEST(CapsuleManifolds, lying_on_a_triangle) {
   this->expect_ends(manifold(this->lying, small), 0, 1);
 }
 
+TYPED_TEST(CapsuleManifolds, past_the_tip_of_a_needle_there_is_no_point) {
+  using S = TypeParam;
+  const S wide = std::numeric_limits<S>::epsilon();
+  const Triangle<S> needle{{0, 0, 0}, {-1, wide, 0}, {-1, -wide, 0}};
+  const Manifold<S> beside = manifold(Capsule<S>{{0, 0, 1}, {0.5, 0, 1}, 1}, needle);
+  ASSERT_FALSE(beside.empty());
+  for (const Contact<S>& c : beside) EXPECT_LE((center(needle) + c.local_b)[0], 4 * wide);
+}
+
 TYPED_TEST(CapsuleManifolds, side_by_side_capsules_have_two_points) {
   using S = TypeParam;
   const Capsule<S> below{{4, 1, S(1) / S(2)}, {0, 1, S(1) / S(2)}, S(1) / S(2)};

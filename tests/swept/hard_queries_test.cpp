@@ -202,6 +202,22 @@ const std::vector<Finding> findings = {
                                   0x1.ae9a28371d161p-3},
                    V(-0x1.e3b5e313516ecp+5, 0x1.7310108de6984p-26, 0x1.71ba039c1e7b4p-25)}),
      {{hit}, 0x1.d122900c8fbccp-2, 1e-12}},
+    {"a core does not come in between the faces of a prism whose sums are rounded apart",
+     asking(Moving{Capsule<double>{V(0x1.280f7995cc932p-1, 0x1.dae1516b5ceeap-4, 0x1.8170a1b571cb2p-2),
+                                   V(0x1.280f79b6ed9bp-1, 0x1.98110b47173eap-1, 0x1.8170a269a244cp-2), 0},
+                   V(0x1.2a039be482667p-1, 0x1.5684b8e7896e5p-1, 0x1.0aad90d97a96fp-1)},
+            Moving{Triangle<double>{V(0x1.d24b22e41739ap-2, 0x1.f1b8ad45be708p-5, 0x1.690a55d25b536p-2),
+                                    V(0x1.b85b4d97675f2p-1, 0x1.dca28df36f52bp-2, -0x1.ab0913c2e189ep-5),
+                                    V(0x1.096104818f244p-1, 0x1.54efeb6a5f8b2p-5, 0x1.6bfd6fb48da2p-2)},
+                   V(0x1.2a039be482667p-1, 0x1.5684b8e7896e5p-1, 0x1.a3ff93bac1f24p-1)}),
+     {{hit}, 0.30861411932178223, 1e-12}},
+    {"nor at the start, with the end of the step within the prism",
+     asking(Moving{Capsule<double>{V(0x1.fd65e446583ep-4, 0x1.63be3656fe7edp-1, 0x1.080ffcc601d76p+0),
+                                   V(0x1.1fd65e446583ep+0, 0x1.c77c6cadfcfdap-2, 0x1.101ff98c03aedp-1), 0},
+                   V(-0x1.6p-6, 0x1.cp-7, -0x1.2p-6)},
+            at_rest(Triangle<double>{V(0x1.ep+0, 0x1.ep+0, -0x1.8p-1), V(0x1.6p+0, -0x1p+0, 0x1.6p+0),
+                                     V(-0x1.8p-2, 0x1.8p-1, 0x1p+0)})),
+     {{hit, overlapping}, 0, 1e-12}},
 };
 
 TEST(HardQueries, motions_have_the_answers_of_the_table) {
@@ -337,6 +353,15 @@ TEST(TouchToRounding, center_at_the_corner_of_a_sliver_is_no_distance_from_it) {
   const auto gap = separation(Triangle<float>{F(-0x1.f8028cp-1F, -0x1.f908p-1F, 0), F(r, r, r), F(r, 0x1.004p+3F, r)},
                               Sphere<float>{F(r, r, r), r});
   EXPECT_NEAR(gap.distance, -r, 2e-6F);
+}
+
+TEST(TouchToRounding, center_at_a_corner_of_a_sliver_parts_from_it_along_its_plane) {
+  const Triangle<double> sliver{V(0, 0, 0), V(-0x1.2b67a1f2f18d2p-3, 0x1.d4d5b3696c656p-1, 0x1.7f54313945292p-2),
+                                V(0x1.d09c6566edf8p-5, -0x1.6bc3bdcc9238ap-2, -0x1.296bdf24fbad1p-3)};
+  const Sphere<double> ball{V(0, 0, 0), 1};
+  const auto found = contact(sliver, ball);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(separation(sliver, moved<double>(ball, V(found->normal * found->penetration))).distance, 0, 1e-14);
 }
 
 TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_scale) {

@@ -63,6 +63,24 @@ TEST(BoxGap, of_faces_as_near_as_each_other_to_rounding_the_nearer_is_told) {
   EXPECT_NEAR(separation(a, b).distance, 0x1p26F - 16, 8);
 }
 
+TEST(BoxGap, boxes_all_but_parallel_touch_in_places_that_belong_together) {
+  Shaker<double> draw(3);
+  for (int i = 0; i < 20'000; ++i) {
+    const auto size = [&] { return 0.1 + 0.9 * std::abs(draw.plain()); };
+    Obb<double> a{{0, 0, 0}, {size(), size(), size()}, draw.axes()}, b = a;
+    b.half_extents = {size(), size(), size()};
+    const Vec3<double> about = safe_unit(draw.vector()) * std::ldexp(1.0, -draw.pick(30, 48));
+    for (int k = 0; k < 3; ++k) b.axes.col(k) += thinwall::cross<double>(about, a.axes.col(k));
+    b.center = safe_unit(draw.vector()) * 2 * size();
+    const Separation<double> gap = separation(a, b);
+    b = moved<double>(b, Vec3<double>(gap.normal * -(gap.distance + std::ldexp(1.0, -draw.pick(4, 40)))));
+    const auto found = contact(a, b);
+    if (!found) continue;
+    const Vec3<double> way = (b.center + found->local_b) - (a.center + found->local_a);
+    EXPECT_LE((way + found->normal * found->penetration).norm(), 1e-9) << i;
+  }
+}
+
 TEST(BoxGap, least_overlap_is_on_an_axis_whatever_the_numbers) {
   for (const double bad : {nan<double>(), infinity<double>()}) {
     const BoxPair<double> pair{{1, 1, 1}, {bad, 1, 1}, {bad, 0, 0}, Mat3<double>::Identity()};

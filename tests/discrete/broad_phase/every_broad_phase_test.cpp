@@ -133,6 +133,18 @@ TYPED_TEST(EveryBroadPhase, knows_a_touch_far_from_the_origin) {
   EXPECT_EQ(pairs_of<TypeParam>(proxies), (Pairs{{0, 1}}));
 }
 
+TYPED_TEST(EveryBroadPhase, finds_pairs_among_coordinates_whose_difference_overflows) {
+  const Proxy sheet = box({-0x1.6186ba1b161cdp+786, -0x1.83077ed6e86d3p+983, -0x1.6ec1c7b81d0ccp+867},
+                          {-0x1.6186ba1b161cdp+786, 0x1.83077ed6e86d3p+983, 0x1.6ec1c7b81d0ccp+867});
+  Proxy strip = box({-0x1.b09642ddf46f5p+851, -0x1.17e4208af46dep+555, 0x1.c018b8a5c35cp-400},
+                    {0x1.b09642ddf46f5p+851, 0x1.17e4208af46dep+555, 0x1.c018b8a5c35cp-400});
+  strip.is_static = true;
+  const double most = std::numeric_limits<double>::max();
+  const Proxy line = box({0x1.abba7ea37e99bp+776, most, -0x1.4e9dffe149ca5p+983},
+                         {0x1.abba7ea37e99bp+776, most, 0x1.4e9dffe149ca5p+983});
+  EXPECT_EQ(pairs_of<TypeParam>({sheet, strip, line}), (Pairs{{0, 1}}));
+}
+
 TYPED_TEST(EveryBroadPhase, never_pairs_static_bodies_or_skipped_ones) {
   std::vector<Proxy> proxies(4, cube(0));
   proxies[0].is_static = proxies[1].is_static = true;

@@ -84,6 +84,22 @@ TEST(BisectionInFloat, goes_by_no_slope_of_a_gap_that_is_rounding) {
   }
 }
 
+/// They are apart by little more than rounding, and the way from one to the other says that they part.
+TEST(BisectionInDouble, goes_by_no_slope_that_rounding_may_turn) {
+  using V = Vec3<double>;
+  const Moving<Capsule<double>> needle{{V(0, 0, 0), V(0, 0, 0x1.fd9a4db5390ccp-1), 0},
+                                       V(-0x1.ebb818b0dbde4p-2, -0x1.ebb818b0dbde4p-2, 0)};
+  Mat3<double> axes;
+  axes.col(0) << -0x1.fe4ddcaa6fddep-1, -0x1.cce830d9ee0fdp-7, -0x1.481447cab8264p-4;
+  axes.col(1) << 0x1.46171621b2869p-4, 0x1.08046492ea62cp-5, -0x1.fe1ba9d833bebp-1;
+  axes.col(2) << 0x1.0fe5694e42465p-6, -0x1.ffaef0044f3bcp-1, -0x1.fbf0434b27903p-6;
+  const Moving<Obb<double>> plate{
+      {V(-0x1.c89be1512861ep-23, 0x1.f98ba07757453p-17, 0x1.500f3ee5d49cp-2), V(1, 0, 0x1.f9d7295c2a3a6p-17), axes},
+      V(-0x1.ebb80e0fc19b4p-2, -0x1.ebb82707d5eb5p-2, 0x1.6336e7e55ae2ep-3)};
+  EXPECT_TRUE(overlaps(pose_at(needle, 1.0), pose_at(plate, 1.0)));
+  EXPECT_EQ(time_of_impact(Bisection<double>{}, needle, plate).status, ToiStatus::hit);
+}
+
 // ---- Conservative advancement: never late, and bounded.
 
 template <class S> using Advancement = MethodCases<S>;

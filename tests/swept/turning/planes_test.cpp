@@ -218,6 +218,29 @@ TEST(TurningBounds, hold_at_any_scale) {
   }
 }
 
+TEST(TurningBounds, are_those_of_the_orbit_from_a_full_turn_on) {
+  Turning<Obb<double>> plank{{V(0, 0, 0), V(2, 0.1, 0.1), Mat3<double>::Identity()}, V::Zero(), V(0, 0, 7)};
+  const Aabb<double> orbit = swept_bounds(plank);
+  for (const double angle : {1e15, 1e100, std::numeric_limits<double>::max()}) {
+    plank.rotation[2] = angle;
+    EXPECT_EQ(swept_bounds(plank).half_extents, orbit.half_extents) << angle;
+  }
+}
+
+TEST(TurningBounds, axes_of_a_box_are_no_lengths) {
+  const Turning<Obb<double>> plank{{V(0, 0, 0), V(2, 0.1, 0.1), Mat3<double>::Identity()}, V(4, 0, 0), V(0, 0, 0.5)};
+  const Turning<Sphere<double>> ball{{V(5, 0, 0), 0.5}, V::Zero(), V::Zero()};
+  const Toi<double> toi = time_of_impact(plank, ball), early = time_of_impact(Speculative<double>{}, plank, ball);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  const Aabb<double> bounds = swept_bounds(plank);
+  for (const int e : {-40, -540, -900}) {
+    EXPECT_EQ(time_of_impact(scaled(plank, e), scaled(ball, e)).time, toi.time) << e;
+    EXPECT_EQ(time_of_impact(Speculative<double>{}, scaled(plank, e), scaled(ball, e)).time, early.time) << e;
+    const V there = times_power_of_two(swept_bounds(scaled(plank, e)).half_extents, -e);
+    EXPECT_LE((there - bounds.half_extents).cwiseAbs().maxCoeff(), 1e-12) << e;
+  }
+}
+
 TEST(TurningBounds, a_turn_whose_angle_is_no_number_is_given_up) {
   const double most = std::numeric_limits<double>::max();
   const Turning<Capsule<double>> rod{{V(0, 0, 0), V(0, 0, 2), 0.2}, V::Zero(), V(0, most, most)};
