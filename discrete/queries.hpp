@@ -125,7 +125,7 @@ template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
 /// The power of two that the clear rung is asked by once more of what it left for its size alone: at a size near 1, so that the unit of length
 /// changes no bit. None where the size is near 1, a shape is not valid, or a division would not be exact.
 template <Shape A, Shape B> std::optional<int> exponent_to_ask_at(const A& a, const B& b) {
-  const double size = magnitude(a) + magnitude(b);
+  const double size = extent(a) + extent(b);
   if ((size >= 0x1p-50 && size <= 0x1p50) || !is_finite(size) || !valid(a) || !valid(b)) return std::nullopt;
   const int e = binary_exponent(size);
   return divides_exactly(a, e) && divides_exactly(b, e) ? std::optional(e) : std::nullopt;

@@ -32,6 +32,11 @@ concept Shape = Scalar<typename T::Scalar> && std::same_as<decltype(T::rank), co
 
 template <class T> bool has_valid_axes(const T&) { return true; }
 
+/// [length] how far from the origin a shape is and reaches, about: its magnitude without what is no length.
+template <Shape A> typename A::Scalar extent(const A& shape) {
+  return center(shape).cwiseAbs().sum() + half_widths(shape).sum();
+}
+
 /// The same shape in a wider scalar; of a box, also as true to its axes as that scalar can be.
 template <Scalar W, Shape A> auto widened(const A& shape) { return cast<W>(shape); }
 

@@ -38,7 +38,6 @@ THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const 
 /// unit of length changes no bit.
 template <Shape A, Shape B>
 [[gnu::noinline]] Toi<double> careful_impact(const ClosedForm<double>& method, const Moving<A>& a, const Moving<B>& b) {
-  const auto extent = [](const auto& shape) { return center(shape).cwiseAbs().sum() + half_widths(shape).sum(); };
   const double lengths = extent(a.shape) + extent(b.shape),
                paths = a.displacement.cwiseAbs().sum() + b.displacement.cwiseAbs().sum();
   const double size = std::max(lengths, paths);

@@ -81,9 +81,8 @@ template <Shape A> A pose_at(const Turning<A>& m, const typename A::Scalar& time
 template <Shape A> typename A::Scalar magnitude(const Turning<A>& m) {
   return magnitude(m.shape) + m.displacement.cwiseAbs().sum();
 }
-/// [length] the sum of where it begins, how far it reaches and how far it flies: its magnitude without what is no length.
 template <Shape A> typename A::Scalar extent(const Turning<A>& m) {
-  return center(m.shape).cwiseAbs().sum() + half_widths(m.shape).sum() + m.displacement.cwiseAbs().sum();
+  return extent(m.shape) + m.displacement.cwiseAbs().sum();
 }
 template <Shape A> bool has_valid_sizes(const Turning<A>& m) { return has_valid_sizes(m.shape); }
 template <Shape A> bool has_valid_axes(const Turning<A>& m) { return has_valid_axes(m.shape); }
