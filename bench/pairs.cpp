@@ -142,31 +142,39 @@ void add_discrete(const std::string& what, double goal, Ask ask, DepthOf depth_o
       [ask, depth_of](const Query& q) { return depth_of(ask(q.a, q.b)); });
 }
 
-/// The same with a careful rung beside it.
-template <class A, class B, class Ask, class Careful, class DepthOf>
-void add_rungs(const std::string& what, double goal, Ask ask, Careful careful, DepthOf depth_of) {
+/// The same with a careful rung beside it, and what the clear one says.
+template <class A, class B, class Ask, class Clear, class Careful, class DepthOf>
+void add_rungs(const std::string& what, double goal, Ask ask, Clear clear, Careful careful, DepthOf depth_of) {
   using Query = Pose<A, B>;
-  add_discrete<A, B>(what, goal, ask, depth_of, share_of<Query>(&any_poses<A, B>, [](const Query& q) {
-                       return clear_overlap_either_way(q.a, q.b).clear;
-                     }));
+  add_discrete<A, B>(what, goal, ask, depth_of,
+                     share_of<Query>(&any_poses<A, B>, [clear](const Query& q) { return clear(q.a, q.b).clear; }));
   add_timed(
       what + "/careful", &any_poses<A, B>, {}, [careful](const Query& q) { return careful(q.a, q.b); },
       [careful, depth_of](const Query& q) { return depth_of(careful(q.a, q.b)); });
 }
-template <class A, class B> void add_contact(const std::string& pair, double goal) {
+template <class A, class B> void add_contact(const std::string& pair, double goal = 0) {
   add_rungs<A, B>(
       "contact/" + pair, goal, [](const A& a, const B& b) { return contact(a, b); },
+      [](const A& a, const B& b) { return clear_contact_either_way(a, b); },
       [](const A& a, const B& b) { return careful_contact(a, b); },
       [](const auto& found) { return found ? found->penetration : never; });
 }
 template <class A, class B> void add_overlaps(const std::string& pair, double goal = 0) {
   add_rungs<A, B>(
       "overlaps/" + pair, goal, [](const A& a, const B& b) { return overlaps(a, b); },
+      [](const A& a, const B& b) { return clear_overlap_either_way(a, b); },
       [](const A& a, const B& b) { return careful_overlaps(a, b); }, [](bool overlap) { return overlap ? -1 : never; });
 }
 template <class A, class B> void add_separation(const std::string& pair) {
   add_rungs<A, B>(
       "separation/" + pair, 0, [](const A& a, const B& b) { return separation(a, b); },
+      [](const A& a, const B& b) {
+        if constexpr (HasClearContact<A, B>) {
+          return clear_gap(a, b);
+        } else {
+          return clear_gap(b, a);
+        }
+      },
       [](const A& a, const B& b) { return careful_separation(a, b); },
       [](const auto& found) { return found.distance <= 0 ? -found.distance : never; });
 }
@@ -229,6 +237,11 @@ const bool added = [] {
   add_contact<A, A>("aabb_aabb", 3.5);
   add_contact<S, A>("sphere_aabb", 5.5);
   add_contact<C, C>("capsule_capsule", 15);
+  add_contact<S, O>("sphere_obb");
+  add_contact<C, A>("capsule_aabb");
+  add_contact<C, O>("capsule_obb");
+  add_contact<A, O>("aabb_obb");
+  add_contact<O, O>("obb_obb");
   add_discrete<O, O>(
       "manifold/obb_obb", 120, [](const O& a, const O& b) { return manifold(a, b); },
       [](const auto& found) {
@@ -243,6 +256,10 @@ const bool added = [] {
   add_separation<S, A>("sphere_aabb");
   add_separation<S, C>("sphere_capsule");
   add_separation<C, C>("capsule_capsule");
+  add_separation<A, A>("aabb_aabb");
+  add_separation<S, O>("sphere_obb");
+  add_separation<C, A>("capsule_aabb");
+  add_separation<O, O>("obb_obb");
 
   // What it costs to write a whole Toi where a time would do: the floor of every front door.
   add("stream_toi", [](benchmark::State& state) {
