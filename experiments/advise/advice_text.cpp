@@ -16,13 +16,13 @@ namespace thinwall {
 namespace {
 
 /// `70 %`, `0`.
-std::string percent_text(double chance) { return chance <= no_chance ? "0" : rounded_text(100 * chance, 3) + " %"; }
+std::string in_percent(double chance) { return chance <= no_chance ? "0" : rounded_text(100 * chance, 3) + " %"; }
 
 /// `no shot tunnels`, `1 % of the shots tunnel`.
 std::string tunnel_words(double chance) {
   if (chance <= no_chance) return "no shot tunnels";
   if (chance == 1) return "every shot tunnels";
-  return percent_text(chance) + " of the shots tunnel";
+  return in_percent(chance) + " of the shots tunnel";
 }
 
 std::string angle_words(const Cell& cell) {
@@ -72,17 +72,16 @@ std::string question_words(const Wish& wish) {
                       "as rounding has it.");
   }
   const double steps = contact / step_length(cell);
-  return text +
-         wrapped(fmt::format("A step is {} s and {} m long; of its path, {} m are in contact with the wall: {}.",
-                             number(cell.step), number(step_length(cell)), number(contact),
-                             steps < 1 ? percent_text(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
+  return text + wrapped(fmt::format("A step is {} s and {} m long; of its path, {} m are in contact with the wall: {}.",
+                                    number(cell.step), number(step_length(cell)), number(contact),
+                                    steps < 1 ? in_percent(steps) + " of a step" : rounded_text(steps, 3) + " steps"));
 }
 
 /// `no shot tunnels, and ...`
 std::string wanted_words(const Wish& wish) {
   std::string text = wish.miss == 0   ? "no shot tunnels"
                      : wish.miss == 1 ? "whatever: any number of shots may tunnel"
-                                      : fmt::format("at most {} of the shots tunnel", percent_text(wish.miss));
+                                      : fmt::format("at most {} of the shots tunnel", in_percent(wish.miss));
   if (wish.late) text += fmt::format(", and none is seen more than {} m past first contact", exact_text(*wish.late));
   return text;
 }
@@ -119,7 +118,7 @@ std::string pushed_through(const Advice& advice) {
   const std::optional<double>& through = advice.advised()->theory.through;
   if (!through || *through <= advice.wish.miss + no_chance) return "";
   return fmt::format(" If a ball in the wall is pushed out the shorter way, {} go through, seen or not.",
-                     percent_text(*through));
+                     in_percent(*through));
 }
 
 /// What would become of the simplest method.
@@ -180,7 +179,7 @@ std::string row_text(const AdviceRow& row, const char* mark, double step_length)
   const bool never_seen = chance && *chance == 1;
   const std::optional<double> latest = never_seen ? std::nullopt : row.theory.largest_lateness();
   return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}\n", mark, row.method.name,
-                     chance ? percent_text(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
+                     chance ? in_percent(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
                      latest ? rounded_text(*latest / step_length, 3) : "-", time_text(row.cost.clear),
                      time_text(row.cost.contact), step_text(row.longest_step));
 }
@@ -291,7 +290,7 @@ std::string expectations(const Wish& wish, std::span<const Candidate> candidates
     const Theory theory = candidate.theory(wish.cell);
     const auto latest = theory.largest_lateness();
     text += fmt::format("#   {:<26}{:<12}{:<14}{}\n", candidate.name,
-                        theory.probability ? percent_text(*theory.probability) : "no formula",
+                        theory.probability ? in_percent(*theory.probability) : "no formula",
                         latest ? rounded_text(*latest, 3) + " m" : "-", meets_wish(wish, theory) ? "yes" : "no");
   }
   return text;

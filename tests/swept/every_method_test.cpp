@@ -147,10 +147,10 @@ TYPED_TEST(EveryMethod, apart_at_rest_or_in_the_same_motion_is_apart) {
   using S = TypeParam;
   this->each([this](const auto& method) {
     for (const Vec3<S>& drift : {Vec3<S>(0, 0, 0), Vec3<S>(1024, -512, 256)}) {
-      const Moving<Sphere<S>> ball{this->ball.shape, drift}, other{this->other.shape, drift};
-      const Moving<Aabb<S>> box{this->box.shape, drift};
-      EXPECT_EQ(text(time_of_impact(method, ball, box).status), text(ToiStatus::apart));
-      EXPECT_EQ(text(time_of_impact(method, ball, other).status), text(ToiStatus::apart));
+      const Moving<Sphere<S>> shot{this->ball.shape, drift}, beside{this->other.shape, drift};
+      const Moving<Aabb<S>> wall{this->box.shape, drift};
+      EXPECT_EQ(text(time_of_impact(method, shot, wall).status), text(ToiStatus::apart));
+      EXPECT_EQ(text(time_of_impact(method, shot, beside).status), text(ToiStatus::apart));
     }
   });
 }
@@ -205,8 +205,8 @@ TYPED_TEST(EveryMethod, a_query_as_large_as_the_largest_number_is_answered) {
   const S unit_length = std::numeric_limits<S>::max() / 16;
   this->each([&](const auto& method) {
     const Moving<Sphere<S>> shot{{Vec3<S>(-4, 0, 0) * unit_length, unit_length}, Vec3<S>(4, 0, 0) * unit_length};
-    const auto box = at_rest(Aabb<S>{{0, 0, 0}, Vec3<S>(1, 1, 1) * unit_length});
-    const Toi<S> toi = time_of_impact(method, shot, box);
+    const auto wall = at_rest(Aabb<S>{{0, 0, 0}, Vec3<S>(1, 1, 1) * unit_length});
+    const Toi<S> toi = time_of_impact(method, shot, wall);
     EXPECT_EQ(text(toi.status), text(ToiStatus::hit));
     EXPECT_TRUE(toi.time >= S(0.5) - power<S>(-8) && toi.time <= S(1)) << toi.time;
   });

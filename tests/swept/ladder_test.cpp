@@ -502,7 +502,9 @@ TEST(LadderAtOneInstant, separations_agree) {
     constexpr bool two_cores = requires { a.b, b.b; }, two_boxes = requires { a.half_extents, b.half_extents; };
     const double gap = door.distance + skin_radius(a) + skin_radius(b), turned = (door.normal + back.normal).norm();
     const double leaning = two_boxes ? 0x1p23 : two_cores ? 0x1p10 : 2;
-    if (!two_boxes || gap > 0) EXPECT_LE(turned * std::abs(gap), leaning * off);
+    if (!two_boxes || gap > 0) {
+      EXPECT_LE(turned * std::abs(gap), leaning * off);
+    }
     EXPECT_LE((door.point_b - door.point_a - door.normal * door.distance).norm(), off);
     EXPECT_LE(std::abs(careful_separation(a, Ball{door.point_a, 0}).distance), off);
     EXPECT_LE(std::abs(careful_separation(b, Ball{door.point_b, 0}).distance), off);
