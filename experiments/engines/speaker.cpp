@@ -24,12 +24,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t most_of_a_line = std::size_t(1) << 30;
 
-/// Waits until one of them is ready, for no longer than to `end`.
+/// Waits until one of them is ready, for no longer than to `end`; what is ready by then counts, as after a halt of this program.
 template <std::size_t Count> bool ready(std::array<pollfd, Count>& asked, Clock::time_point end) {
   while (true) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    const int count =
-        left > 0 ? ::poll(asked.data(), Count, static_cast<int>(std::min<decltype(left)>(left, 1 << 30))) : 0;
+    const int count = ::poll(asked.data(), Count, static_cast<int>(std::clamp<decltype(left)>(left, 0, 1 << 30)));
     if (count > 0) return true;
     if (count == 0) return false;
     if (errno != EINTR) return true;  // what is wrong will show

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -374,6 +376,12 @@ TEST(Speakers, answer_in_lines_of_json) {
   const nlohmann::json much = std::vector<int>(500'000, 7);
   EXPECT_TRUE(said("cat", much) == much.dump()) << "more than a pipe holds, both ways";
   EXPECT_EQ(said("read line; printf '[1,'; sleep 0.1; echo '2]'"), "[1,2]");
+}
+
+/// Ctrl-C is for this program, which then tells its speakers: a volley that is being played is played to its end.
+TEST(Speakers, are_in_a_process_group_of_their_own) {
+  Speaker speaker("It", {"sh", "-c", "ps -o pgid= -p $$"}, "/");
+  EXPECT_NE(speaker.hear(5).get<int>(), getpgrp());
 }
 
 TEST(Speakers, that_die_hang_or_talk_nonsense_are_named_errors) {

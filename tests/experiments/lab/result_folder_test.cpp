@@ -124,6 +124,27 @@ TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_w
   EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
 }
 
+TEST_F(ResultFolderTest, leaves_a_journal_alone_whose_run_it_cannot_read) {  // as one of a later version may be
+  std::filesystem::create_directories(out);
+  Journal(out + "/journal.tsv", "of a later version").add("cell 1", {0.1, "777000"});
+  const std::string before = read_text(out + "/journal.tsv");
+  EXPECT_TRUE(holds(refusal(run()), "holds another run (something that cannot be read)"));
+  EXPECT_EQ(read_text(out + "/journal.tsv"), before);
+}
+
+TEST_F(ResultFolderTest, starts_over_where_the_first_row_of_the_journal_is_damaged) {
+  ToyControl::interrupt_after = 3;
+  ASSERT_EQ(run().status, 130);
+  std::string journal = read_text(out + "/journal.tsv");
+  journal[journal.find("toy")] ^= 1;
+  write_text(out + "/journal.tsv", journal);
+  const Reply reply = run();
+  EXPECT_EQ(reply.status, 0);
+  EXPECT_TRUE(holds(reply.err, "its first row is damaged; it is kept as journal.old.tsv until this run ends"))
+      << reply.err;
+  EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
+}
+
 TEST_F(ResultFolderTest, clears_what_a_run_left_that_was_killed_while_it_wrote) {
   ToyControl::interrupt_after = 3;
   ASSERT_EQ(run().status, 130);

@@ -393,6 +393,23 @@ TEST(SceneRun, traces_how_bodies_turn) {
   EXPECT_FALSE(holds(trace_of(scene_from(bullet_text())), "turning"));
 }
 
+TEST(SceneRun, threads_and_plan_change_no_bit) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 3}) {
+    for (const char* plan : {"lean", "full"}) {
+      Settings settings = scene_settings(
+          "scene = 'many'\nsteps = 20\ngravity = [0, -9, 0]\n[[body]]\nshape = 'sphere'\n"
+          "radius = 0.2\nrestitution = 0.5\ncopies = [4, 4, 2]\nevery = [1, 1, 1]\n"
+          "velocity_jitter = [30, 30, 30]\n[[body]]\nshape = 'box'\nmotion = 'static'\n"
+          "size = [20, 0.1, 20]\nat = [0, -1, 0]\n");
+      settings.assign("plan", plan);
+      const std::uint64_t hash = play(read_scene(settings, {.seed = 3, .trials = {}, .threads = threads})).hash;
+      if (first == 0) first = hash;
+      EXPECT_EQ(hash, first) << threads << " " << plan;
+    }
+  }
+}
+
 // ---- Time policies on one scene, held against the exact run.
 
 const std::string compared = "\n[compare]\ndt = [0.02, 0.001]\nrepeats = 2\nfiner = 2\n";
@@ -463,6 +480,45 @@ TEST(Comparison, tells_discrete_from_swept) {
     EXPECT_EQ(value_of(table, row, "met"), Value(std::int64_t(1))) << row;
     EXPECT_EQ(value_of(table, row, "tunneled"), Value(std::int64_t(0))) << row;
     EXPECT_LT(std::get<double>(value_of(table, row, "error_largest")), 1e-12) << row;
+  }
+}
+
+/// Balls of 0.125 m in pairs, each on a line of its own: the exact run is held against a sheet of paper, not against a run.
+TEST(Comparison, holds_every_kind_of_pair_against_the_time_it_meets) {
+  struct Pair {
+    std::string first, second;       // motion
+    double gap, speed, other_speed;  // [m], [m/s] toward each other
+  };
+  const std::vector<Pair> pairs = {{"driven", "static", 0.9375, 11, 0},   {"driven", "static", 9.75, 1000, 0},
+                                   {"driven", "driven", 0.875, 7, 3},     {"driven", "driven", 19.75, 1000, 500},
+                                   {"free", "static", 9.75, 1000, 0},     {"free", "free", 19.75, 500, 1000},
+                                   {"driven", "free", 19.75, 1000, 1000}, {"driven", "free", 0.875, 12, 0}};
+  std::string bodies;
+  std::vector<FirstMeeting> expected;
+  const auto add = [&](const std::string& motion, double x, double speed) {
+    bodies += "[[body]]\nshape = 'sphere'\nradius = 0.125\nmotion = '" + motion + "'\n";
+    bodies += fmt::format("at = [{}, {}, 0]\nvelocity = [{}, 0, 0]\n", x, expected.size(), speed);
+  };
+  for (const Pair& pair : pairs) {
+    add(pair.first, 0, pair.speed);
+    add(pair.second, pair.gap, -pair.other_speed);
+    const auto id = static_cast<std::uint32_t>(2 * expected.size() + 1);
+    expected.push_back({id, id + 1, (pair.gap - 0.25) / (pair.speed + pair.other_speed)});
+  }
+  for (const char* way : {"response = true\n", "response = false\n", "plan = 'full'\n"}) {
+    const Comparison comparison = comparison_from("scene = 'pairs'\ndt = 0.02\nsteps = 5\n" + std::string(way) +
+                                                  bodies + "[compare]\ndt = [0.001, 0.02]\nfiner = 2\n");
+    std::vector<Contender> all = comparison.contenders;
+    all.push_back(comparison.exact);
+    for (const Contender& contender : all) {
+      if (contender.policy == TimePolicy::discrete || contender.policy == TimePolicy::substeps) continue;
+      const Trial trial = run_trial(scene_for(comparison, contender));
+      const std::string where = fmt::format("{} {} {}", contender.label(), contender.dt, way);
+      EXPECT_EQ(trial.tunneled, 0) << where;
+      ASSERT_EQ(trial.meetings.size(), expected.size()) << where;
+      for (const auto& [first, second, time] : expected)
+        EXPECT_NEAR(trial.met(first, second).value_or(-1), time, 1e-14) << where << first;
+    }
   }
 }
 
