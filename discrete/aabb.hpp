@@ -176,7 +176,7 @@ THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Aabb<double>& b
   return gap;
 }
 
-/// The sphere at x and the box [-h, h], whose contact acts at its center.
+/// The sphere at x and the box [-h, h], with the place on the box.
 THINWALL_HOT ClearContact clear_contact_in_box(const packed::Lanes& x, const packed::Lanes& h, double radius) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
   const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
@@ -186,17 +186,20 @@ THINWALL_HOT ClearContact clear_contact_in_box(const packed::Lanes& x, const pac
   const PairMask in_range = (both(packed::least_square) <= rr) & (max(rr, square) <= both(packed::most_square)) &
                             (both(0) <= r) & clearly_apart(square, rr);
   const ClearWayOut out(x, h);
-  const Lanes outward = select(all(square) <= zero, out.normal, excess / all(distance));
+  const packed::LanesMask is_inside = all(square) <= zero;
+  const Lanes outward = select(is_inside, out.normal, excess / all(distance));
   return {both(both(all_of(in_range), has_square), all_of((abs(x) + h <= all(packed::most_length)) & (zero <= h))),
           all_of(square < rr),
-          zero,
+          select(is_inside, x + out.normal * all(out.depth), x - excess),
           (zero - outward) * all(r),
           outward,
           r + select(inside, out.depth, both(0) - distance)};
 }
 THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<double>& sphere) {
-  return clear_contact_in_box(packed::lanes(sphere.center) - packed::lanes(box.center), packed::lanes(box.half_extents),
-                              sphere.radius);
+  ClearContact contact = clear_contact_in_box(packed::lanes(sphere.center) - packed::lanes(box.center),
+                                              packed::lanes(box.half_extents), sphere.radius);
+  contact.local_a = packed::all(0);  // it acts at the box's center
+  return contact;
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double>& box) {

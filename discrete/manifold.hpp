@@ -64,7 +64,7 @@ inline constexpr bool serves_manifold = A::rank < B::rank ? ManifoldInOrder<B, A
 /// All points of contact, up to four; empty exactly where overlaps() is false. Every normal is the same.
 /// `local_a` and `local_b` are points of the surfaces relative to center(shape), for an axis-aligned box too (contact()
 /// keeps the rule that such a box's contact acts at its center; a manifold is geometry). Each point has its own
-/// penetration >= 0. The deepest comes first; its penetration and normal are those of contact().
+/// penetration >= 0. The deepest comes first; its penetration and normal are those of contact(), to rounding.
 /// Error: a few u of the coordinates and sizes involved.
 /// Degenerate: a face turned from the contact normal by less than half the digits of S is the face of contact, so that
 /// boxes all but parallel keep four points; points nearer to each other than rounding are one.

@@ -183,20 +183,19 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& box, const Sphere<dou
 THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<double>& sphere) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
   const ClearFrame frame(box.axes);
-  const Lanes per_length = frame.per_length();
-  const Lanes from_box = packed::lanes(sphere.center) - packed::lanes(box.center);
+  const Lanes per_length = frame.per_length(), from_box = packed::lanes(sphere.center) - packed::lanes(box.center);
   const Lanes x = frame.into(from_box) * per_length, h = packed::lanes(box.half_extents) / per_length;
   ClearContact contact = clear_contact_in_box(x, h, sphere.radius);
   const Pair r = both(sphere.radius), noise = sum(abs(from_box) + h) * both(0x1p-46);
+  const PairMask decided = noise + r * both(0x1p-46) < abs(contact.depth);
+  const PairMask wide = noise * both(0x1p26) < r - contact.depth;  // the distance from the box
   const Lanes depths = h - abs(x);
   const unsigned ways_out = bits(depths <= all(smallest_of(depths) + noise));
-  const PairMask wide = noise * both(0x1p26) < r - contact.depth;  // the distance from the box
-  const bool one_way = both(all_of(all(noise) < depths), (ways_out & (ways_out - 1)) == 0);
-  contact.clear =
-      both(both(contact.clear, frame.clear()), both(all_of(noise < abs(contact.depth)), all_of(wide) || one_way));
-  const Lanes on_box = x - contact.normal * all(r - contact.depth);
+  const bool one_way = both(both(all_of(all(noise) < depths), (ways_out & (ways_out - 1)) == 0),
+                            all_of(noise < abs(dot(x, contact.normal))));
+  contact.clear = both(both(contact.clear, frame.clear()), both(all_of(decided), all_of(wide) || one_way));
   contact.normal = frame.out_of(contact.normal * per_length);
-  contact.local_a = frame.out_of(on_box * per_length);
+  contact.local_a = frame.out_of(contact.local_a * per_length);
   contact.local_b = (all(0) - contact.normal) * all(r);
   return contact;
 }

@@ -22,6 +22,9 @@ template <Shape A> A pose_at(const Moving<A>& m, const typename A::Scalar& time)
 template <Shape A> typename A::Scalar magnitude(const Moving<A>& m) {
   return magnitude(m.shape) + m.displacement.cwiseAbs().sum();
 }
+template <Shape A> typename A::Scalar extent(const Moving<A>& m) {
+  return extent(m.shape) + m.displacement.cwiseAbs().sum();
+}
 template <Shape A> bool has_valid_sizes(const Moving<A>& m) { return has_valid_sizes(m.shape); }
 template <Shape A> bool has_valid_axes(const Moving<A>& m) { return has_valid_axes(m.shape); }
 template <Shape A> bool valid(const Moving<A>& m) { return valid(m.shape) && is_finite(m.displacement); }

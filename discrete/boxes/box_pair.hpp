@@ -302,7 +302,9 @@ template <Scalar S> BoxPoints<S> deepest_points_on_face(const BoxPair<S>& pair, 
   }
   if (!alongside) return points;
   const FacePolygon<S> polygon = facing_polygon(pair, axis, negative);
-  return polygon.count > 0 ? points_at(pair, axis, negative, middle_of_deepest(polygon, noise)) : points;
+  if (polygon.count > 0) return points_at(pair, axis, negative, middle_of_deepest(polygon, noise));
+  points.on_a = points.on_a.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
+  return points;
 }
 
 // ---- How far apart two boxes are and where, or which way out of each other is shortest.

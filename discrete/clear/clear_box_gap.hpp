@@ -114,7 +114,8 @@ struct ClearCorner {
   }
 };
 
-/// A corner of one box and what of the other is nearest to it, of boxes that are apart.
+/// A corner of one box and what of the other is nearest to it, of boxes that are apart. Clear if the box leans away from there on every side:
+/// planes that part the two as well, to rounding, touch it there too.
 THINWALL_HOT ClearFacing clear_nearest_corner(const ClearBoxPair& boxes) {
   using packed::Lanes, packed::all;
   const packed::Vectors<Lanes>&rows = boxes.rows, &axes_b = boxes.axes_b, in_a = spread(boxes.ha),
@@ -125,7 +126,9 @@ THINWALL_HOT ClearFacing clear_nearest_corner(const ClearBoxPair& boxes) {
   const packed::LanesMask is_of_b = all(of_b.square) <= all(of_a.square);
   const Lanes gap = select(is_of_b, of_b.gap, all(0) - boxes.from_b(of_a.gap));
   const Lanes on_b = select(is_of_b, of_b.at, boxes.d + boxes.from_b(of_a.at) + gap);
-  return {true, unit(gap), on_b - gap, on_b};
+  const Lanes n = unit(gap), sines = select(is_of_b, dot(spread(n), rows), n);
+  const packed::LanesMask leans = (all(0x1p-10) <= abs(sines)) | (select(is_of_b, boxes.hb, boxes.ha) <= all(0));
+  return {all_of(leans), n, on_b - gap, on_b};
 }
 
 /// Of boxes that are apart nothing more is said, unless `apart_too`.
@@ -152,12 +155,13 @@ THINWALL_HOT ClearContact clear_boxes_gap(const FrameA& of_a, const ClearBoxPair
   unsigned axes = 0;
   for (unsigned i = 0; i < 5; ++i) axes |= bits(least[i] <= all(bound)) << 3U * i;
   const ClearFeatures features(boxes, axes);
-  ClearFacing facing = features;
-  if (parted && !features.edges_face) facing = clear_nearest_corner(boxes);
+  const bool is_corner = parted && !features.edges_face;
+  ClearFacing facing = is_corner ? clear_nearest_corner(boxes) : ClearFacing(features);
   Pair depth = boxes.overlap(facing.n);
   if (parted) {  // no plane parts them by more than they are apart: one that does so by all of it proves it
     const Pair distance = dot(facing.on_b - facing.on_a, facing.n);
-    facing.clear = all_of((distance + depth <= boxes.size * both(0x1p-51)) & (boxes.size * both(0x1p-20) <= distance));
+    const packed::PairMask proven = distance + depth <= boxes.size * both(0x1p-51);
+    facing.clear = both(facing.clear, all_of(proven & (boxes.size * both(0x1p-20) <= distance)));
     depth = both(0) - distance;
   } else {
     facing.clear = both(facing.clear, all_of(within));

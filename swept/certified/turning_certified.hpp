@@ -93,7 +93,7 @@ template <Shape A, Shape B> CertifiedToi certified_time_of_impact(const Turning<
     return certified_time_of_impact(b, a);
   } else {
     if (!valid(a) || !valid(b)) return {};
-    const double size = std::max(magnitude(a), magnitude(b));
+    const double size = std::max(extent(a), extent(b));
     const int e = is_finite(size) ? binary_exponent(size) : std::numeric_limits<double>::max_exponent;
     return certified_in_range(scaled(a, -e), scaled(b, -e));
   }

@@ -4,6 +4,7 @@
 
 #include <thinwall/capsule/segment_triangle.hpp>
 #include <thinwall/discrete/entry/flat_entry.hpp>
+#include <thinwall/discrete/numbers/double_word.hpp>
 #include <thinwall/swept/closed_form/core_entry.hpp>
 
 namespace thinwall {
@@ -53,9 +54,14 @@ template <Scalar S> Vec3<S> with_exact_sums(const Vec3<S>& x, const S& most) {
   return {rounded(x[0]), rounded(x[1]), rounded(x[2])};
 }
 
+template <Scalar S> bool sums_are_exact(const Vec3<S>& a, const Vec3<S>& b) {
+  return exact_sum(a[0], b[0]).low == S(0) && exact_sum(a[1], b[1]).low == S(0) && exact_sum(a[2], b[2]).low == S(0);
+}
+
 /// The same without a radius, to the end of the step. Faces that share a rim are asked with sums, each rounded for itself, and between them
-/// there may be a gap of a rounding: where the first face met is one the motion leaves by, or none is and the end meets the triangle, it came
-/// in there. Then all is asked again with the last digits rounded, so that no sum is, and the faces close.
+/// there may be a gap of a rounding, through which the motion comes in or goes out. Where a sum is rounded, and the first face met is one that
+/// the motion leaves by, or none is, all is asked again with the last digits rounded, so that no sum is, and the faces close. A hit where there
+/// was none counts only if half way through it they do touch.
 /// Error: the verdict is that of the given numbers' faces exactly, unless a product underflows or a sum is rounded; else of numbers that are
 /// off by 2 u of the largest.
 template <Scalar S>
@@ -66,17 +72,24 @@ Entry<S> sharp_segment_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const 
   if (at_start.inside) return at_start;
   const PrismFace<S> first = first_face_of_prism(p, v, d, e1, e2);
   const bool is_met = first.entry.inside || first.entry.time <= S(1);
-  if (is_met ? !first.leaves : !segment_meets_triangle<S>(p + v, d, e1, e2)) return first.entry;
+  const bool closes = sums_are_exact<S>(p, d) && sums_are_exact<S>(p, -e1) && sums_are_exact<S>(e2, -e1);
+  if (closes || (is_met && !first.leaves)) return first.entry;
+
   const S most = largest(p, d, e1, e2);
   const auto on_grid = [&](const Vec3<S>& x) { return with_exact_sums(x, most); };
-  const Vec3<S> start = on_grid(p), core = on_grid(d), edge1 = on_grid(e1), edge2 = on_grid(e2);
-  Entry<S> entry = first_face_of_prism(start, v, core, edge1, edge2).entry;
-  if (entry.inside || segment_meets_triangle(start, core, edge1, edge2)) {  // by a rounding: it does not touch yet
-    entry.inside = false;
+  const Vec3<S> core = on_grid(d), edge1 = on_grid(e1), edge2 = on_grid(e2);
+  const auto entry_from = [&](const Vec3<S>& start, const Vec3<S>& by) {
+    Entry<S> entry = first_face_of_prism(start, by, core, edge1, edge2).entry;
+    if (!entry.inside && !segment_meets_triangle(start, core, edge1, edge2)) return entry;
+    entry.inside = false;  // by a rounding: it does not touch yet
     entry.time = S(0);
-    entry.normal = -safe_unit(v);
-  }
-  return entry;
+    entry.normal = -safe_unit(by);
+    return entry;
+  };
+  const Entry<S> entry = entry_from(on_grid(p), v);
+  if (is_met || !(entry.time <= S(1))) return is_met ? entry : first.entry;
+  const S until = S(1) - entry_from(on_grid(p + v), -v).time;
+  return segment_meets_triangle<S>(p + v * ((entry.time + until) / S(2)), d, e1, e2) ? entry : first.entry;
 }
 
 }  // namespace thinwall

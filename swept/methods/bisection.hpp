@@ -1,6 +1,7 @@
 #pragma once
 /// Find a time at which the shapes touch, then halve the stretch before it.
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 
@@ -60,7 +61,7 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
   // The direction of a gap is off by rounding, S's of the axes too, over its length; and its slope by that part of the path.
-  const T noise(gap_noise(S(magnitude(a) + magnitude(b)))), slope_noise = noise * safe_norm(path);
+  const T noise(gap_noise(S(extent(a) + extent(b)))), fastest = safe_norm(path), slope_noise = noise * fastest;
   const auto approaches_for_sure = [&](const GapSample<T>& s) { return s.closing * s.closest.distance > slope_noise; };
   const auto recedes_for_sure = [&](const GapSample<T>& s) { return s.closing * s.closest.distance < -slope_noise; };
   GapSample<T> before = sample(T(0));
@@ -72,7 +73,9 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     const T at_start = after.gap + after.closing * after.time;  // the tangent, which leads up from there
     const bool stays_apart = approaches_for_sure(after) || (!has_slope && at_start > -noise);
     if (stays_apart || k == rounds) return {ToiStatus::apart, evaluations};
-    const TangentCrossing<T> crossing(before, after);
+    GapSample<T> steepest = after;  // it parts no faster than that
+    steepest.closing = std::max(T(-fastest), T(after.closing - slope_noise / after.closest.distance));
+    const TangentCrossing<T> crossing(before, steepest);
     if (has_slope && crossing.lowest > T(0)) return {ToiStatus::apart, evaluations};
     const GapSample<T> between = sample(has_slope && k % 2 == 0 ? crossing.time : T((before.time + after.time) / 2));
     if (!(between.time > before.time && between.time < after.time)) continue;
