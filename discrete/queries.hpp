@@ -180,14 +180,9 @@ THINWALL_HOT Separation<typename A::Scalar> clear_separation_or(const A& a, cons
   return otherwise();
 }
 
-/// separation() of valid shapes of ordinary size, as overlaps_unchecked().
-template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
-  return clear_separation_or(a, b, [&] { return separation_of_cores(a, b); });
-}
-
-/// The careful rung of separation(): any input, at any scale.
-template <Shape A, Shape B>
-[[gnu::noinline]] Separation<typename A::Scalar> careful_separation(const A& a, const B& b) {
+/// What it says at a size near 1 of what it left for its size alone, or otherwise().
+template <Shape A, Shape B, class Otherwise>
+Separation<typename A::Scalar> scaled_separation_or(const A& a, const B& b, const Otherwise& otherwise) {
   using S = typename A::Scalar;
   if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
     if (const std::optional<int> e = exponent_to_ask_at(a, b)) {
@@ -199,13 +194,28 @@ template <Shape A, Shape B>
       if (clear) return scaled(near, *e);
     }
   }
-  switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
-    case Magnitudes::ordinary: return separation_of_cores(a, b);
-    case Magnitudes::huge:
-      return scaled(separation_of_cores(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
-    case Magnitudes::invalid: break;
-  }
-  return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
+  return otherwise();
+}
+
+/// separation() of valid shapes of ordinary size, as overlaps_unchecked().
+template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
+  return clear_separation_or(a, b,
+                             [&] { return scaled_separation_or(a, b, [&] { return separation_of_cores(a, b); }); });
+}
+
+/// The careful rung of separation(): any input, at any scale.
+template <Shape A, Shape B>
+[[gnu::noinline]] Separation<typename A::Scalar> careful_separation(const A& a, const B& b) {
+  using S = typename A::Scalar;
+  return scaled_separation_or(a, b, [&]() -> Separation<S> {
+    switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
+      case Magnitudes::ordinary: return separation_of_cores(a, b);
+      case Magnitudes::huge:
+        return scaled(separation_of_cores(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
+      case Magnitudes::invalid: break;
+    }
+    return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
+  });
 }
 
 /// Signed distance, normal, and a closest point on each. NaN throughout if a shape is not valid.

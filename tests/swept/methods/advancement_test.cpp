@@ -100,6 +100,28 @@ TEST(BisectionInDouble, goes_by_no_slope_that_rounding_may_turn) {
   EXPECT_EQ(time_of_impact(Bisection<double>{}, needle, plate).status, ToiStatus::hit);
 }
 
+TEST(BisectionInDouble,
+     goes_by_no_tangent_that_rounding_may_turn) {  // at the end they are apart by little more than rounding
+  using V = Vec3<double>;
+  Obb<double> a{V(-0x1.10e1ed99c9aep-3, 0x1.7a2ab948e3f6ep-1, 0x1.9cad44761579p-1),
+                V(0x1.920e3d9f5058ap-1, 0x1.0ddedad068f86p+0, 0x1.87044cdcc57d5p-2),
+                {}};
+  a.axes << 0x1.8e8d4f7927d9cp-2, 0x1.73fae93ba3df8p-1, 0x1.21f00cb56a68ep-1, -0x1.b155d8d4b0ab9p-3,
+      -0x1.0e3cdc3cf0022p-1, 0x1.a52a0dec0938cp-1, 0x1.cb046c06d74b5p-1, -0x1.c289fe3896be3p-2, -0x1.a78ee386b976p-5;
+  Obb<double> b{V(0x1.fb0b8e47c1e19p+0, -0x1.c04833662ba16p-2, -0x1.576dde720664ap-2),
+                V(0x1.a1b35d7527ee8p-1, 0x1.233bc7d95601fp+0, 0x1.601faa9793e3ap-1),
+                {}};
+  b.axes << -0x1.fb184f46f806p-1, -0x1.a76f8e5fc5b06p-5, 0x1.063f0c976d963p-3, -0x1.0ec3992ff980dp-3,
+      0x1.654ee56d54f18p-4, -0x1.f98954660592ep-1, 0x1.46956b60e248bp-5, -0x1.fd5c74bb9782dp-1, -0x1.7de04a2defbep-4;
+  const Moving<Obb<double>> moving{b, V(-0x1.b2d3d6d4eded7p-5, 0x1.f0728f5b1dbd3p-1, 0x1.8b4cefb648cf5p-1)};
+  EXPECT_TRUE(overlaps(a, pose_at(moving, 0.5)));
+  for (const int e : {0, -60, 60}) {
+    const Toi<double> toi = time_of_impact(Bisection<double>{}, at_rest(scaled(a, e)), scaled(moving, e));
+    EXPECT_EQ(toi.status, ToiStatus::hit) << e;
+    EXPECT_NEAR(toi.time, 0.2575, 1e-4) << e;
+  }
+}
+
 // ---- Conservative advancement: never late, and bounded.
 
 template <class S> using Advancement = MethodCases<S>;

@@ -233,9 +233,11 @@ TEST(TurningBounds, axes_of_a_box_are_no_lengths) {
   const Toi<double> toi = time_of_impact(plank, ball), early = time_of_impact(Speculative<double>{}, plank, ball);
   ASSERT_EQ(toi.status, ToiStatus::hit);
   const Aabb<double> bounds = swept_bounds(plank);
+  const CertifiedToi proven = certified_time_of_impact(plank, ball);
   for (const int e : {-40, -540, -900}) {
     EXPECT_EQ(time_of_impact(scaled(plank, e), scaled(ball, e)).time, toi.time) << e;
     EXPECT_EQ(time_of_impact(Speculative<double>{}, scaled(plank, e), scaled(ball, e)).time, early.time) << e;
+    EXPECT_EQ(certified_time_of_impact(scaled(plank, e), scaled(ball, e)), proven) << e;
     const V there = times_power_of_two(swept_bounds(scaled(plank, e)).half_extents, -e);
     EXPECT_LE((there - bounds.half_extents).cwiseAbs().maxCoeff(), 1e-12) << e;
   }
