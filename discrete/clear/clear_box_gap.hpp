@@ -52,7 +52,8 @@ struct ClearFacing {
 
 /// Where the boxes overlap least, along the one axis whose bit is set: a corner of one and the face of the other that is across it, or two edges.
 /// Clear if no face or edge is level with the other box; of edges, if they also cross within both.
-struct ClearFeatures : ClearFacing {
+struct ClearFeatures {
+  ClearFacing facing;
   bool edges_face;  ///< they are edges, and the two places within them
 
   THINWALL_HOT ClearFeatures(const ClearBoxPair& boxes, unsigned axes) {
@@ -65,7 +66,7 @@ struct ClearFeatures : ClearFacing {
     const Lanes edge_b = only(packed::lowest(1U << static_cast<unsigned>(k.b)), boxes.rows);
     const Lanes product = cross(edge_a, edge_b), axis = select(is_own, edge_a, select(is_its, edge_b, product));
     const Pair square_sine = dot(product, product), toward = dot(axis, boxes.d);
-    n = unit(against(zero - axis, all(toward)));
+    const Lanes n = unit(against(zero - axis, all(toward)));
 
     // the corner of each that is farthest along n, or the middle of an edge
     const Lanes g = dot(spread(n), boxes.rows);
@@ -74,8 +75,7 @@ struct ClearFeatures : ClearFacing {
     const Pair on_edges = two_sums(way * edge_a, way * edge_b), cosine = dot(edge_a, edge_b);
     const Pair along = (on_edges - swapped(on_edges) * cosine) / square_sine;  // of a's edge, and back along b's
     const Lanes depth = n * all(boxes.overlap(n));
-    on_a = select(is_own, from_b + depth, from_a + keep(along_a, all(firsts(along))));
-    on_b = on_a - depth;
+    const Lanes on_a = select(is_own, from_b + depth, from_a + keep(along_a, all(firsts(along))));
 
     const LanesMask leans_a = (all(boxes.noise) < abs(n) * ha) | (ha <= zero) | along_a | is_own;
     const LanesMask leans_b = (all(boxes.noise) < abs(g) * hb) | (hb <= zero) | along_b | is_its;
@@ -84,8 +84,8 @@ struct ClearFeatures : ClearFacing {
     const PairMask within = (firsts(abs(along)) <= dot(keep(along_a, ha), all(1))) &
                             (seconds(abs(along)) <= dot(keep(along_b, hb), all(1)));
     edges_face = both(both(k.alone, is_product), all_of(within & crossed));
-    clear = both(both(k.alone, all_of(leans_a & leans_b)),
-                 both(all_of(boxes.noise < abs(toward)), all_of(crossed) || !is_product));
+    const bool lies_so = both(all_of(leans_a & leans_b), all_of(boxes.noise < abs(toward)));
+    facing = {both(both(k.alone, lies_so), all_of(crossed) || !is_product), n, on_a, on_a - depth};
   }
 };
 
@@ -156,7 +156,7 @@ THINWALL_HOT ClearContact clear_boxes_gap(const FrameA& of_a, const ClearBoxPair
   for (unsigned i = 0; i < 5; ++i) axes |= bits(least[i] <= all(bound)) << 3U * i;
   const ClearFeatures features(boxes, axes);
   const bool is_corner = parted && !features.edges_face;
-  ClearFacing facing = is_corner ? clear_nearest_corner(boxes) : ClearFacing(features);
+  ClearFacing facing = is_corner ? clear_nearest_corner(boxes) : features.facing;
   Pair depth = boxes.overlap(facing.n);
   if (parted) {  // no plane parts them by more than they are apart: one that does so by all of it proves it
     const Pair distance = dot(facing.on_b - facing.on_a, facing.n);
