@@ -61,20 +61,21 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
   // The direction of a gap is off by rounding, S's of the axes too, over its length; and its slope by that part of the path.
-  const T noise(gap_noise(S(extent(a) + extent(b)))), fastest = safe_norm(path), slope_noise = noise * fastest;
-  const auto approaches_for_sure = [&](const GapSample<T>& s) { return s.closing * s.closest.distance > slope_noise; };
-  const auto recedes_for_sure = [&](const GapSample<T>& s) { return s.closing * s.closest.distance < -slope_noise; };
+  const T noise(gap_noise(S(extent(a) + extent(b)))), fastest = safe_norm(path);
+  const auto slope_noise = [&](const GapSample<T>& s) -> T {
+    return fastest * (noise / std::max(s.closest.distance, noise));
+  };
   GapSample<T> before = sample(T(0));
   bool has_slope = before.closing > T(0);
-  if (recedes_for_sure(before)) return {ToiStatus::apart, evaluations};
+  if (before.closing < -slope_noise(before)) return {ToiStatus::apart, evaluations};
   GapSample<T> after = sample(T(1));
   constexpr int rounds = 2 * std::numeric_limits<S>::digits;  // half of them halve
   for (int k = 0; after.gap > T(0); ++k) {
     const T at_start = after.gap + after.closing * after.time;  // the tangent, which leads up from there
-    const bool stays_apart = approaches_for_sure(after) || (!has_slope && at_start > -noise);
+    const bool stays_apart = after.closing > slope_noise(after) || (!has_slope && at_start > -noise);
     if (stays_apart || k == rounds) return {ToiStatus::apart, evaluations};
     GapSample<T> steepest = after;  // it parts no faster than that
-    steepest.closing = std::max(T(-fastest), T(after.closing - slope_noise / after.closest.distance));
+    steepest.closing = std::max(T(-fastest), T(after.closing - slope_noise(after)));
     const TangentCrossing<T> crossing(before, steepest);
     if (has_slope && crossing.lowest > T(0)) return {ToiStatus::apart, evaluations};
     const GapSample<T> between = sample(has_slope && k % 2 == 0 ? crossing.time : T((before.time + after.time) / 2));
