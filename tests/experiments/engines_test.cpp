@@ -380,7 +380,7 @@ TEST(Speakers, answer_in_lines_of_json) {
 
 /// Ctrl-C is for this program, which then tells its speakers: a volley that is being played is played to its end.
 TEST(Speakers, are_in_a_process_group_of_their_own) {
-  Speaker speaker("It", {"sh", "-c", "ps -o pgid= -p $$"}, "/");
+  Speaker speaker("It", {"sh", "-c", "cut -d' ' -f5 /proc/$$/stat"}, "/");
   EXPECT_NE(speaker.hear(5).get<int>(), getpgrp());
 }
 
