@@ -244,7 +244,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const bool outside = any_of(noise + noise < abs(p) - h);
   const bool one_face = (may_be_last & (may_be_last - 1)) == 0;
   return {both(both(sure, one_face), both(order.meets, outside)), true, first, center + frame.out_of(on_box),
-          frame.out_of(keep(axis, against(all(1.5) - frame.squares * all(0.5), v)))};
+          frame.out_of(keep(axis, against(frame.per_length(), v)))};
 }
 
 }  // namespace thinwall

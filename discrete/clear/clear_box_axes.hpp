@@ -67,8 +67,9 @@ struct ClearBoxAxes {
     return all_of(is_plain(rows.x) & is_plain(rows.y) & is_plain(rows.z));
   }
 
-  /// visit(along, reach, noise, square) of each group: `along` gives the part of a vector, spread, along the three axes, `reach` how far both boxes
-  /// reach along them together, `square` the square of their lengths. The axes are a's, b's, and each of a's crossed with b's, which are not of unit length and may have none.
+  /// visit(along, reach, noise, square) of each group: `along` gives the part of a vector, spread, along the three axes, `reach` how
+  /// far both boxes reach along them together, `square` the square of their lengths. The axes are a's, b's, and each of a's crossed
+  /// with b's, which are not of unit length and may have none.
   template <class Visit> THINWALL_HOT void each_group(const Visit& visit) const {
     using packed::Lanes;
     using Vectors = packed::Vectors<Lanes>;
