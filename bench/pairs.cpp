@@ -31,9 +31,8 @@ using D = double;
 /// A row of the closing table: medians [ns] by column name, filled in as the benchmarks report.
 struct Row {
   std::string name;
-  double goal = 0;  ///< [ns] on the reference machine
-  std::function<double()>
-      clear;  ///< [1] the share of the queries that the clear rung decides; none, if the query has none
+  double goal = 0;                ///< [ns] on the reference machine
+  std::function<double()> clear;  ///< [1] the share of the queries that the clear rung decides
 };
 std::vector<Row> rows;
 
@@ -131,26 +130,19 @@ void add_raycast(const std::string& shape, double goal, const Operations& least,
   add_timed(name + "/plain", &any_rays<B>, least, by_form, by_form);
 }
 
-/// A query at one instant: `ask(a, b)`, and the depth in its answer, or `never`; and the share that is clear, if there is a clear rung.
-template <class A, class B, class Ask, class DepthOf>
-void add_discrete(const std::string& what, double goal, Ask ask, DepthOf depth_of,
-                  std::function<double()> clear = nullptr) {
-  rows.push_back({what, goal, std::move(clear)});
-  using Query = Pose<A, B>;
-  add_timed(
-      what + "/front_door", &any_poses<A, B>, {}, [ask](const Query& q) { return ask(q.a, q.b); },
-      [ask, depth_of](const Query& q) { return depth_of(ask(q.a, q.b)); });
-}
-
-/// The same with a careful rung beside it, and what the clear one says.
+/// A query at one instant: `ask(a, b)`, and the depth in its answer, or `never`; beside it the careful rung, and what the clear one says.
 template <class A, class B, class Ask, class Clear, class Careful, class DepthOf>
 void add_rungs(const std::string& what, double goal, Ask ask, Clear clear, Careful careful, DepthOf depth_of) {
   using Query = Pose<A, B>;
-  add_discrete<A, B>(what, goal, ask, depth_of,
-                     share_of<Query>(&any_poses<A, B>, [clear](const Query& q) { return clear(q.a, q.b).clear; }));
-  add_timed(
-      what + "/careful", &any_poses<A, B>, {}, [careful](const Query& q) { return careful(q.a, q.b); },
-      [careful, depth_of](const Query& q) { return depth_of(careful(q.a, q.b)); });
+  rows.push_back(
+      {what, goal, share_of<Query>(&any_poses<A, B>, [clear](const Query& q) { return clear(q.a, q.b).clear; })});
+  const auto add = [&](const std::string& name, const auto& by) {
+    add_timed(
+        what + name, &any_poses<A, B>, {}, [by](const Query& q) { return by(q.a, q.b); },
+        [by, depth_of](const Query& q) { return depth_of(by(q.a, q.b)); });
+  };
+  add("/front_door", ask);
+  add("/careful", careful);
 }
 template <class A, class B> void add_contact(const std::string& pair, double goal = 0) {
   add_rungs<A, B>(
@@ -242,13 +234,14 @@ const bool added = [] {
   add_contact<C, O>("capsule_obb");
   add_contact<A, O>("aabb_obb");
   add_contact<O, O>("obb_obb");
-  add_discrete<O, O>(
+  add_rungs<O, O>(
       "manifold/obb_obb", 120, [](const O& a, const O& b) { return manifold(a, b); },
-      [](const auto& found) {
-        double depth = found.empty() ? never : 0;
-        for (const auto& point : found) depth = std::max(depth, point.penetration);
-        return depth;
-      });
+      [](const O& a, const O& b) {
+        Manifold<D> made;
+        return ClearOverlap{clear_manifold(a, b, made), !made.empty()};
+      },
+      [](const O& a, const O& b) { return careful_manifold(a, b); },
+      [](const auto& found) { return found.empty() ? never : found[0].penetration; });
   add_overlaps<O, O>("obb_obb", 14);
   add_overlaps<A, A>("aabb_aabb");
   add_overlaps<C, C>("capsule_capsule");
@@ -290,7 +283,7 @@ class TableReporter : public MedianTimes {
       std::printf("%-36s %10.1f %10.1f %10.1f %10.1f %10.2f %9.2f %9.1f %6.1f ", row.name.c_str(), front,
                   time(row.name + "/in_float"), careful, form, careful > 0 ? front / careful : 0,
                   form > 0 ? front / form : 0, to_floor(row.name + "/front_door"), row.goal);
-      std::printf("%8s\n", row.clear ? percent(row.clear()).c_str() : "");
+      std::printf("%8s\n", percent(row.clear()).c_str());
     }
     std::printf("Floor: to read a query where so many stay, or a hit's division and square root, whichever is more.\n");
     std::printf("Goals are for one core of a 3.6 GHz Zen 5 EPYC. 0.0: not measured, or there is none.\n");

@@ -76,8 +76,7 @@ template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& capsule, con
 }
 
 template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& capsule, const Obb<S>& box) {
-  return changed(touching_manifold(into(box, capsule), own_aabb(box)),
-                 [&](const Contact<S>& c) { return out_of(box, c); });
+  return out_of(box, touching_manifold(into(box, capsule), own_aabb(box)));
 }
 
 template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& capsule, const Triangle<S>& triangle) {

@@ -33,6 +33,9 @@ template <Scalar S, class Change> Manifold<S> changed(Manifold<S> manifold, cons
   return manifold;
 }
 
+template <Scalar S> Manifold<S> scaled(const Manifold<S>& manifold, int e) {
+  return changed(manifold, [&](const Contact<S>& c) { return scaled(c, e); });
+}
 template <Scalar S> Manifold<S> flipped(const Manifold<S>& manifold) {
   return changed(manifold, [](const Contact<S>& c) { return flipped(c); });
 }
@@ -61,6 +64,25 @@ concept ManifoldInOrder = requires(const A& a, const B& b) { touching_manifold(a
 template <class A, class B>
 inline constexpr bool serves_manifold = A::rank < B::rank ? ManifoldInOrder<B, A> : ManifoldInOrder<A, B>;
 
+template <class A, class B>
+concept HasClearManifold =
+    requires(const A& a, const B& b, Manifold<typename A::Scalar>& made) { clear_manifold(a, b, made); };
+
+/// The careful rung of manifold(), the shape of later rank first: any input, at any scale.
+template <Shape A, Shape B> [[gnu::noinline]] Manifold<typename A::Scalar> careful_manifold(const A& a, const B& b) {
+  using S = typename A::Scalar;
+  if constexpr (HasClearManifold<A, B>) {
+    const auto near = asked_near_one(a, b, [](const A& x, const B& y) {
+      Manifold<S> made;
+      return clear_manifold(x, y, made) ? std::optional(made) : std::nullopt;
+    });
+    if (near) return *near;
+  }
+  if (!overlaps(a, b)) return {};
+  if (is_ordinary(S(magnitude(a) + magnitude(b)))) return touching_manifold(a, b);
+  return scaled(touching_manifold(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
+}
+
 /// All points of contact, up to four; empty exactly where overlaps() is false. Every normal is the same.
 /// `local_a` and `local_b` are points of the surfaces relative to center(shape), for an axis-aligned box too (contact()
 /// keeps the rule that such a box's contact acts at its center; a manifold is geometry). Each point has its own
@@ -75,10 +97,11 @@ template <Shape A, Shape B> Manifold<typename A::Scalar> manifold(const A& a, co
   if constexpr (A::rank < B::rank) {
     return flipped(manifold(b, a));
   } else {
-    if (!overlaps(a, b)) return {};
-    if (is_ordinary(S(magnitude(a) + magnitude(b)))) return touching_manifold(a, b);
-    return changed(touching_manifold(scaled(a, -huge_exponent), scaled(b, -huge_exponent)),
-                   [](const Contact<S>& c) { return scaled(c, huge_exponent); });
+    if constexpr (HasClearManifold<A, B>) {
+      Manifold<S> made;
+      if (clear_manifold(a, b, made)) return made;
+    }
+    return careful_manifold(a, b);
   }
 }
 

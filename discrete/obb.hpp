@@ -141,16 +141,11 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const packed::Lanes& between,
                                               const packed::Lanes& size, bool orthonormal) {
   using packed::Lanes, packed::LanesMask, packed::all, packed::both;
-  const packed::Vectors<Lanes> d = spread(between);
-  LanesMask apart = all(1) < all(0), within = all(0) <= min(boxes.a, boxes.b);
-  const LanesMask in_range = within & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
-  boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise, const Lanes&) {
-    const Lanes distance = abs(along(d));
-    apart = apart | (reach + noise < distance);
-    within = within & (distance <= reach - noise);
-  });
-  const bool overlaps = all_of(within), parted = any_of(apart);
-  return {both(both(all_of(in_range), boxes.in_range()), both(orthonormal, overlaps || parted)), overlaps};
+  const ClearOverlaps overlaps(boxes, between);
+  const LanesMask in_range =
+      (all(0) <= min(boxes.a, boxes.b)) & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
+  const bool decided = overlaps.within() != overlaps.apart();
+  return {both(both(all_of(in_range), boxes.in_range()), both(orthonormal, decided)), overlaps.within()};
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
@@ -200,29 +195,33 @@ THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<dou
   return contact;
 }
 
-template <bool apart_too> THINWALL_HOT ClearContact clear_boxes_gap(const Obb<double>& a, const Obb<double>& b) {
+THINWALL_HOT ClearTwoBoxes<ClearFrame> clear_two_boxes(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
-  return clear_boxes_gap<apart_too>(of_a, ClearBoxPair(of_a, a.half_extents, of_b, b.half_extents,
-                                                       {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)},
-                                                       packed::lanes(b.center) - packed::lanes(a.center)));
+  return {of_a, ClearBoxPair(of_a, a.half_extents, of_b, b.half_extents,
+                             {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)},
+                             packed::lanes(b.center) - packed::lanes(a.center))};
 }
-template <bool apart_too> THINWALL_HOT ClearContact clear_boxes_gap(const Aabb<double>& a, const Obb<double>& b) {
+THINWALL_HOT ClearTwoBoxes<ClearUpright> clear_two_boxes(const Aabb<double>& a, const Obb<double>& b) {
   const ClearFrame of_b(b.axes);
-  return clear_boxes_gap<apart_too>(ClearUpright{},
-                                    ClearBoxPair(ClearUpright{}, a.half_extents, of_b, b.half_extents, of_b.rows,
-                                                 packed::lanes(b.center) - packed::lanes(a.center)));
+  return {{},
+          ClearBoxPair(ClearUpright{}, a.half_extents, of_b, b.half_extents, of_b.rows,
+                       packed::lanes(b.center) - packed::lanes(a.center))};
 }
 THINWALL_HOT ClearContact clear_contact(const Obb<double>& a, const Obb<double>& b) {
-  return clear_boxes_gap<false>(a, b);
+  return clear_boxes_gap<false>(clear_two_boxes(a, b));
 }
-THINWALL_HOT ClearContact clear_gap(const Obb<double>& a, const Obb<double>& b) { return clear_boxes_gap<true>(a, b); }
+THINWALL_HOT ClearContact clear_gap(const Obb<double>& a, const Obb<double>& b) {
+  return clear_boxes_gap<true>(clear_two_boxes(a, b));
+}
 /// Its contact acts at the center of the one that is not turned.
 THINWALL_HOT ClearContact clear_contact(const Aabb<double>& a, const Obb<double>& b) {
-  ClearContact contact = clear_boxes_gap<false>(a, b);
+  ClearContact contact = clear_boxes_gap<false>(clear_two_boxes(a, b));
   contact.local_a = packed::all(0);
   return contact;
 }
-THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Obb<double>& b) { return clear_boxes_gap<true>(a, b); }
+THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Obb<double>& b) {
+  return clear_boxes_gap<true>(clear_two_boxes(a, b));
+}
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {
   using packed::Lanes, packed::all, packed::both;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 
 #include <thinwall/discrete/clear/clear_answers.hpp>
 #include <thinwall/discrete/results.hpp>
@@ -122,13 +123,17 @@ template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
   return careful_overlaps(a, b);
 }
 
-/// The power of two that the clear rung is asked by once more of what it left for its size alone: at a size near 1, so that the unit of length
-/// changes no bit. None where the size is near 1, a shape is not valid, or a division would not be exact.
-template <Shape A, Shape B> std::optional<int> exponent_to_ask_at(const A& a, const B& b) {
+/// What ask(a, b), a clear rung, says at a size near 1 of what it left for its size alone, so that the unit of length changes no bit. Nothing
+/// where the size is near 1, a shape is not valid, or a division would not be exact.
+template <Shape A, Shape B, class Ask>
+std::invoke_result_t<Ask, A, B> asked_near_one(const A& a, const B& b, const Ask& ask) {
   const double size = extent(a) + extent(b);
   if ((size >= 0x1p-50 && size <= 0x1p50) || !is_finite(size) || !valid(a) || !valid(b)) return std::nullopt;
   const int e = binary_exponent(size);
-  return divides_exactly(a, e) && divides_exactly(b, e) ? std::optional(e) : std::nullopt;
+  if (!divides_exactly(a, e) || !divides_exactly(b, e)) return std::nullopt;
+  auto near = ask(scaled(a, -e), scaled(b, -e));
+  if (near) near = scaled(*near, e);
+  return near;
 }
 
 /// The careful rung of contact(): any input, at any scale.
@@ -136,18 +141,16 @@ template <Shape A, Shape B>
 [[gnu::noinline]] std::optional<Contact<typename A::Scalar>> careful_contact(const A& a, const B& b) {
   using S = typename A::Scalar;
   if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    if (const std::optional<int> e = exponent_to_ask_at(a, b)) {
-      const ClearContact answer = clear_contact_either_way(scaled(a, -*e), scaled(b, -*e));
-      const auto near = answer.contact();
-      if (answer.clear) return near ? std::optional(scaled(*near, *e)) : near;
-    }
+    const auto near = asked_near_one(a, b, [](const A& x, const B& y) {
+      const ClearContact answer = clear_contact_either_way(x, y);
+      return answer.clear ? std::optional(answer.contact()) : std::nullopt;
+    });
+    if (near) return *near;
   }
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
     case Magnitudes::ordinary: return contact_unchecked(a, b);
-    case Magnitudes::huge: {
-      const auto small = contact_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent));
-      return small ? std::optional(scaled(*small, huge_exponent)) : small;
-    }
+    case Magnitudes::huge:
+      return scaled(contact_unchecked(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
     case Magnitudes::invalid: break;
   }
   return std::nullopt;
@@ -185,14 +188,15 @@ template <Shape A, Shape B, class Otherwise>
 Separation<typename A::Scalar> scaled_separation_or(const A& a, const B& b, const Otherwise& otherwise) {
   using S = typename A::Scalar;
   if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    if (const std::optional<int> e = exponent_to_ask_at(a, b)) {
+    const auto near = asked_near_one(a, b, [](const A& x, const B& y) {
       bool clear = true;
-      const Separation<S> near = clear_separation_or(scaled(a, -*e), scaled(b, -*e), [&] {
+      const Separation<S> answer = clear_separation_or(x, y, [&] {
         clear = false;
         return Separation<S>{};
       });
-      if (clear) return scaled(near, *e);
-    }
+      return clear ? std::optional(answer) : std::nullopt;
+    });
+    if (near) return *near;
   }
   return otherwise();
 }

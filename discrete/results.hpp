@@ -64,6 +64,9 @@ template <Scalar S> Separation<S> scaled(const Separation<S>& s, int e) {
 template <Scalar S> Separation<S> flipped(const Separation<S>& s) {
   return {s.distance, -s.normal, s.point_b, s.point_a};
 }
+template <class Answer> std::optional<Answer> scaled(const std::optional<Answer>& answer, int e) {
+  return answer ? std::optional(scaled(*answer, e)) : answer;
+}
 
 /// Halfway between the closest points.
 template <Scalar S> Vec3<S> middle(const Separation<S>& s) { return (s.point_a + s.point_b) / S(2); }

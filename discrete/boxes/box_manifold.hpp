@@ -35,14 +35,20 @@ template <Scalar S> Contact<S> seen_from_a(const BoxPair<S>& pair, const Contact
   return {pair.axes * c.local_b, pair.axes * c.local_a, -(pair.axes * c.normal), c.penetration};
 }
 
+/// Of boxes that part along that face, in A's axes; empty if rounding leaves no point.
+template <Scalar S> Manifold<S> manifold_on(const BoxFace& face, const BoxPair<S>& pair) {
+  if (!face.of_b) return face_manifold(pair, face.axis, face.negative);
+  return changed(face_manifold(seen_from_b(pair), face.axis, face.negative),
+                 [&](const Contact<S>& c) { return seen_from_a(pair, c); });
+}
+
 /// The manifold of boxes that touch or overlap, in A's axes. Requires lengths whose products of two are in range.
 template <Scalar S> Manifold<S> boxes_manifold_in_range(const BoxPair<S>& pair) {
   const LeastOverlap<S> least = least_overlap(pair);
   const BoxFace face = face_along(pair, least.normal, parallel_sine<S>());
   if (face.axis >= 0) {
-    const Manifold<S> manifold = face_manifold(face.of_b ? seen_from_b(pair) : pair, face.axis, face.negative);
-    if (!manifold.empty() && !face.of_b) return manifold;
-    if (!manifold.empty()) return changed(manifold, [&](const Contact<S>& c) { return seen_from_a(pair, c); });
+    const Manifold<S> manifold = manifold_on(face, pair);
+    if (!manifold.empty()) return manifold;
   }
   const BoxPoints<S> points = deepest_points(pair, least.axis_a, least.axis_b, least.normal);
   Manifold<S> point;
@@ -58,19 +64,56 @@ template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
   if (e == 0) return boxes_manifold_in_range(pair);
   const BoxPair<S> near{times_power_of_two(pair.half_a, -e), times_power_of_two(pair.half_b, -e),
                         times_power_of_two(pair.between, -e), pair.axes};
-  return changed(boxes_manifold_in_range(near), [&](const Contact<S>& c) { return scaled(c, e); });
+  return scaled(boxes_manifold_in_range(near), e);
 }
 
-/// A contact given in the box's own axes, in the world's.
-template <Scalar S> Contact<S> out_of(const Obb<S>& box, const Contact<S>& c) {
-  return {out_of(box, c.local_a), out_of(box, c.local_b), out_of(box, c.normal), c.penetration};
+/// A manifold given in the box's own axes, in the world's.
+template <Scalar S> const Manifold<S>& out_of(const Aabb<S>&, const Manifold<S>& manifold) { return manifold; }
+template <Scalar S> Manifold<S> out_of(const Obb<S>& box, const Manifold<S>& manifold) {
+  return changed(manifold, [&](const Contact<S>& c) -> Contact<S> {
+    return {out_of(box, c.local_a), out_of(box, c.local_b), out_of(box, c.normal), c.penetration};
+  });
 }
 
 template <Scalar S> Manifold<S> touching_manifold(const Obb<S>& a, const Obb<S>& b) {
-  return changed(boxes_manifold(box_pair(a, b)), [&](const Contact<S>& c) { return out_of(a, c); });
+  return out_of(a, boxes_manifold(box_pair(a, b)));
 }
 template <Scalar S> Manifold<S> touching_manifold(const Obb<S>& a, const Aabb<S>& b) {
   return flipped(boxes_manifold(box_pair(b, a)));
+}
+
+/// The clear rung: true if `made`, empty before, holds the answer. Which axis is that of least overlap is clear if it is one alone; of a face
+/// the rest is the careful rung's, and edges meet in the point of clear_contact(), unless their product is all but normal to a face.
+template <class BoxA> bool clear_box_manifold(const BoxA& a, const Obb<double>& b, Manifold<double>& made) {
+  const auto boxes = clear_two_boxes(a, b);
+  const ClearOverlaps overlaps(boxes.pair.axes(), boxes.pair.d);
+  if (!boxes.pair.clear || overlaps.apart()) return boxes.pair.clear;
+  const unsigned least = overlaps.least().axes;
+  const ClearAxis& axis = ClearAxis::of(least);
+  if (!overlaps.within() || !axis.alone) return false;
+  if (axis.edge_a == 0) {
+    const BoxPair<double> pair = box_pair(a, b);
+    const bool of_b = axis.its > 0;
+    const double to_b = of_b ? pair.between.dot(pair.axes.col(axis.b)) : pair.between[axis.a];
+    made = out_of(a, manifold_on<double>({of_b ? axis.b : axis.a, of_b, of_b ? to_b >= 0 : to_b < 0}, pair));
+    return !made.empty();
+  }
+  const ClearFeatures edges(boxes.pair, least);
+  const packed::Lanes &n = edges.facing.n, sine = packed::all(0x1p-25);
+  const bool off_faces =
+      bits(abs(n) <= sine) == axis.edge_a && bits(abs(dot(spread(n), boxes.pair.rows)) <= sine) == axis.edge_b;
+  if (!edges.edges_face || !edges.facing.clear || !off_faces) return false;
+  made.contacts[0] = *boxes.contact(true, edges.facing, boxes.pair.overlap(n)).contact();
+  made.count = 1;
+  return true;
+}
+inline bool clear_manifold(const Obb<double>& a, const Obb<double>& b, Manifold<double>& made) {
+  return clear_box_manifold(a, b, made);
+}
+inline bool clear_manifold(const Obb<double>& a, const Aabb<double>& b, Manifold<double>& made) {
+  if (!clear_box_manifold(b, a, made)) return false;
+  made = flipped(made);
+  return true;
 }
 
 /// The corners of the rectangle that the two facing sides share.

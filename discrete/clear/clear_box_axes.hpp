@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
 
 #include <thinwall/discrete/clear/vectors.hpp>
 
@@ -71,20 +72,69 @@ struct ClearBoxAxes {
   /// far both boxes reach along them together, `square` the square of their lengths. The axes are a's, b's, and each of a's crossed
   /// with b's, which are not of unit length and may have none.
   template <class Visit> THINWALL_HOT void each_group(const Visit& visit) const {
-    using packed::Lanes;
-    using Vectors = packed::Vectors<Lanes>;
+    using Vectors = packed::Vectors<packed::Lanes>;
     const Vectors wide = abs(rows), A = spread(a);
-    const Lanes b1 = yzx(b), b2 = yzx(b1);
     visit([](const Vectors& d) { return lanes(firsts(xy_of(d.x), xy_of(d.y)), xy_of(d.z)); },
           a + dot(packed::transposed(wide.x, wide.y, wide.z), spread(b)), noise, packed::all(1));
     visit([&](const Vectors& d) { return dot(d, rows); }, b + dot(A, wide), noise, packed::all(1));
-    const auto products = [&](const auto& along, const Lanes& ry, const Lanes& rz, const Lanes& ay, const Lanes& az) {
-      const Lanes y = abs(ry), z = abs(rz), minor = abs(ry * yzx(rz) - rz * yzx(ry));
-      visit(along, (ay * z + az * y) + (b1 * minor + b2 * yzx(yzx(minor))), noise * (y + z), y * y + z * z);
-    };
-    products([&](const Vectors& d) { return d.z * rows.y - d.y * rows.z; }, rows.y, rows.z, A.y, A.z);
-    products([&](const Vectors& d) { return d.x * rows.z - d.z * rows.x; }, rows.z, rows.x, A.z, A.x);
-    products([&](const Vectors& d) { return d.y * rows.x - d.x * rows.y; }, rows.x, rows.y, A.x, A.y);
+    products(
+        visit, [&](const Vectors& d) { return d.z * rows.y - d.y * rows.z; }, rows.y, rows.z, A.y, A.z);
+    products(
+        visit, [&](const Vectors& d) { return d.x * rows.z - d.z * rows.x; }, rows.z, rows.x, A.z, A.x);
+    products(
+        visit, [&](const Vectors& d) { return d.y * rows.x - d.x * rows.y; }, rows.x, rows.y, A.x, A.y);
+  }
+
+ private:
+  template <class Visit, class Along>
+  THINWALL_HOT void products(const Visit& visit, const Along& along, const packed::Lanes& ry, const packed::Lanes& rz,
+                             const packed::Lanes& ay, const packed::Lanes& az) const {
+    const packed::Lanes b1 = yzx(b), b2 = yzx(b1), y = abs(ry), z = abs(rz), minor = abs(ry * yzx(rz) - rz * yzx(ry));
+    visit(along, (ay * z + az * y) + (b1 * minor + b2 * yzx(yzx(minor))), noise * (y + z), y * y + z * z);
+  }
+};
+
+/// How far two such boxes, `between` apart, overlap on the fifteen axes.
+struct ClearOverlaps {
+  packed::LanesMask parted, shared;       ///< beyond all noise: apart on one of them, and not so on any
+  packed::Lanes overlaps[5], squares[5];  ///< [length] times the length of each axis, and of that length
+  packed::Lanes noise;                    ///< [length]
+
+  THINWALL_HOT ClearOverlaps(const ClearBoxAxes& boxes, const packed::Lanes& between)
+      : parted(packed::all(1) < packed::all(0)), shared(packed::all(0) <= packed::all(0)), noise(boxes.noise) {
+    using packed::Lanes;
+    int group = 0;
+    boxes.each_group([this, d = spread(between), &group](const auto& along, const Lanes& reach, const Lanes& rounding,
+                                                         const Lanes& square) {
+      add(group++, reach - abs(along(d)), rounding, square);
+    });
+  }
+  THINWALL_HOT bool apart() const { return any_of(parted); }
+  THINWALL_HOT bool within() const { return all_of(shared); }
+
+  struct Least {
+    packed::Pair overlap;  ///< [length] below 0 where they are apart
+    unsigned axes;         ///< the bits, as ClearAxis has them, of those on which it may be so small
+  };
+  /// Along axes of unit length. They are off by noise, and three halves of it on a product.
+  THINWALL_HOT Least least() const {
+    using packed::Lanes, packed::all;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    Lanes lengths[5] = {overlaps[0], overlaps[1]};
+    for (int i = 2; i < 5; ++i) lengths[i] = select(all(0) < squares[i], overlaps[i] / root(squares[i]), all(none));
+    const Lanes smallest = min(min(lengths[0], lengths[1]), min(min(lengths[2], lengths[3]), lengths[4]));
+    Least least{smallest_of(smallest), 0};
+    const Lanes bound = all(least.overlap) + noise * all(3);
+    for (unsigned i = 0; i < 5; ++i) least.axes |= bits(lengths[i] <= bound) << 3U * i;
+    return least;
+  }
+
+ private:
+  THINWALL_HOT void add(int group, const packed::Lanes& overlap, const packed::Lanes& rounding,
+                        const packed::Lanes& square) {
+    parted = parted | (overlap < packed::all(0) - rounding);
+    shared = shared & (rounding <= overlap);
+    overlaps[group] = overlap, squares[group] = square;
   }
 };
 

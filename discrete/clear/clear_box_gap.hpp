@@ -131,45 +131,40 @@ THINWALL_HOT ClearFacing clear_nearest_corner(const ClearBoxPair& boxes) {
   return {all_of(leans), n, on_b - gap, on_b};
 }
 
-/// Of boxes that are apart nothing more is said, unless `apart_too`.
-template <bool apart_too, class FrameA>
-THINWALL_HOT ClearContact clear_boxes_gap(const FrameA& of_a, const ClearBoxPair& boxes) {
-  using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both;
-  const Lanes zero = all(0);
-  const packed::Vectors<Lanes> d = spread(boxes.d);
-  LanesMask apart = all(1) < zero, within = zero <= zero;
-  Lanes least[5], most[5];  // of how far they overlap on each axis
-  int group = 0;
-  boxes.axes().each_group([&](const auto& along, const Lanes& reach, const Lanes& rounding, const Lanes& square) {
-    const Lanes overlap = reach - abs(along(d)), length = root(square);
-    const LanesMask has_length = zero < square;
-    apart = apart | (overlap < zero - rounding);
-    within = within & (rounding <= overlap);
-    least[group] = select(has_length, (overlap - rounding) / length, all(ClearEntry::never));
-    most[group++] = select(has_length, (overlap + rounding) / length, all(ClearEntry::never));
-  });
-  const bool parted = any_of(apart);
-  if (parted && !apart_too) return {boxes.clear, false, zero, zero, zero, both(0)};
+/// Two boxes, and the frame of the first in the world.
+template <class FrameA> struct ClearTwoBoxes {
+  FrameA of_a;
+  ClearBoxPair pair;
 
-  const Pair bound = smallest_of(min(min(most[0], most[1]), min(min(most[2], most[3]), most[4])));
-  unsigned axes = 0;
-  for (unsigned i = 0; i < 5; ++i) axes |= bits(least[i] <= all(bound)) << 3U * i;
-  const ClearFeatures features(boxes, axes);
-  const bool is_corner = parted && !features.edges_face;
+  /// Of two places that face each other, in the world's axes; `depth` is how far the boxes overlap there.
+  THINWALL_HOT ClearContact contact(bool touching, const ClearFacing& facing, const packed::Pair& depth) const {
+    const packed::Lanes per_a = of_a.per_length();
+    return {packed::both(pair.clear, facing.clear), touching,
+            of_a.out_of(facing.on_a * per_a),       of_a.out_of((facing.on_b - pair.d) * per_a),
+            of_a.out_of(facing.n * per_a),          depth};
+  }
+};
+
+/// Of boxes that are apart nothing more is said, unless `apart_too`.
+template <bool apart_too, class FrameA> THINWALL_HOT ClearContact clear_boxes_gap(const ClearTwoBoxes<FrameA>& two) {
+  using packed::Lanes, packed::Pair, packed::all, packed::both;
+  const ClearBoxPair& boxes = two.pair;
+  const ClearOverlaps overlaps(boxes.axes(), boxes.d);
+  if (overlaps.apart() && !apart_too) return {boxes.clear, false, all(0), all(0), all(0), both(0)};
+
+  const ClearFeatures features(boxes, overlaps.least().axes);
+  const bool is_corner = overlaps.apart() && !features.edges_face;
   ClearFacing facing = is_corner ? clear_nearest_corner(boxes) : features.facing;
   Pair depth = boxes.overlap(facing.n);
-  if (parted) {  // no plane parts them by more than they are apart: one that does so by all of it proves it
+  if (overlaps.apart()) {  // no plane parts them by more than they are apart: one that does so by all of it proves it
     const Pair distance = dot(facing.on_b - facing.on_a, facing.n);
     const packed::PairMask proven = distance + depth <= boxes.size * both(0x1p-51);
     facing.clear = both(facing.clear, all_of(proven & (boxes.size * both(0x1p-20) <= distance)));
     depth = both(0) - distance;
   } else {
-    facing.clear = both(facing.clear, all_of(within));
+    facing.clear = both(facing.clear, overlaps.within());
   }
-  const Lanes per_a = of_a.per_length();
-  return {both(boxes.clear, facing.clear),  !parted,
-          of_a.out_of(facing.on_a * per_a), of_a.out_of((facing.on_b - boxes.d) * per_a),
-          of_a.out_of(facing.n * per_a),    depth};
+  return two.contact(!overlaps.apart(), facing, depth);
 }
 
 }  // namespace thinwall

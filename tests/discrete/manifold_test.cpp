@@ -1,6 +1,7 @@
 // Manifolds of boxes, balls and triangles: known cases, then many drawn ones.
 
 #include <algorithm>
+#include <cstddef>
 
 #include "support/manifold_properties.hpp"
 
@@ -166,6 +167,41 @@ TYPED_TEST(Manifolds, same_bits_at_every_size) {
       }
     }
   }
+}
+
+/// Counts what the clear rung answers, which must agree with the careful one: as many points, as deep, along the same normal. Of faces
+/// parallel to half the digits the careful rung takes one for the other.
+template <class B> std::size_t clear_ones(std::size_t runs) {
+  Shaker<double> draw(20261127);
+  std::size_t clear = 0;
+  for (std::size_t run = 0; run < runs && !::testing::Test::HasFailure(); ++run) {
+    const auto [a, b] = nearly_touching<Obb<double>, B>(draw);
+    Manifold<double> found;
+    if (!clear_manifold(a, b, found)) continue;
+    ++clear;
+    SCOPED_TRACE("run " + std::to_string(run));
+    EXPECT_EQ(found.empty(), !careful_overlaps(a, b));
+    if (found.empty()) continue;
+    const Manifold<double> careful = touching_manifold(a, b);
+    const double off = 64 * unit<double>() * (magnitude(a) + magnitude(b));
+    const double turned = largest<double>(found[0].normal - careful[0].normal);
+    EXPECT_LE(turned, 2 * parallel_sine<double>());
+    if (turned > off) continue;
+    EXPECT_EQ(found.size(), careful.size());
+    for (const Contact<double>& c : found) {
+      EXPECT_TRUE(std::ranges::any_of(careful, [&](const Contact<double>& other) {
+        return largest(other.penetration - c.penetration) <= off &&
+               largest<double>(other.local_a - c.local_a) <= 16 * off;
+      }));
+    }
+  }
+  return clear;
+}
+
+TEST(ClearManifold, agrees_with_the_careful_one) {
+  const std::size_t runs = thorough(slow_build ? 2'000 : 20'000);
+  EXPECT_GE(clear_ones<Obb<double>>(runs), runs / 3);
+  EXPECT_GE(clear_ones<Aabb<double>>(runs), runs / 3);
 }
 
 template <class P> class ManifoldsOf : public ::testing::Test {};

@@ -7,6 +7,7 @@
 
 #include "support/real.hpp"
 #include "support/shaker.hpp"
+#include "support/thorough.hpp"
 
 namespace thinwall::testing {
 
@@ -69,10 +70,10 @@ template <class A, class B> void expect_manifold(const A& a, const B& b) {
 }
 
 /// Many pairs of two types of shape; stops at the first that fails.
-template <class A, class B> void expect_manifolds(int runs) {
+template <class A, class B> void expect_manifolds(std::size_t runs) {
   using S = typename A::Scalar;
   Shaker<S> draw(20261121);
-  for (int run = 0; run < runs && !::testing::Test::HasFailure(); ++run) {
+  for (std::size_t run = 0, end = thorough(runs); run < end && !::testing::Test::HasFailure(); ++run) {
     const auto [a, b] = nearly_touching<A, B>(draw);
     SCOPED_TRACE("run " + std::to_string(run));
     expect_manifold(a, b);
