@@ -62,22 +62,6 @@ template <Scalar S> struct EdgeAxis {
   }
 };
 
-/// Calls visit(i, j) for the 15 axes, the faces' first, until it returns false.
-template <class Visit> bool each_separating_axis(const Visit& visit) {
-  for (int i = 0; i < 3; ++i) {
-    if (!visit(i, -1)) return false;
-  }
-  for (int j = 0; j < 3; ++j) {
-    if (!visit(-1, j)) return false;
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      if (!visit(i, j)) return false;
-    }
-  }
-  return true;
-}
-
 template <Scalar S> bool boxes_overlap(const BoxPair<S>& pair) {
   const Mat3<S> size = pair.axes.cwiseAbs();
   const Vec3<S> reach_a = pair.half_a + size * pair.half_b;
@@ -295,19 +279,22 @@ template <Scalar S> struct LeastOverlap {
   Vec3<S> normal = axis_vector<S>(0);              ///< unit, from A to B
 };
 
-/// Of equal ones the first: A's faces, B's faces, edges.
+/// One of the fifteen: A's faces, B's faces, edges.
+template <Scalar S> LeastOverlap<S> overlap_on(const BoxPair<S>& pair, int k) {
+  const int i = k < 3 ? k : k < 6 ? -1 : k / 3 - 2, j = k < 3 ? -1 : k % 3;
+  const Vec3<S> n = pair.direction(i, j), towards_b = pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n;
+  const S length = safe_norm(n);
+  if (length == S(0)) return {};
+  return {pair.overlap(n) / length, i, j, towards_b / length};
+}
+
+/// Of equal ones the first.
 template <Scalar S> LeastOverlap<S> least_overlap(const BoxPair<S>& pair) {
   LeastOverlap<S> least;
-  each_separating_axis([&](int i, int j) {
-    const Vec3<S> n = pair.direction(i, j);
-    const S length = safe_norm(n);
-    if (length == S(0)) return true;
-    const S overlap = pair.overlap(n) / length;
-    if (overlap < least.overlap) {
-      least = {overlap, i, j, (pair.between.dot(n) < S(0) ? Vec3<S>(-n) : n) / length};
-    }
-    return true;
-  });
+  for (int k = 0; k < 15; ++k) {
+    const LeastOverlap<S> here = overlap_on(pair, k);
+    if (here.overlap < least.overlap) least = here;
+  }
   return least;
 }
 /// The same in lanes, of axes made of unit length.
@@ -318,11 +305,8 @@ inline LeastOverlap<double> least_overlap(const BoxPair<double>& pair) {
   const Lanes per_b = all(1.5) - dot(rows, rows) * all(0.5), half_a = packed::lanes(pair.half_a);
   const ClearOverlaps overlaps({rows * per_b, half_a, packed::lanes(pair.half_b) / per_b, all(0)},
                                packed::lanes(pair.between));
-  const auto [overlap, axes] = overlaps.least();
-  const int first = axes == 0 ? 0 : std::countr_zero(axes);
-  const int i = first < 3 ? first : first < 6 ? -1 : first / 3 - 2, j = first < 3 ? -1 : first % 3;
-  const Vec3<double> n = pair.direction(i, j), to_b = pair.between.dot(n) < 0 ? Vec3<double>(-n) : n;
-  return {packed::value(overlap), i, j, to_b / to_b.norm()};
+  const unsigned axes = overlaps.least().axes;
+  return overlap_on(pair, axes == 0 ? 0 : std::countr_zero(axes));
 }
 
 /// The gap from A to B in A's axes, with B's point relative to B's center.
