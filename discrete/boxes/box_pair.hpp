@@ -265,7 +265,8 @@ template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, i
     const Vec3<S> way = points.on_b - points.on_a;
     const bool lie_along_n = largest(Vec3<S>(way - n * way.dot(n))) <= box_noise(pair);
     if (!lie_along_n) face = face_along(pair, n, parallel_sine<S>());
-    if (face.axis < 0) return points;
+    // of edges all but parallel the places are as far off along them as rounding is when divided by their sine
+    if (face.axis < 0) return {points.on_a, points.on_a + n * way.dot(n)};
   }
   if (!face.of_b) return deepest_points_on_face(pair, face.axis, face.negative);
   const BoxPoints<S> seen = deepest_points_on_face(seen_from_b(pair), face.axis, face.negative);
