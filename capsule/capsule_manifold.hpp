@@ -101,12 +101,15 @@ template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& capsule, con
   const S from = ahead.dot(start), to = ahead.dot(start + core);
   stretch = stretch.inside(from - low, to - low, noise).inside(high - from, high - to, noise);
   const Vec3<S> middle = center(triangle) - triangle.a;
+  bool faces = true;  // of a triangle that is hardly wider than rounding the core may run beside it
   const Manifold<S> ends = ends_of_stretch<S>(capsule, S(0), normal, stretch, noise, [&](const S& s) -> FacingPoint<S> {
     const Vec3<S> point = start + core * s;
     const S height = -point.dot(normal);
-    return {height, point + normal * height - middle};
+    const Vec3<S> foot = point + normal * height;
+    faces = faces && largest(closest_on_triangle<S>(foot, corners[1], corners[2]).gap) <= 4 * noise;
+    return {height, foot - middle};
   });
-  return ends.empty() ? single_point(capsule, triangle, gap) : ends;
+  return ends.empty() || !faces ? single_point(capsule, triangle, gap) : ends;
 }
 
 /// Degenerate: cores that cross touch in one point; so do cores that share no more than skewness feigns.

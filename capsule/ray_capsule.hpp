@@ -21,14 +21,10 @@ Entry<S> rounded_segment_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, cons
   Entry<S> entry;
   entry.inside = within<S>(p - d * closest_parameter(p, d), R);
   if (entry.inside || v == Vec3<S>::Zero()) return entry;
-  Vec3<S> axis = d;
-  S axis_square = d.squaredNorm(), end = axis_square;  // x.axis at the end of the segment
-  if (!square_in_range(axis_square)) {                 // very short beside the rest, but its direction counts
-    const int e = binary_exponent(largest(d));
-    axis = times_power_of_two(d, -e);
-    axis_square = axis.squaredNorm();
-    end = times_power_of_two(axis_square, e);
-  }
+  const int e = binary_exponent(largest(d));
+  const Vec3<S> axis = times_power_of_two(d, -e);  // about 1 long: of products with it four are in range too
+  const S axis_square = axis.squaredNorm(),
+          end = times_power_of_two(axis_square, e);  // x.axis at the end of the segment
   const S along = p.dot(axis), length = sqrt(axis_square);
   bool far_end = along > end / 2;  // the cap to try: the nearer, or the one beyond which the side is met
   if (length > S(0)) {

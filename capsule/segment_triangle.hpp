@@ -98,7 +98,7 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
     const S offset = (crossing - from[k]).dot(side);
     if (side == Vec3<S>::Zero() || largest(offset) >= depth) continue;
     depth = largest(offset);
-    out = offset > S(0) ? Vec3<S>(-side) : side;
+    out = side.dot(from[(k + 2) % 3] - from[k]) > S(0) ? Vec3<S>(-side) : side;  // `offset` may be a rounding
     const SegmentPair<S> closest = closest_on_segments<S>(x - from[k], along[k], d);
     best.on_triangle = from[k] + along[k] * closest.s;
     best.s = closest.t;

@@ -93,7 +93,7 @@ template <Scalar S> CoreGap<S> core_gap(const Obb<S>& box, const Sphere<S>& sphe
 
 /// A turn so small that its products with lengths would underflow is none: what is left of them might part boxes that overlap.
 template <Scalar S> Mat3<S> without_underflow(const Mat3<S>& axes) {
-  return axes.unaryExpr([](const S& x) { return square_in_range(largest(x)) ? x : S(0); });
+  return axes.unaryExpr([](const S& x) { return square_in_range(S(x * x)) ? x : S(0); });
 }
 
 /// B seen from A's axes, with B's center `between` away from A's.

@@ -127,7 +127,8 @@ template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
 /// where the size is near 1, a shape is not valid, or a division would not be exact.
 template <Shape A, Shape B, class Ask>
 std::invoke_result_t<Ask, A, B> asked_near_one(const A& a, const B& b, const Ask& ask) {
-  const double size = extent(a) + extent(b);
+  const Vec3<double> at = center(a);
+  const double size = extent(moved<double>(a, -at)) + extent(moved<double>(b, -at));  // wherever the origin is
   if ((size >= 0x1p-50 && size <= 0x1p50) || !is_finite(size) || !valid(a) || !valid(b)) return std::nullopt;
   const int e = binary_exponent(size);
   if (!divides_exactly(a, e) || !divides_exactly(b, e)) return std::nullopt;

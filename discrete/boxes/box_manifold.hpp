@@ -50,9 +50,10 @@ template <Scalar S> Manifold<S> boxes_manifold_in_range(const BoxPair<S>& pair) 
     const Manifold<S> manifold = manifold_on(face, pair);
     if (!manifold.empty()) return manifold;
   }
-  const BoxPoints<S> points = deepest_points(pair, least.axis_a, least.axis_b, least.normal);
+  const BoxTouch<S> touch = touch_of(pair);
   Manifold<S> point;
-  point.contacts[0] = {points.on_a, points.on_b - pair.between, least.normal, std::max(S(0), least.overlap)};
+  point.contacts[0] = {touch.points.on_a, touch.points.on_b - pair.between, touch.axis.normal,
+                       std::max(S(0), touch.axis.overlap)};
   point.count = 1;
   return point;
 }
@@ -62,9 +63,7 @@ template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
   const S size = largest(pair.between, pair.half_a, pair.half_b);
   const int e = safe_exponent(size);
   if (e == 0) return boxes_manifold_in_range(pair);
-  const BoxPair<S> near{times_power_of_two(pair.half_a, -e), times_power_of_two(pair.half_b, -e),
-                        times_power_of_two(pair.between, -e), pair.axes};
-  return scaled(boxes_manifold_in_range(near), e);
+  return scaled(boxes_manifold_in_range(scaled(pair, -e)), e);
 }
 
 /// A manifold given in the box's own axes, in the world's.

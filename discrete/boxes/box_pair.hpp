@@ -115,6 +115,11 @@ template <Scalar S> BoxFace face_along(const BoxPair<S>& pair, const Vec3<S>& n,
   return axis_b < 0 ? BoxFace{} : BoxFace{axis_b, true, outward_b[axis_b] < S(0)};
 }
 
+template <Scalar S> BoxPair<S> scaled(const BoxPair<S>& pair, int e) {
+  return {times_power_of_two(pair.half_a, e), times_power_of_two(pair.half_b, e), times_power_of_two(pair.between, e),
+          pair.axes};
+}
+
 /// The rounding of a length computed from the two.
 template <Scalar S> S box_noise(const BoxPair<S>& pair) {
   return gap_noise(largest(pair.between, pair.half_a, pair.half_b));
@@ -165,8 +170,12 @@ template <Scalar S> BoxPoints<S> deepest_points_on_face(const BoxPair<S>& pair, 
                 largest(points.on_a[k]) > pair.half_a[k] + noise;
   }
   if (!alongside) return points;
-  const FacePolygon<S> polygon = facing_polygon(pair, axis, negative);
-  if (polygon.count > 0) return points_at(pair, axis, negative, middle_of_deepest(polygon, noise));
+  const int e = safe_exponent(largest(pair.between, pair.half_a, pair.half_b));
+  const FacePolygon<S> polygon = facing_polygon(scaled(pair, -e), axis, negative);
+  if (polygon.count > 0) {
+    const Vec3<S> middle = middle_of_deepest(polygon, times_power_of_two(noise, -e));
+    return points_at<S>(pair, axis, negative, times_power_of_two(middle, e));
+  }
   points.on_a = points.on_a.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
   return points;
 }
@@ -265,8 +274,7 @@ template <Scalar S> BoxPoints<S> deepest_points(const BoxPair<S>& pair, int i, i
     const Vec3<S> way = points.on_b - points.on_a;
     const bool lie_along_n = largest(Vec3<S>(way - n * way.dot(n))) <= box_noise(pair);
     if (!lie_along_n) face = face_along(pair, n, parallel_sine<S>());
-    // of edges all but parallel the places are as far off along them as rounding is when divided by their sine
-    if (face.axis < 0) return {points.on_a, points.on_a + n * way.dot(n)};
+    if (face.axis < 0) return points;
   }
   if (!face.of_b) return deepest_points_on_face(pair, face.axis, face.negative);
   const BoxPoints<S> seen = deepest_points_on_face(seen_from_b(pair), face.axis, face.negative);
@@ -310,6 +318,36 @@ inline LeastOverlap<double> least_overlap(const BoxPair<double>& pair) {
   return overlap_on(pair, axes == 0 ? 0 : std::countr_zero(axes));
 }
 
+/// The axis along which boxes that touch or overlap part soonest, and their deepest points.
+template <Scalar S> struct BoxTouch {
+  LeastOverlap<S> axis;
+  BoxPoints<S> points;
+
+  BoxTouch(const BoxPair<S>& pair, const LeastOverlap<S>& along)
+      : axis(along), points(deepest_points(pair, along.axis_a, along.axis_b, along.normal)) {}
+  /// True if the points lie along the axis from each other.
+  bool faces(const S& noise) const {
+    const Vec3<S> way = points.on_b - points.on_a;
+    return largest(Vec3<S>(way - axis.normal * way.dot(axis.normal))) <= noise;
+  }
+};
+
+/// Of axes that rounding tells apart the first whose points face each other. If there is none boxes that hardly touch have their closest
+/// points: which corner is the deepest is then a rounding.
+template <Scalar S> BoxTouch<S> touch_of(const BoxPair<S>& pair) {
+  const S noise = box_noise(pair);
+  BoxTouch<S> touch(pair, least_overlap(pair));
+  if (touch.faces(noise)) return touch;
+  for (int k = 0; k < 15; ++k) {
+    const LeastOverlap<S> axis = overlap_on(pair, k);
+    if (!(axis.overlap <= touch.axis.overlap + noise)) continue;
+    const BoxTouch<S> other(pair, axis);
+    if (other.faces(noise)) return other;
+  }
+  if (largest(touch.axis.overlap) <= noise) touch.points = closest_points(pair);
+  return touch;
+}
+
 /// The gap from A to B in A's axes, with B's point relative to B's center.
 /// Degenerate: among axes of equal overlap the first wins: A's faces, B's faces, edges; coincident centers go positive.
 template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
@@ -321,10 +359,10 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
     gap.normal = safe_unit<S>(points.on_b - points.on_a);
   }
   if (gap.distance <= box_noise(pair)) {
-    const LeastOverlap<S> least = least_overlap(pair);
-    gap.normal = least.normal;
-    points = deepest_points(pair, least.axis_a, least.axis_b, gap.normal);
-    gap.distance = -least.overlap;
+    const BoxTouch<S> touch = touch_of(pair);
+    points = touch.points;
+    gap.normal = touch.axis.normal;
+    gap.distance = -touch.axis.overlap;
   }
   gap.local_a = points.on_a;
   gap.local_b = points.on_b - pair.between;

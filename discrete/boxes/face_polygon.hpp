@@ -27,7 +27,8 @@ template <Scalar S> struct FacePolygon {
 };
 
 /// The parallelogram middle +- e1 +- e2, clipped to |x| <= half_x and |y| <= half_y. A corner beyond a side by no more than rounding is on it,
-/// so that faces that touch in a point keep that point; corners nearer to each other than that are one.
+/// so that faces that touch in a point keep that point; corners nearer to each other than that are one. Requires lengths whose products of two
+/// are in range.
 template <Scalar S>
 FacePolygon<S> parallelogram_over_face(const Vec3<S>& middle, const Vec3<S>& e1, const Vec3<S>& e2, const S& half_x,
                                        const S& half_y) {
@@ -36,10 +37,16 @@ FacePolygon<S> parallelogram_over_face(const Vec3<S>& middle, const Vec3<S>& e1,
   const auto greater = [](S x, S y) { return x > y ? x : y; };
   FacePolygon<S> polygon;
 
-  // Each edge, from middle + a + b on along -2 a: where it begins within the rectangle, and where it leaves it before its end.
-  Vec3<S> a = e1, b = e2;
+  // Each edge, from middle + a + b on along -2 a: where it begins within the rectangle, and where it leaves it before its end. Whether a
+  // corner is in is asked once, for the edge that ends there and the one that begins.
+  const auto is_in = [&](const Vec3<S>& p) {
+    return packed::both(largest(p[0]) <= half_x + noise, largest(p[1]) <= half_y + noise);
+  };
+  Vec3<S> a = e1, b = e2, start = middle + a + b;
+  bool starts_in = is_in(start);
   for (int k = 0; k < 4; ++k) {
-    const Vec3<S> start = middle + a + b;
+    const Vec3<S> end = middle + b - a;
+    const bool ends_in = is_in(end);
     S first(0), last(2);
     const auto keep_within = [&](S x, S v, S h) {
       const S per = S(1) / v, to_low = (x + (h + noise)) * per, to_high = (x - (h + noise)) * per;
@@ -49,13 +56,15 @@ FacePolygon<S> parallelogram_over_face(const Vec3<S>& middle, const Vec3<S>& e1,
     keep_within(start[0], a[0], half_x);
     keep_within(start[1], a[1], half_y);
     const bool is_long = (last - first) * (largest(a[0]) + largest(a[1])) > 4 * noise;
-    S t = first;
-    for (const bool is_corner : {first <= last, packed::both(last < S(2), is_long)}) {
+    S t = starts_in ? S(0) : first;
+    for (const bool is_corner : {starts_in || first <= last, packed::both(!ends_in, is_long)}) {
       const S x = start[0] - a[0] * t, y = start[1] - a[1] * t;
       polygon.add({greater(-half_x, smaller(half_x, x)), greater(-half_y, smaller(half_y, y)), start[2] - a[2] * t},
                   is_corner);
       t = last;
     }
+    start = end;
+    starts_in = ends_in;
     const Vec3<S> next = b;
     b = -a;
     a = next;
@@ -68,7 +77,7 @@ FacePolygon<S> parallelogram_over_face(const Vec3<S>& middle, const Vec3<S>& e1,
   for (int k = 0; k < 4; ++k) {
     const S x = k < 2 ? half_x : -half_x, y = k % 2 == 0 ? half_y : -half_y;
     const S dx = x - middle[0], dy = y - middle[1], on_e1 = dx * e2[1] - dy * e2[0], on_e2 = dy * e1[0] - dx * e1[1];
-    polygon.add({x, y, middle[2] + (on_e1 * e1[2] + on_e2 * e2[2]) * per_area},
+    polygon.add({x, y, middle[2] + (on_e1 * per_area * e1[2] + on_e2 * per_area * e2[2])},
                 packed::both(largest(on_e1) < within_e1, largest(on_e2) < within_e2));
   }
   return polygon;

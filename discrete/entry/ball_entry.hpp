@@ -34,8 +34,9 @@ template <Scalar S> struct Chord {
   S half = 0;                        ///< sqrt(D), half the chord times |v|, where it exists
   Vec3<S> moment = Vec3<S>::Zero();  ///< p x v
 
-  /// The time the line enters the ball, where the chord exists and the point is outside and approaching.
-  S entry_time() const { return excess / (approach + half); }
+  /// The time the line enters the ball, where the chord exists and the point is outside and approaching: before it is closest, also where
+  /// all of them are rounding.
+  S entry_time() const { return std::min(S(excess / (approach + half)), S(approach / speed_square)); }
   /// The direction of p + v t at that time; against the motion where R is zero. Its length is R only as far as the moment,
   /// which loses the digits of a small ball far away, allows.
   Vec3<S> entry_normal(const Vec3<S>& v) const {

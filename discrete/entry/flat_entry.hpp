@@ -90,7 +90,8 @@ void within_line(ExactStretch<S>& stretch, FlatShape shape, const ExactVec<S>& p
   stretch.not_negative(upper - p[axis], -v[axis]);
 }
 
-/// First time t in [0, last] at which p + v t is in the set; infinity if there is none. Requires what flat_entry does.
+/// First time t in [0, last] at which p + v t is in the set; infinity if there is none. Requires lengths and displacements of about 1: products
+/// have up to seven factors.
 /// Error: the verdict is right; the time is off by a few u of itself.
 template <Scalar S>
 Entry<S> exact_flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
@@ -195,7 +196,12 @@ Entry<S> flat_entry_in_range(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v
     }
   }
   if (boxes_apart(shape, p, v, e1, e2, last)) return {};
-  return exact_flat_entry(shape, p, v, e1, e2, last);
+  const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(speed);
+  const auto near_one = [&](const Vec3<S>& x) { return times_power_of_two(x, -length); };
+  Entry<S> entry = exact_flat_entry<S>(shape, near_one(p), times_power_of_two(v, -displacement), near_one(e1),
+                                       near_one(e2), times_power_of_two(last, displacement - length));
+  entry.time = times_power_of_two(entry.time, length - displacement);
+  return entry;
 }
 
 /// First time t in [0, last] at which p + v t is in the set, touching included; infinity if there is none. `last` [1] >= 0

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <type_traits>
@@ -33,7 +34,10 @@ template <class S> class ExactTerms {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  void push_back(const S& term) { terms_[size_++] = term; }
+  void push_back(const S& term) {
+    assert(size_ < terms_.size());
+    terms_[size_++] = term;
+  }
   void erase(S* from, S* to) { size_ = static_cast<std::size_t>(std::copy(to, end(), from) - begin()); }
   S& operator[](std::size_t i) { return terms_[i]; }
   const S& back() const { return terms_[size_ - 1]; }

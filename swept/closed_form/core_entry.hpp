@@ -104,7 +104,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   const auto miss_unless_soon_inside = [&](const CorePart<S>& nearest, const S& time) {
     const bool decided = nearest.distance() - R > noise || speed == S(0);
     const bool inside_soon = !decided && closest(p + v * S(time + 4 * noise / speed)).distance() < R;
-    return inside_soon ? hit(time, Vec3<S>::Zero()) : miss(nearest);
+    return inside_soon ? hit(time, nearest.outward()) : miss(nearest);
   };
   // A path along an edge passes a corner where the edge begins, to rounding, and may close in on that; and so with a face.
   int passed = 0;

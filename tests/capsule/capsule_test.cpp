@@ -286,6 +286,27 @@ TYPED_TEST(CapsuleOnTriangle, a_core_across_an_edge_leaves_across_both) {
   this->expect_normal({{-1, -4, -1}, {1, -4, 1}, 0.5}, this->floor, {0, 1, 0});
 }
 
+TYPED_TEST(CapsuleOnTriangle,
+           a_core_through_an_edge_leaves_away_from_the_rest) {  // which side of the edge it is on is rounding
+  using S = TypeParam;
+  Shaker<S> draw(20261127);
+  int touching = 0;
+  for (int run = 0; run < 2'000; ++run) {
+    const Vec3<S> a(draw.plain(), draw.plain(), draw.plain()), b(draw.plain(), draw.plain(), draw.plain());
+    const Triangle<S> triangle{a, b, {draw.plain(), draw.plain(), draw.plain()}};
+    const Vec3<S> d(draw.plain(), draw.plain(), draw.plain()), across = plane_normal(triangle);
+    const Vec3<S> on_edge = a + (b - a) * S(S(1) / 2 + draw.plain() / 4);
+    const Capsule<S> rod{on_edge - d, on_edge + d, S(1) / 8};
+    const S wide = largest(cross<S>(b - a, triangle.c - a));
+    if (wide < S(1) / 4 || largest(S(d.dot(across))) < S(1) / 4) continue;
+    const Separation<S> gap = separation(rod, triangle);
+    ++touching;
+    const Triangle<S> parted = moved(triangle, Vec3<S>(gap.normal * -gap.distance));
+    EXPECT_GE(separation(rod, parted).distance, -64 * unit<S>()) << run;
+  }
+  EXPECT_GT(touching, 200);
+}
+
 TYPED_TEST(CapsuleOnTriangle, a_triangle_without_area_is_its_edges) {
   using S = TypeParam;
   const Triangle<S> wire{{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}};

@@ -204,6 +204,18 @@ TEST(ClearManifold, agrees_with_the_careful_one) {
   EXPECT_GE(clear_ones<Aabb<double>>(runs), runs / 3);
 }
 
+TEST(ClearManifold, keeps_a_corner_that_is_on_a_side_to_rounding) {
+  Shaker<double> draw(20261127);
+  for (int run = 0; run < 20'000; ++run) {  // by as much as counts as on it, and a few roundings
+    const auto size = [&] { return 0.55 + 0.4 * draw.plain(); };
+    Obb<double> b{{0, 0, 1.99}, {size(), size(), 1}, Mat3<double>::Identity()};
+    const double beyond = (32 + draw.pick(-6, 6)) * unit<double>();
+    b.center[0] = 1 - b.half_extents[0] + beyond;
+    b.center[1] = draw.plain() * (1 - b.half_extents[1]);
+    EXPECT_EQ(manifold(Obb<double>{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}, b).size(), 4U) << run;
+  }
+}
+
 template <class P> class ManifoldsOf : public ::testing::Test {};
 template <class S> using F = PairOf<Obb<S>, Obb<S>>;
 using ManifoldPairs =

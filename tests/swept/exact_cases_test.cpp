@@ -1,10 +1,14 @@
 // Every exact case at every scalar, and the same cases passed the other way round, moved, mirrored and resized.
 
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "support/bodies.hpp"
 #include "support/exact_cases.hpp"
 #include "support/judge.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -155,6 +159,67 @@ TYPED_TEST(ExactCases, same_bits_at_every_speed) {  // a displacement times 2^k 
       EXPECT_EQ(faster.normal, toi.normal) << k;
     }
   });
+}
+
+// ---- Where all that decides is rounding.
+
+TEST(RoundingDecides, an_edge_is_met_at_every_size) {  // exact numbers of up to six lengths
+  for (const int e : {0, 90, 150, 175, 190, 203, 216, 300, -90, -150, -175, -203, -300}) {
+    SCOPED_TRACE(e);
+    const auto at = [e](const Vec3<double>& x) { return times_power_of_two(x, e); };
+    const Triangle<double> triangle{at({1, 2, 3}), at({11, 4, 5}), at({4, 13, 7})};
+    const Vec3<double> middle = at({6, 3, 4}), way = at({3, 1, 17}), side = triangle.c - triangle.a;
+    const auto hit = raycast(Ray<double>{middle - way, way, 2}, triangle);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->t, 1);
+    const Moving<Sphere<double>> point{{middle - way, 0}, way * 2};
+    EXPECT_EQ(time_of_impact(point, at_rest(triangle)).time, 0.5);
+    const Moving<Capsule<double>> rod{{middle - way, middle - way + side, 0}, way * 2};
+    EXPECT_EQ(time_of_impact(rod, at_rest(Capsule<double>{triangle.a, triangle.b, 0})).time, 0.5);
+    EXPECT_TRUE(overlaps(Capsule<double>{middle - way, middle + way, 0}, triangle));
+  }
+}
+
+TEST(RoundingDecides, what_slides_off_a_ball_is_not_met_later) {
+  std::mt19937_64 engine(20261127);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  const auto vector = [&] { return Vec3<double>(draw(engine), draw(engine), draw(engine)); };
+  for (int i = 0; i < 200'000; ++i) {
+    const Vec3<double> n = safe_unit(vector()), along = thinwall::cross(n, vector());
+    const Sphere<double> ball{{0, 0, 0}, std::abs(draw(engine))}, other{n * (ball.radius + 0.25), 0.25};
+    const auto toi = time_of_impact(Moving<Sphere<double>>{other, along}, at_rest(ball));
+    if (toi.status != ToiStatus::hit) continue;
+    EXPECT_LE(toi.time * along.norm(), 1e-12) << i;
+  }
+}
+
+TEST(RoundingDecides, the_normal_of_a_graze_is_across_it) {
+  const Moving<Triangle<double>> triangle{{{0x1.d7478c6071c54p-2, 0x1.3f2883e6f8058p-2, 0x1.ad6850489ab25p-3},
+                                           {0x1.2162997bec8bdp-1, 0x1.eea888e4165efp-3, -0x1.6d45bb971b8fcp-5},
+                                           {-0x1.06832fd612b74p+0, -0x1.1b3e642c819a8p-1, -0x1.5216e162d3ce5p-3}},
+                                          {0x1.3a348db431d5cp-10, 0x1.855a74aa031ffp-10, 0x1.55a40f6ab0d29p-8}};
+  const Moving<Sphere<double>> ball{
+      {{-0x1.702990afdfc57p-3, 0x1.b8c669841c9cfp-3, 0x1.e198f480529aap-5}, 0x1.ea4ef1d4e971ap-3},
+      {0x1.629cba233dcacp-10, 0x1.8bfddab8b4cb5p-10, 0x1.29c377a806fc8p-8}};
+  const auto toi = time_of_impact(triangle, ball);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  const auto there = separation(pose_at(triangle, toi.time), pose_at(ball, toi.time));
+  EXPECT_GT(toi.normal.dot(there.normal), 0.999);
+}
+
+TEST(RoundingDecides, boxes_that_meet_as_the_step_ends_touch_between_them) {
+  Shaker<double> draw(20261127);
+  int hits = 0;
+  for (int i = 0; i < 5'000; ++i) {
+    const Obb<double> a{{0, 0, 0}, {1, 1, 1}, draw.axes()};
+    const Vec3<double> way = a.axes.col(0) * (1.5 + draw.plain());
+    const Obb<double> b{a.axes.col(0) * 2 + way, {1, 1, 1}, a.axes};
+    const auto toi = time_of_impact(at_rest(a), Moving<Obb<double>>{b, -way});
+    if (toi.status != ToiStatus::hit) continue;
+    ++hits;
+    EXPECT_NEAR(toi.point.dot(a.axes.col(0)), 1, 1e-14) << i;
+  }
+  EXPECT_GT(hits, 1'000);
 }
 
 }  // namespace

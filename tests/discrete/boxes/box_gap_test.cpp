@@ -23,8 +23,8 @@ template <class A, class B> void expect_points_on_surfaces(int runs) {
 }
 
 TEST(BoxGap, points_lie_on_both_boxes) {
-  expect_points_on_surfaces<Obb<double>, Obb<double>>(2000);
-  expect_points_on_surfaces<Obb<float>, Obb<float>>(2000);
+  expect_points_on_surfaces<Obb<double>, Obb<double>>(slow_build ? 2000 : 25000);
+  expect_points_on_surfaces<Obb<float>, Obb<float>>(slow_build ? 2000 : 25000);
   expect_points_on_surfaces<Obb<double>, Aabb<double>>(2000);
   expect_points_on_surfaces<Obb<Wide>, Obb<Wide>>(500);
 }
@@ -87,6 +87,33 @@ TEST(BoxGap, least_overlap_is_on_an_axis_whatever_the_numbers) {
     const LeastOverlap<double> least = least_overlap(pair);
     EXPECT_TRUE(least.axis_a >= 0 || least.axis_b >= 0);
     EXPECT_NE(least.normal, (Vec3<double>::Zero()));
+  }
+}
+
+TEST(BoxGap, level_faces_meet_in_the_middle_of_what_they_share_at_every_size) {
+  for (const double t : {0.0, 1e-17}) {
+    Mat3<double> axes;
+    axes << 0.8, -0.6, 0, 0.6, 0.8, t, -0.6 * t, -0.8 * t, 1;
+    const Obb<double> a{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}, b{{0.25, 0.125, 2.875}, {4, 4, 2}, axes};
+    for (const int e : {0, 300, 360, 500, 600, 900, -300, -514, -520, -600, -900}) {
+      SCOPED_TRACE(e);
+      const Separation<double> gap = separation(scaled(a, e), scaled(b, e));
+      EXPECT_EQ(gap.point_a, times_power_of_two(Vec3<double>(0, 0, 1), e));
+      EXPECT_EQ(gap.point_b, times_power_of_two(Vec3<double>(0, 0, 0.875), e));
+      EXPECT_EQ(contact(scaled(a, e), scaled(b, e))->local_a, gap.point_a);
+    }
+  }
+}
+
+TEST(BoxGap, turns_too_small_to_square_are_none) {
+  for (int e = -400; e > -1000; --e) {
+    Obb<double> turned{{1.5, 0.2, 1.4}, {1, 1, 1}, Mat3<double>::Identity()};
+    turned.axes(1, 0) = times_power_of_two(1.43, e);
+    turned.axes(0, 1) = -turned.axes(1, 0);
+    const auto found = contact(Obb<double>{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}, turned);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->penetration, 0.5) << e;
+    EXPECT_EQ(found->normal, (Vec3<double>(1, 0, 0))) << e;
   }
 }
 
