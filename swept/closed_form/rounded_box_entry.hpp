@@ -102,7 +102,9 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
     S next = std::numeric_limits<S>::infinity();
     int outside = 0;
     for (int i = 0; i < 3; ++i) {
-      if (now < slabs.enter[i] || now >= slabs.leave[i]) {
+      const bool is_past =
+          R > S(0) ? now >= slabs.leave[i] : now > slabs.leave[i];  // a point leaves what it meets then
+      if (now < slabs.enter[i] || is_past) {
         const bool before = now < slabs.enter[i];
         q[i] = before ? S(p[i] - slabs.near[i]) : S(p[i] + slabs.near[i]);
         u[i] = v[i];

@@ -207,6 +207,21 @@ TEST(RoundingDecides, the_normal_of_a_graze_is_across_it) {
   EXPECT_GT(toi.normal.dot(there.normal), 0.999);
 }
 
+TEST(RoundingDecides, a_point_at_an_edge_meets_no_face_that_it_leaves_by) {
+  Shaker<double> draw(20261127);
+  const Obb<double> box{{0, 0, 0}, {0x1p-5, 2, 2}, Mat3<double>::Identity()};
+  int hits = 0;
+  for (int i = 0; i < 20'000; ++i) {  // to the edge at +y, where it comes in by -x or +x and leaves by +y
+    const Vec3<double> way(60 * draw.plain(), 40 + 20 * draw.plain(), draw.plain());
+    const Vec3<double> edge(way[0] > 0 ? -0x1p-5 : 0x1p-5, 2, 0);
+    const auto toi = time_of_impact(Moving<Sphere<double>>{{edge - way, 0}, way}, at_rest(box));
+    if (toi.status != ToiStatus::hit) continue;
+    ++hits;
+    EXPECT_EQ(toi.normal, (Vec3<double>(way[0] > 0 ? 1 : -1, 0, 0))) << i;
+  }
+  EXPECT_GT(hits, 1'000);
+}
+
 TEST(RoundingDecides, boxes_that_meet_as_the_step_ends_touch_between_them) {
   Shaker<double> draw(20261127);
   int hits = 0;
