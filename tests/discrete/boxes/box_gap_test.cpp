@@ -105,6 +105,17 @@ TEST(BoxGap, level_faces_meet_in_the_middle_of_what_they_share_at_every_size) {
   }
 }
 
+TEST(BoxGap, boxes_that_hardly_touch_do_so_in_one_place) {  // which end of an edge is deepest is rounding
+  Mat3<double> axes;
+  axes << 0x1p-63, -0.8, 0.6, 0, 0.6, 0.8, 1, 0, 0x1p-63;
+  const Obb<double> a{{-0.5, 2, -0.5}, {0x1.3fa346d2c3ef6p-2, 0x1.d2ae56820563ep-2, 0x1.e6443e39bcaf6p-2}, axes};
+  const Obb<double> b{{0x1.98f016e167522p-1, 0x1.c9472c2176566p+0, -0x1.c14f59242722dp-1},
+                      {0x1.4c62ae68dfc0ap-1, 0x1.47e4808d87293p-2, 0x1.0bedadd62951dp-4},
+                      Mat3<double>::Identity()};
+  const Separation<double> gap = separation(a, b);
+  EXPECT_LE(largest(Vec3<double>(gap.point_b - gap.point_a)), 1e-14);
+}
+
 TEST(BoxGap, turns_too_small_to_square_are_none) {
   for (int e = -400; e > -1000; --e) {
     Obb<double> turned{{1.5, 0.2, 1.4}, {1, 1, 1}, Mat3<double>::Identity()};
