@@ -50,7 +50,7 @@ template <Scalar S> Manifold<S> boxes_manifold_in_range(const BoxPair<S>& pair) 
     const Manifold<S> manifold = manifold_on(face, pair);
     if (!manifold.empty()) return manifold;
   }
-  const BoxTouch<S> touch = touch_of(pair);
+  const BoxTouch<S> touch = touch_of(pair, least);
   Manifold<S> point;
   point.contacts[0] = {touch.points.on_a, touch.points.on_b - pair.between, touch.axis.normal,
                        std::max(S(0), touch.axis.overlap)};

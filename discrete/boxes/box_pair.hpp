@@ -334,9 +334,9 @@ template <Scalar S> struct BoxTouch {
 
 /// Of axes that rounding tells apart the first whose points face each other. If there is none boxes that hardly touch have their closest
 /// points: which corner is the deepest is then a rounding.
-template <Scalar S> BoxTouch<S> touch_of(const BoxPair<S>& pair) {
+template <Scalar S> BoxTouch<S> touch_of(const BoxPair<S>& pair, const LeastOverlap<S>& least) {
   const S noise = box_noise(pair);
-  BoxTouch<S> touch(pair, least_overlap(pair));
+  BoxTouch<S> touch(pair, least);
   if (touch.faces(noise)) return touch;
   for (int k = 0; k < 15; ++k) {
     const LeastOverlap<S> axis = overlap_on(pair, k);
@@ -359,7 +359,7 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
     gap.normal = safe_unit<S>(points.on_b - points.on_a);
   }
   if (gap.distance <= box_noise(pair)) {
-    const BoxTouch<S> touch = touch_of(pair);
+    const BoxTouch<S> touch = touch_of(pair, least_overlap(pair));
     points = touch.points;
     gap.normal = touch.axis.normal;
     gap.distance = -touch.axis.overlap;

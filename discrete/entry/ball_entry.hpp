@@ -112,6 +112,8 @@ template <Scalar S> struct Entry {
   bool graze = false;  ///< a few roundings of the coordinates may turn a miss into a hit, or back, or change the part
   int rounds = 1;      ///< how many closed forms were solved
 
+  /// Not after the step by more than what is settled later may put right.
+  bool may_hit() const { return time <= S(1) + constant_power_of_two<S, -10>(); }
   void come_later(const S& by) {
     time += by;
     not_before += by;

@@ -25,9 +25,7 @@ template <Scalar S> struct MovingBoxPair {
   /// The middle of the points where they touch at entry, or come within `gap` of each other, in A's axes and relative to
   /// its center. Zero if they never do.
   Vec3<S> touching_point(const Entry<S>& entry, const S& gap) const {
-    const bool may_hit =
-        entry.time <= S(1) + constant_power_of_two<S, -10>();  // what rounding puts past the end is settled later
-    if (entry.inside || entry.gave_up || !may_hit) return Vec3<S>::Zero();
+    if (entry.inside || entry.gave_up || !entry.may_hit()) return Vec3<S>::Zero();
     BoxPair<S> there = pair;
     there.between += motion * entry.time;
     const BoxPoints<S> points =

@@ -121,8 +121,7 @@ Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& 
   const T gap(method.min_separation);
   if constexpr (has_wider<T>) {
     if (found.inside || found.gave_up) return toi_of(a, b, gap, found, point);
-    const bool may_hit = found.time <= T(1) + constant_power_of_two<T, -10>();
-    const Entry<T> entry = may_hit && !found.graze ? settled(a, b, gap, found, 2) : found;
+    const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, gap, found, 2) : found;
     return entry.graze ? toi_by_wider<Method, A, B, T>(method, a, b) : toi_of(a, b, gap, entry, point);
   } else {
     return toi_of(a, b, gap, found, point);

@@ -286,8 +286,8 @@ TYPED_TEST(CapsuleOnTriangle, a_core_across_an_edge_leaves_across_both) {
   this->expect_normal({{-1, -4, -1}, {1, -4, 1}, 0.5}, this->floor, {0, 1, 0});
 }
 
-TYPED_TEST(CapsuleOnTriangle,
-           a_core_through_an_edge_leaves_away_from_the_rest) {  // which side of the edge it is on is rounding
+// Which side of the edge it is on is rounding.
+TYPED_TEST(CapsuleOnTriangle, a_core_through_an_edge_leaves_away_from_the_rest) {
   using S = TypeParam;
   Shaker<S> draw(20261127);
   int touching = 0;

@@ -106,8 +106,8 @@ TYPED_TEST(CapsuleManifolds, cores_on_one_line_share_a_stretch) {
   EXPECT_EQ(found[0].normal, axis_vector<S>(1));
 }
 
-TEST(CapsuleOnNeedle,
-     has_no_point_beside_it) {  // a triangle whose third corner is on the line of the others, to rounding
+// A triangle whose third corner is on the line of the others, to rounding.
+TEST(CapsuleOnNeedle, has_no_point_beside_it) {
   const Capsule<float> rod{{-0x1p-1F, -0x1.e26714p+1F, -0x1.8p+0F}, {-0x1p-1F, 0x1.240124p+1F, -0x1.8p+0F}, 8};
   const Triangle<float> needle{
       {-1, 0.5F, 0x1.9ffffep+2F}, {-0.5F, 1, 0x1.9ffffep+2F}, {-0x1.751c54p+0F, 0x1.5c757p-5F, 0x1.9ffffep+2F}};
