@@ -102,9 +102,7 @@ Entry<S> walk_around_box(const SlabTimes<S>& slabs, const Vec3<S>& p, const Vec3
     S next = std::numeric_limits<S>::infinity();
     int outside = 0;
     for (int i = 0; i < 3; ++i) {
-      const bool is_past =
-          R > S(0) ? now >= slabs.leave[i] : now > slabs.leave[i];  // a point leaves what it meets then
-      if (now < slabs.enter[i] || is_past) {
+      if (now < slabs.enter[i] || now >= slabs.leave[i]) {
         const bool before = now < slabs.enter[i];
         q[i] = before ? S(p[i] - slabs.near[i]) : S(p[i] + slabs.near[i]);
         u[i] = v[i];
@@ -153,9 +151,10 @@ Entry<S> rounded_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S&
   const SlabTimes<S> slabs = slab_times(p, v, h, R);
   entry.graze = slabs.close;
   if (!(slabs.first <= slabs.last)) return entry;
-  bool on_face = slabs.axis >= 0;  // beside the face, not beyond its edges
+  bool on_face = slabs.axis >= 0;  // beside the face, not beyond its edges; a point that comes to an edge is on it
   for (int i = 0; i < 3; ++i) {
-    on_face = on_face && (i == slabs.axis || (slabs.first >= slabs.enter[i] && slabs.first < slabs.leave[i]));
+    const bool is_beside = slabs.first >= slabs.enter[i] && (slabs.first < slabs.leave[i] || R == S(0));
+    on_face = on_face && (i == slabs.axis || is_beside);
   }
   if (!on_face) return walk_around_box(slabs, p, v, R);
   entry.time = slabs.entry_time(slabs.axis, p, v, R);

@@ -1,6 +1,7 @@
 // Every exact case at every scalar, and the same cases passed the other way round, moved, mirrored and resized.
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -220,6 +221,13 @@ TEST(RoundingDecides, a_point_at_an_edge_meets_no_face_that_it_leaves_by) {
     EXPECT_EQ(toi.normal, (Vec3<double>(way[0] > 0 ? 1 : -1, 0, 0))) << i;
   }
   EXPECT_GT(hits, 1'000);
+}
+
+TEST(RoundingDecides, a_box_that_passes_a_point_in_no_time_is_apart) {  // enters and leaves its slab at 0, rounded
+  const double most = std::numeric_limits<double>::max();
+  const Moving<Aabb<double>> box{{{3, 1, -2}, {1.5, 1.5, 2}}, {0.9, 1.4, most}};
+  const Moving<Sphere<double>> point{{{1.5, -1.5, 1}, 0}, {1, 2, 1.3}};
+  EXPECT_EQ(time_of_impact(box, point).status, ToiStatus::apart);
 }
 
 TEST(RoundingDecides, boxes_that_meet_as_the_step_ends_touch_between_them) {
