@@ -244,20 +244,30 @@ template <class A, class B> void check_certified(const Scene<A, B>& scene, const
                         [&] { return text(toi) + ";\n  "; });
 }
 
+/// f(tag) of one of those that for_each(f) visits: number `which`, counted round and round.
+template <class ForEach, class F> void visit_one(const ForEach& for_each, int which, const F& f) {
+  int count = 0, index = 0;
+  for_each([&](auto) { ++count; });
+  for_each([&](auto tag) {
+    if (index++ == which % count) f(tag);
+  });
+}
+
 /// One of the methods: its answer is whole, and one that claims never to be late is not.
 template <class A, class B> void check_methods(const Scene<A, B>& scene, int choice) {
   using S = typename A::Scalar;
   const Check check(scene);
-  int index = 0;
-  for_each_type(Methods<S>{}, [&]<class Method>(TypeTag<Method>) {
-    if constexpr (serves<Method, A, B>) {
-      if (index++ != choice) return;
-      const Toi<S> toi = time_of_impact(Method{}, scene.a, scene.b);
-      check_answer(scene, std::string(Method::name), toi);
-      if (!testing::claims_of(Method{}).never_late || !is_judged(scene)) return;
-      const Judgment judgment = judge_never_late(exhibit(scene.a, scene.b), toi.status, double{toi.time});
-      check.no_fault(judgment, std::string(Method::name) + ": ", [&] { return text(toi) + ", "; });
-    }
+  const auto for_each_method = [](const auto& f) {
+    for_each_type(Methods<S>{}, [&]<class Method>(TypeTag<Method> tag) {
+      if constexpr (serves<Method, A, B>) f(tag);
+    });
+  };
+  visit_one(for_each_method, choice, [&]<class Method>(TypeTag<Method>) {
+    const Toi<S> toi = time_of_impact(Method{}, scene.a, scene.b);
+    check_answer(scene, std::string(Method::name), toi);
+    if (!testing::claims_of(Method{}).never_late || !is_judged(scene)) return;
+    const Judgment judgment = judge_never_late(exhibit(scene.a, scene.b), toi.status, double{toi.time});
+    check.no_fault(judgment, std::string(Method::name) + ": ", [&] { return text(toi) + ", "; });
   });
 }
 
