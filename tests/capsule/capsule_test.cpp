@@ -292,9 +292,9 @@ TYPED_TEST(CapsuleOnTriangle, a_core_through_an_edge_leaves_away_from_the_rest) 
   Shaker<S> draw(20261127);
   int touching = 0;
   for (int run = 0; run < 2'000; ++run) {
-    const Vec3<S> a(draw.plain(), draw.plain(), draw.plain()), b(draw.plain(), draw.plain(), draw.plain());
-    const Triangle<S> triangle{a, b, {draw.plain(), draw.plain(), draw.plain()}};
-    const Vec3<S> d(draw.plain(), draw.plain(), draw.plain()), across = plane_normal(triangle);
+    const Vec3<S> a = draw.plain_vector(), b = draw.plain_vector();
+    const Triangle<S> triangle{a, b, draw.plain_vector()};
+    const Vec3<S> d = draw.plain_vector(), across = plane_normal(triangle);
     const Vec3<S> on_edge = a + (b - a) * S(S(1) / 2 + draw.plain() / 4);
     const Capsule<S> rod{on_edge - d, on_edge + d, S(1) / 8};
     const S wide = largest(cross<S>(b - a, triangle.c - a));

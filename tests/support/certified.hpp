@@ -33,49 +33,36 @@ template <class Visit> void for_each_certified_pair(const Visit& visit) {
   visit("capsule capsule", PairOf<Rod, Rod>{});
 }
 
-/// A vector of any direction, coordinates in (-1, 1).
-inline Vec3<double> any_vector(Shaker<double>& draw) {
-  const double x = draw.plain(), y = draw.plain();
-  return {x, y, draw.plain()};
-}
-inline Mat3<double> any_axes(Shaker<double>& draw) {
-  Mat3<double> axes;
-  axes.col(0) = safe_unit(any_vector(draw));
-  axes.col(1) = safe_unit(cross<double>(axes.col(0), any_vector(draw)));
-  axes.col(2) = cross<double>(axes.col(0), axes.col(1));
-  return axes;
-}
-
 // Shapes of about half a unit, no two numbers related.
 inline Sphere<double> plain_shape(Shaker<double>& draw, TypeTag<Sphere<double>>) {
-  return {any_vector(draw), 0.5 + 0.4 * draw.plain()};
+  return {draw.plain_vector(), 0.5 + 0.4 * draw.plain()};
 }
 inline Aabb<double> plain_shape(Shaker<double>& draw, TypeTag<Aabb<double>>) {
-  return {any_vector(draw), any_vector(draw).cwiseAbs()};
+  return {draw.plain_vector(), draw.plain_vector().cwiseAbs()};
 }
 inline Obb<double> plain_shape(Shaker<double>& draw, TypeTag<Obb<double>>) {
-  return {any_vector(draw), any_vector(draw).cwiseAbs(), any_axes(draw)};
+  return {draw.plain_vector(), draw.plain_vector().cwiseAbs(), draw.plain_axes()};
 }
 inline Capsule<double> plain_shape(Shaker<double>& draw, TypeTag<Capsule<double>>) {
-  return {any_vector(draw), any_vector(draw), 0.3 + 0.2 * draw.plain()};
+  return {draw.plain_vector(), draw.plain_vector(), 0.3 + 0.2 * draw.plain()};
 }
 inline Triangle<double> plain_shape(Shaker<double>& draw, TypeTag<Triangle<double>>) {
-  return {any_vector(draw), any_vector(draw), any_vector(draw)};
+  return {draw.plain_vector(), draw.plain_vector(), draw.plain_vector()};
 }
 
 /// As a scene has them: both move, some hit, some miss, some overlap.
 template <class A, class B> Motion<A, B> plain_motion(Shaker<double>& draw) {
   Motion<A, B> motion{at_rest(plain_shape(draw, TypeTag<A>{})), at_rest(plain_shape(draw, TypeTag<B>{}))};
-  const Vec3<double> from = 3 * any_vector(draw);
+  const Vec3<double> from = 3 * draw.plain_vector();
   motion.a.shape = moved<double>(motion.a.shape, from);
-  motion.b.displacement = any_vector(draw);
-  motion.a.displacement = motion.b.displacement - from * (1 + draw.plain()) + any_vector(draw);
+  motion.b.displacement = draw.plain_vector();
+  motion.a.displacement = motion.b.displacement - from * (1 + draw.plain()) + draw.plain_vector();
   return motion;
 }
 
 /// Axes that are neither unit nor at right angles, by up to all that a box may have.
 inline void skew(Obb<double>& box, Shaker<double>& draw) {
-  for (int i = 0; i < 3; ++i) box.axes.col(i) += any_vector(draw) * power<double>(-draw.pick(35, 60));
+  for (int i = 0; i < 3; ++i) box.axes.col(i) += draw.plain_vector() * power<double>(-draw.pick(35, 60));
 }
 template <class Shape> void skew(Shape&, Shaker<double>&) {}
 

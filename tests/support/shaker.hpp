@@ -28,6 +28,15 @@ template <class S> class Shaker {
 
   int pick(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
   S plain() { return S(static_cast<double>(engine_()) / 2147483648.0 - 1.0); }
+  /// Of any direction, coordinates in (-1, 1); and axes turned anyhow.
+  Vec3<S> plain_vector() { return {plain(), plain(), plain()}; }
+  Mat3<S> plain_axes() {
+    Mat3<S> axes;
+    axes.col(0) = safe_unit(plain_vector());
+    axes.col(1) = safe_unit(thinwall::cross<S>(axes.col(0), plain_vector()));
+    axes.col(2) = thinwall::cross<S>(axes.col(0), axes.col(1));
+    return axes;
+  }
   S coordinate() { return pick(0, 1) == 0 ? S(pick(-4, 4)) / S(2) : S(2 * plain()); }
   Vec3<S> vector() { return {coordinate(), coordinate(), coordinate()}; }
   Vec3<S> sizes() { return vector().cwiseAbs(); }

@@ -213,7 +213,7 @@ TEST(RoundingDecides, a_point_at_an_edge_meets_no_face_that_it_leaves_by) {
   const Obb<double> box{{0, 0, 0}, {0x1p-5, 2, 2}, Mat3<double>::Identity()};
   int hits = 0;
   for (int i = 0; i < 20'000; ++i) {  // to the edge at +y, where it comes in by -x or +x and leaves by +y
-    const Vec3<double> way(60 * draw.plain(), 40 + 20 * draw.plain(), draw.plain());
+    const Vec3<double> way = draw.plain_vector().cwiseProduct(Vec3<double>(60, 20, 1)) + Vec3<double>(0, 40, 0);
     const Vec3<double> edge(way[0] > 0 ? -0x1p-5 : 0x1p-5, 2, 0);
     const auto toi = time_of_impact(Moving<Sphere<double>>{{edge - way, 0}, way}, at_rest(box));
     if (toi.status != ToiStatus::hit) continue;

@@ -34,18 +34,11 @@ TYPED_TEST_SUITE(Ladder, ClearPairs, );
 
 /// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
 template <class A, class B> Motion<A, B> everyday_shot(Shaker<double>& draw) {
-  const auto any = [&] { return V(draw.plain(), draw.plain(), draw.plain()); };
-  const auto any_turn = [&] {
-    Mat3<double> axes;
-    axes.col(0) = safe_unit(any());
-    axes.col(1) = safe_unit(thinwall::cross<double>(axes.col(0), any()));
-    axes.col(2) = thinwall::cross<double>(axes.col(0), axes.col(1));
-    return axes;
-  };
+  const auto any = [&] { return draw.plain_vector(); };
   const auto sized = [&]<class T>(T shape) {
     if constexpr (std::is_same_v<T, Ball>) shape = {V::Zero(), 0.3 + 0.25 * draw.plain()};
     if constexpr (std::is_same_v<T, Box>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25};
-    if constexpr (std::is_same_v<T, Turned>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25, any_turn()};
+    if constexpr (std::is_same_v<T, Turned>) shape = {V::Zero(), V::Constant(0.3) + any() * 0.25, draw.plain_axes()};
     if constexpr (std::is_same_v<T, Rod>) shape = {any() * 0.5, any() * 0.5, 0.2 + 0.15 * draw.plain()};
     if constexpr (std::is_same_v<T, Flat>) shape = {any() * 0.5, any() * 0.5, any() * 0.5};
     return shape;
@@ -117,8 +110,7 @@ template <class A, class B> Motion<A, B> straight_shot(Shaker<double>& draw) {
   motion.b.displacement.setZero();
   const int axis = std::is_same_v<A, Rod> && draw.pick(0, 1) == 0 ? 2 : draw.pick(0, 2);
   motion.b.displacement[axis] = (draw.pick(0, 1) == 0 ? 4 : -4) + draw.plain();
-  motion.b.shape =
-      moved<double>(motion.b.shape, V(at - motion.b.displacement * 0.7 + V(draw.plain(), draw.plain(), draw.plain())));
+  motion.b.shape = moved<double>(motion.b.shape, V(at - motion.b.displacement * 0.7 + draw.plain_vector()));
   return motion;
 }
 
@@ -150,7 +142,7 @@ template <class A, class B> Motion<A, B> odd_motion(Shaker<double>& draw) {
       if (draw.pick(0, 3) == 0) shape.axes.setIdentity();
       if (draw.pick(0, 3) == 0) shape.axes(draw.pick(0, 2), draw.pick(0, 2)) += power<double>(-draw.pick(40, 1074));
     }
-    const V aside = V(draw.plain(), draw.plain(), draw.plain()) * power<double>(-draw.pick(0, 60));
+    const V aside = draw.plain_vector() * power<double>(-draw.pick(0, 60));
     if constexpr (requires { shape.c; }) {  // next to a needle
       if (draw.pick(0, 1) == 0) shape.c = shape.a + (shape.b - shape.a) * draw.plain() + aside;
     } else if constexpr (requires { shape.b; }) {  // next to a point, or parallel to an axis
