@@ -84,27 +84,30 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
   bool inside = true;
   for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], crossing - from[k]).dot(normal) >= S(0);
   if (!inside) return best;
-  // The segment pierces the face: out past an end along the normal, or past an edge along its product with d.
+  // The segment pierces the face: out past an end along the normal, or past an edge along its product with d. The shortest way ends in the
+  // inside of its face of the prism: of ways that rounding tells apart the one whose points come together is taken.
   const S length = safe_norm(normal);
-  const bool by_start = largest(start_height) <= largest(end_height);
-  const Vec3<S> up = normal / length;
-  S depth = largest(by_start ? start_height : end_height) / length;
-  const Vec3<S> end = by_start ? x : Vec3<S>(x + d);
-  Vec3<S> out = ((by_start ? start_height : end_height) > S(0)) ? Vec3<S>(-up) : up;
-  best.on_triangle = end + out * depth;
-  best.s = by_start ? S(0) : S(1);
+  least = std::numeric_limits<S>::infinity();
+  const auto consider = [&](const Vec3<S>& out, const S& depth, const Vec3<S>& on_triangle, const S& at) {
+    const S apart = largest(Vec3<S>((x + d * at) + out * depth - on_triangle));
+    if (!(depth + apart < least)) return;
+    least = depth + apart;
+    best = {{-1, CorePart<S>::face, x + out * depth, out, out, depth}, on_triangle, at};
+  };
+  for (const bool at_start : {true, false}) {
+    const S height = at_start ? start_height : end_height;
+    const Vec3<S> up = normal / length, end = at_start ? x : Vec3<S>(x + d);
+    consider(height > S(0) ? Vec3<S>(-up) : up, S(largest(height) / length), end - closest_on_triangle(end, e1, e2).gap,
+             at_start ? S(0) : S(1));
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3<S> side = safe_unit(cross(along[k], d));
-    const S offset = (crossing - from[k]).dot(side);
-    if (side == Vec3<S>::Zero() || largest(offset) >= depth) continue;
-    depth = largest(offset);
-    out = side.dot(from[(k + 2) % 3] - from[k]) > S(0) ? Vec3<S>(-side) : side;  // `offset` may be a rounding
+    if (side == Vec3<S>::Zero()) continue;
     const SegmentPair<S> closest = closest_on_segments<S>(x - from[k], along[k], d);
-    best.on_triangle = from[k] + along[k] * closest.s;
-    best.s = closest.t;
+    const bool inwards = side.dot(from[(k + 2) % 3] - from[k]) > S(0);  // the offset's sign may be a rounding
+    consider(inwards ? Vec3<S>(-side) : side, largest(S((crossing - from[k]).dot(side))),
+             from[k] + along[k] * closest.s, closest.t);
   }
-  best.part = {-1, CorePart<S>::face, x + out * depth, out, out};
-  best.part.depth = depth;
   return best;
 }
 

@@ -19,10 +19,11 @@ Entry<S> capsule_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, 
   return core_entry_at_any_scale<S>(closest, p, v, R, d, e1, e2);
 }
 
-/// The first face of the prism that is met; `leaves` if the motion comes out of it there.
+/// The first face of the prism that is met; `leaves` if the motion comes out of it there. A face that it comes in by is met before all that
+/// it leaves by, whatever roundings of their times say.
 template <Scalar S> struct PrismFace {
   Entry<S> entry;
-  bool leaves = false;
+  bool leaves = true;
 };
 
 template <Scalar S>
@@ -33,8 +34,9 @@ PrismFace<S> first_face_of_prism(const Vec3<S>& p, const Vec3<S>& v, const Vec3<
                         const Vec3<S>& inward) {
     if (first.entry.inside) return;
     const Entry<S> entry = flat_entry<S>(shape, from, v, side1, side2, S(1));
-    const bool is_first = entry.time < first.entry.time || (entry.time == first.entry.time && first.leaves);
-    if (entry.inside || is_first) first = {entry, entry.normal.dot(inward) > S(0)};
+    const bool is_met = entry.inside || is_finite(entry.time), leaves = entry.normal.dot(inward) > S(0);
+    const bool is_first = leaves == first.leaves ? entry.time < first.entry.time : first.leaves;
+    if (entry.inside || (is_met && is_first)) first = {entry, leaves};
   };
   meet(FlatShape::triangle, p, e1, e2, -d);
   meet(FlatShape::triangle, p + d, e1, e2, d);

@@ -94,6 +94,23 @@ TEST(CrossingCores, part_across_both_at_the_smallest_angle) {
   }
 }
 
+TEST(CrossingCores, a_segment_that_lies_in_a_triangle_all_but_touches_it_in_points_of_both) {
+  Shaker<double> draw(20261128);
+  for (int i = 0; i < 20'000; ++i) {
+    const Triangle<double> triangle{draw.plain_vector(), draw.plain_vector(), draw.plain_vector()};
+    const Vec3<double> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+    const double s = std::ldexp(1.0, -draw.pick(0, 8)), t = draw.plain() + 1, u = draw.plain() + 1;
+    const Vec3<double> in_plane = (e1 * draw.plain() + e2 * draw.plain()) * s, normal = thinwall::cross<double>(e1, e2);
+    const Vec3<double> tilt = normal * std::ldexp(draw.plain(), -draw.pick(20, 60));
+    const Vec3<double> at = triangle.a + e1 * (t / 4) + e2 * (u / 4);
+    const Capsule<double> segment{at - in_plane - tilt, at + in_plane + tilt, 0};
+    const Separation<double> found = separation(segment, triangle);
+    EXPECT_LE(separation(Sphere<double>{found.point_a, 0}, segment).distance, 4e-15) << i;
+    EXPECT_LE(separation(Sphere<double>{found.point_b, 0}, triangle).distance, 4e-15) << i;
+    EXPECT_LE(safe_norm<double>(found.point_b - found.point_a), std::abs(found.distance) + 4e-15) << i;
+  }
+}
+
 TYPED_TEST(CapsuleQueries, parallel_and_collinear) {
   using S = TypeParam;
   EXPECT_EQ(separation(this->rod, Capsule<S>{{-1, 3, 0}, {5, 3, 0}, 0.5}).distance, S(2));

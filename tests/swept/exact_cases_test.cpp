@@ -223,6 +223,27 @@ TEST(RoundingDecides, a_point_at_an_edge_meets_no_face_that_it_leaves_by) {
   EXPECT_GT(hits, 1'000);
 }
 
+TEST(RoundingDecides, a_segment_at_a_rim_meets_a_face_that_it_comes_in_by) {
+  Shaker<double> draw(20261128);
+  int hits = 0;
+  for (int i = 0; i < 20'000;
+       ++i) {  // an end of the segment at an edge of the triangle: two faces of their prism are met at once
+    const Triangle<double> triangle{draw.plain_vector(), draw.plain_vector(), draw.plain_vector()};
+    const Vec3<double> at = triangle.a + (triangle.b - triangle.a) * (0.5 + 0.25 * draw.plain());
+    const Vec3<double> core = draw.plain_vector() * std::ldexp(1.0, -draw.pick(0, 12)), way = draw.plain_vector();
+    const Moving<Capsule<double>> segment{{at - way / 2, at - way / 2 + core, 0}, way};
+    const auto toi = time_of_impact(segment, at_rest(triangle));
+    if (toi.status != ToiStatus::hit) continue;
+    ++hits;
+    const Capsule<double> there = pose_at(segment, toi.time);
+    const auto along = [&](const Vec3<double>& x) { return toi.normal.dot(x); };
+    EXPECT_LE(std::max(along(there.a), along(there.b)),
+              std::min({along(triangle.a), along(triangle.b), along(triangle.c)}) + 0x1p-48)
+        << i;
+  }
+  EXPECT_GT(hits, 5'000);
+}
+
 TEST(RoundingDecides, a_box_that_passes_a_point_in_no_time_is_apart) {  // enters and leaves its slab at 0, rounded
   const double most = std::numeric_limits<double>::max();
   const Moving<Aabb<double>> box{{{3, 1, -2}, {1.5, 1.5, 2}}, {0.9, 1.4, most}};
