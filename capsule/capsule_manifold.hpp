@@ -106,7 +106,7 @@ template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& capsule, con
     const Vec3<S> point = start + core * s;
     const S height = -point.dot(normal);
     const Vec3<S> foot = point + normal * height;
-    faces = faces && largest(closest_on_triangle<S>(foot, corners[1], corners[2]).gap) <= 4 * noise;
+    faces = faces && largest(gap_from_triangle<S>(foot, {corners[0], corners[1], corners[2]})) <= 4 * noise;
     return {height, foot - middle};
   });
   return ends.empty() || !faces ? single_point(capsule, triangle, gap) : ends;

@@ -126,52 +126,42 @@ std::array<S, 2> stretch_between_faces(const Vec3<S>& p, const Vec3<S>& d, const
 
 /// The least translation that parts a segment p + s d from the box [-h, h] that it touches or crosses, as a gap from
 /// the segment (relative to its middle) to the box: the smallest overlap along the three face normals and the three
-/// products of an edge with d, which are all the faces their Minkowski difference has.
+/// products of an edge with d, which are all the faces their Minkowski difference has. The least one ends in the inside of its face: of those
+/// that rounding tells apart the one whose points come together is taken.
 template <Scalar S> CoreGap<S> segment_through_box(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
-  const Vec3<S> middle = p + d / S(2);
-  const Vec3<S> direction = safe_unit(d);
+  const Vec3<S> middle = p + d / S(2), direction = safe_unit(d);
+  const S nearest = closest_parameter_to_box(p, d, h);
+  const auto on_box = [&](const S& s) -> Vec3<S> { return Vec3<S>(p + d * s).cwiseMin(h).cwiseMax(-h); };
   CoreGap<S> gap;
   S least = std::numeric_limits<S>::infinity();
-  int edge = -1, face = -1;
-  Vec3<S> outward = Vec3<S>::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const S overlap = h[i] + (largest(d[i]) / 2 - largest(middle[i]));
-    if (overlap < least) {
-      least = overlap;
-      face = i;
-      outward = axis_vector<S>(i, middle[i] < S(0));
-    }
+  const auto consider = [&](const Vec3<S>& outward, const S& overlap, const S& s, const Vec3<S>& point) {
+    const S apart = largest(Vec3<S>((p + d * s) + outward * overlap - point));
+    if (!(overlap + apart < least)) return;
+    least = overlap + apart;
+    gap = {S(-overlap), -outward, d * (s - S(1) / S(2)), point};
+  };
+  for (int i = 0; i < 3; ++i) {  // the deepest end; the middle of the crossing where the segment runs along the face
+    const Vec3<S> outward = axis_vector<S>(i, middle[i] < S(0));
+    const auto [first, last] = stretch_between_faces(p, d, h, i);  // an end beyond the face is no deeper than rounding
+    const bool at_first = (d[i] > S(0)) == (outward[i] > S(0)), along = d[i] == S(0) || !(first <= last);
+    const S s = along ? nearest : at_first ? first : last;
+    Vec3<S> point = on_box(s);
+    point[i] = outward[i] * h[i];
+    consider(outward, S(h[i] + (largest(d[i]) / 2 - largest(middle[i]))), s, point);
   }
   for (int i = 0; i < 3; ++i) {
     const Vec3<S> n = safe_unit(cross(direction, axis_vector<S>(i)));
     if (n == Vec3<S>::Zero()) continue;
-    const S overlap = h.dot(n.cwiseAbs()) - largest(S(middle.dot(n)));
-    if (overlap < least) {
-      least = overlap;
-      edge = i;
-      outward = middle.dot(n) < S(0) ? Vec3<S>(-n) : n;
-    }
-  }
-  gap.distance = -least;
-  gap.normal = -outward;
-  S s = closest_parameter_to_box(p, d, h);
-  if (least <= S(0)) {  // they only touch, within rounding
-    gap.local_b = Vec3<S>(p + d * s).cwiseMin(h).cwiseMax(-h);
-  } else if (edge < 0) {  // the deepest end; the middle of the crossing where the segment runs along the face
-    const auto [first, last] =
-        stretch_between_faces(p, d, h, face);  // an end beyond the face is no deeper than rounding
-    if (first <= last && d[face] != S(0)) s = (d[face] > S(0)) == (outward[face] > S(0)) ? first : last;
-    gap.local_b = Vec3<S>(p + d * s).cwiseMin(h).cwiseMax(-h);
-    gap.local_b[face] = outward[face] * h[face];
-  } else {
+    const Vec3<S> outward = middle.dot(n) < S(0) ? Vec3<S>(-n) : n, edge = axis_vector<S>(i) * (h[i] * 2);
     Vec3<S> corner = h;
-    for (int i = 0; i < 3; ++i) corner[i] = i == edge || outward[i] < S(0) ? S(-h[i]) : h[i];
-    const Vec3<S> along = axis_vector<S>(edge) * (h[edge] * 2);
-    const SegmentPair<S> closest = closest_on_segments<S>(corner - p, d, along);
-    s = closest.s;
-    gap.local_b = corner + along * closest.t;
+    for (int k = 0; k < 3; ++k) corner[k] = k == i || outward[k] < S(0) ? S(-h[k]) : h[k];
+    const SegmentPair<S> closest = closest_on_segments<S>(corner - p, d, edge);
+    consider(outward, S(h.dot(n.cwiseAbs()) - largest(S(middle.dot(n)))), closest.s, corner + edge * closest.t);
   }
-  gap.local_a = d * (s - S(1) / S(2));
+  if (gap.distance >= S(0)) {  // they only touch, within rounding
+    gap.local_a = d * (nearest - S(1) / S(2));
+    gap.local_b = on_box(nearest);
+  }
   return gap;
 }
 

@@ -81,9 +81,7 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
   if ((start_height < S(0)) == (end_height < S(0)) || least == S(0)) return best;
   const S s = start_height / (start_height - end_height);
   const Vec3<S> crossing = x + d * s;
-  bool inside = true;
-  for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], crossing - from[k]).dot(normal) >= S(0);
-  if (!inside) return best;
+  if (largest(closest_on_triangle(crossing, e1, e2).gap) > 4 * rounding) return best;
   // The segment pierces the face: out past an end along the normal, or past an edge along its product with d. The shortest way ends in the
   // inside of its face of the prism: of ways that rounding tells apart the one whose points come together is taken.
   const S length = safe_norm(normal);

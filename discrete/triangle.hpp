@@ -46,29 +46,34 @@ template <Scalar S> Vec3<S> contact_point(const Triangle<S>&, const Vec3<S>& cor
 }
 
 /// The part of the triangle (0, e1, e2) that is closest to x: 0 the face, 1 to 3 the edges e1, e2 - e1, -e2, 4 to 6 the
-/// corners they start from. Inside the face by the signs of three areas, else the nearest of the edges; a triangle of no
-/// area has edges only, and a needle, whose plane roundings may turn by any angle, a face only where that is no nearer than
-/// its edges by more than the needle is wide. Requires lengths whose products of four are in range.
+/// corners they start from. Inside the face by the signs of three areas, else the nearest of the edges. Where a sign may be a rounding
+/// it is the face only if its point is one of an edge too, to rounding; beside a needle, whose plane roundings may turn by any angle, if it is
+/// so within the needle's width; a triangle of no area has edges only. Requires lengths whose products of four are in range.
 /// Error: a few u (|x| + |e1| + |e2|). Source: derived here.
 template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3<S>& e1, const Vec3<S>& e2) {
-  using std::sqrt;
+  const S epsilon = std::numeric_limits<S>::epsilon();
   Vec3<S> normal = accurate_cross(e1, e2);
   const S area = largest(normal), length = largest(e1, e2);
   if (!products_in_range(area)) normal = times_power_of_two(normal, -binary_exponent(area));
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
-  const bool flat = normal != Vec3<S>::Zero();
-  const bool needle = area <= S(4096) * std::numeric_limits<S>::epsilon() * length * length;
+  const bool needle = area <= S(4096) * epsilon * length * length;
+  const S noise = S(64) * epsilon * largest(x, e1, e2);  // of a place beside an edge's line
   std::array<bool, 3> beyond{true, true,
                              true};  // outside this edge's line: only such an edge, or its end, can be nearest
   CorePart<S> face;
-  if (flat) {
-    for (std::size_t k = 0; k < 3; ++k) beyond[k] = cross(normal, along[k]).dot(x - from[k]) < S(0);
+  bool sure = true;
+  if (normal != Vec3<S>::Zero()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const S inwards = cross(normal, along[k]).dot(x - from[k]);
+      beyond[k] = inwards < S(0);
+      sure = sure && largest(inwards) > largest(normal) * largest(along[k]) * noise;
+    }
     if (!beyond[0] && !beyond[1] && !beyond[2]) {
       const Vec3<S> unit = safe_unit(normal);  // its square may vanish beside a far x
       face = {0, CorePart<S>::face, Vec3<S>::Zero(), normal, unit * x.dot(unit)};
-      if (!needle) return face;
+      if (sure && !needle) return face;
     }
-    if (needle) beyond = {true, true, true};
+    if (!sure || needle) beyond = {true, true, true};
   }
   CorePart<S> part;
   S least = std::numeric_limits<S>::infinity();
@@ -91,7 +96,8 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
     part = {static_cast<int>(start) + (corner ? 4 : 1), corner ? CorePart<S>::corner : CorePart<S>::edge, from[start],
             along[start], gap};
   }
-  const bool face_will_do = face.kind == CorePart<S>::face && face.gap.norm() + area / length >= sqrt(least);
+  const S beside = sure ? S(2 * area / length) : noise;
+  const bool face_will_do = face.kind == CorePart<S>::face && largest(Vec3<S>(face.gap - part.gap)) <= beside;
   return face_will_do ? face : part;
 }
 

@@ -25,9 +25,8 @@ template <Scalar S> Capsule<S> swept_volume(const Moving<Sphere<S>>& m) {
 template <Scalar S> Obb<S> swept_volume(const Moving<Aabb<S>>& m) {
   const Vec3<S>&h = m.shape.half_extents, half_path = m.displacement / S(2);
   const Vec3<S> middle = m.shape.center + half_path;
-  const int motion_axis = axis_along(m.displacement, S(0));
-  if (motion_axis >= 0) return {middle, h + half_path.cwiseAbs(), Mat3<S>::Identity()};
-  const Vec3<S> along = safe_unit(m.displacement);
+  const Vec3<S> along = safe_unit(m.displacement);  // what vanishes beside the rest is no direction
+  if (axis_along(along, S(0)) >= 0) return {middle, h + half_path.cwiseAbs(), Mat3<S>::Identity()};
   const Vec3<S> sizes = times_power_of_two(h, -binary_exponent(largest(h)));  // their products stay in range
   Obb<S> box{middle, h, Mat3<S>::Identity()};
   S least = std::numeric_limits<S>::infinity();
@@ -54,6 +53,13 @@ template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Moving<A>& m) {
   const S slack = 4 * std::numeric_limits<S>::epsilon();
   const Vec3<S> outward = (center(m.shape).cwiseAbs() + half) * slack;
   return {middle, half + outward + Vec3<S>::Constant(4 * std::numeric_limits<S>::denorm_min())};
+}
+
+/// A triangle's center is not the middle of the box around it.
+template <Scalar S> Aabb<S> swept_bounds(const Moving<Triangle<S>>& m) {
+  const Triangle<S>& t = m.shape;
+  const Vec3<S> low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
+  return swept_bounds(Moving<Aabb<S>>{{(low + high) / S(2), (high - low) / S(2)}, m.displacement});
 }
 
 /// The naive bound: a ball around the whole path, rounded outward. Mostly empty when the path is long.

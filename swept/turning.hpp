@@ -1,6 +1,9 @@
 #pragma once
 /// A shape that flies straight and spins at a constant rate over one step.
 
+#include <algorithm>
+#include <limits>
+
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/triangle.hpp>
@@ -75,7 +78,8 @@ template <Shape A> A posed(const Turning<A>& m, const Mat3<typename A::Scalar>& 
 /// The shape at `time` [1] in [0, 1]. Error: a few u of the coordinates, and u of the angle times the size.
 template <Shape A> A pose_at(const Turning<A>& m, const typename A::Scalar& time) {
   using S = typename A::Scalar;
-  return posed(m, rotation_about<S>(safe_unit(m.rotation), safe_norm(m.rotation) * time), time);
+  const S angle = std::min(safe_norm(m.rotation), std::numeric_limits<S>::max());  // so many turns are any angle
+  return posed(m, rotation_about<S>(safe_unit(m.rotation), angle * time), time);
 }
 
 template <Shape A> typename A::Scalar magnitude(const Turning<A>& m) {

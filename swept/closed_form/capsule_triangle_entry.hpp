@@ -90,8 +90,10 @@ Entry<S> sharp_segment_triangle_entry(const Vec3<S>& p, const Vec3<S>& v, const 
   };
   const Entry<S> entry = entry_from(on_grid(p), v);
   if (is_met || !(entry.time <= S(1))) return is_met ? entry : first.entry;
-  const S until = S(1) - entry_from(on_grid(p + v), -v).time;
-  return segment_meets_triangle<S>(p + v * ((entry.time + until) / S(2)), d, e1, e2) ? entry : first.entry;
+  const S back = entry_from(on_grid(p + v), -v).time;
+  if (!(back <= S(1))) return first.entry;
+  const S half_way = (entry.time + (S(1) - back)) / S(2);
+  return segment_meets_triangle<S>(p + v * half_way, d, e1, e2) ? entry : first.entry;
 }
 
 }  // namespace thinwall

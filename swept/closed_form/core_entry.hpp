@@ -136,6 +136,10 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     if (!is_finite(target)) return answer;
     const CorePart<S> there = closest(p + v * target);
     if (there.id == part.id) {
+      // A step by the normal of a part as near as this one, to rounding, passes this one's entry: that proves itself too.
+      const bool passed_by = entry.exists && entry.time < free && there.distance() < R;
+      const S earlier = std::max(not_before, entry.time);
+      if (passed_by && closest(p + v * earlier).id == part.id) return hit(earlier, entry.normal);
       if (entry.exists) return hit(target, entry.normal);
       if (goes_on(there, target)) continue;
       return miss_unless_soon_inside(there, target);

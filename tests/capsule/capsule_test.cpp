@@ -111,6 +111,40 @@ TEST(CrossingCores, a_segment_that_lies_in_a_triangle_all_but_touches_it_in_poin
   }
 }
 
+TEST(CrossingCores, past_the_tip_of_a_triangle_without_area_do_not_cross_it) {
+  Shaker<double> draw(20261128);
+  const auto tenth = [&] { return 0.1 * draw.pick(0, 20); };
+  for (int i = 0; i < 20'000; ++i) {  // in the plane z = 0 the third corner lies between the others, to rounding
+    const double x1 = tenth(), y1 = tenth(), x2 = tenth(), y2 = tenth(), part = 0.25 * draw.pick(1, 3);
+    const Vec3<double> a(x1, y1, 0), b(x2, y2, 0), at = b + (b - a) * (0.25 * draw.pick(1, 4)), up(0, 0, 1);
+    const Triangle<double> needle{a, b, a + (b - a) * part};
+    const double expected = separation(Sphere<double>{at, 0.05}, needle).distance;
+    EXPECT_NEAR(separation(Capsule<double>{at - up, at + up, 0.05}, needle).distance, expected, 1e-15) << i;
+  }
+  for (int e = -350; e > -540; e -= 10) {
+    const double s = std::ldexp(1.0, e);
+    const Triangle<double> speck{{0, -2 * s, -s}, {0, -3 * s, 3 * s}, {0, 0, -s}};
+    EXPECT_NEAR(separation(Capsule<double>{{-1, -1, 1}, {1, -1, 1}, 0.125}, speck).distance, std::sqrt(2.0) - 0.125,
+                1e-15)
+        << e;
+  }
+}
+
+TEST(CrossingCores, along_a_face_to_rounding_leave_a_box_by_points_that_come_together) {
+  Shaker<double> draw(20261128);
+  for (int i = 0; i < 20'000; ++i) {
+    const Aabb<double> box{{0, 0, 0}, draw.sizes() + Vec3<double>::Constant(1)};
+    const int face = draw.pick(0, 2);
+    Vec3<double> from = draw.vector() * 4, to = draw.vector() * 4;
+    from[face] = 0.5 * draw.plain();
+    to[face] = from[face] + std::ldexp(draw.plain(), -draw.pick(40, 60));
+    const Separation<double> found = separation(Capsule<double>{from, to, 0.25}, box);
+    const Vec3<double> off = found.point_b - found.point_a - found.normal * found.distance;
+    EXPECT_LE(largest(off), 0x1p-46) << i;
+    EXPECT_LE(separation(Sphere<double>{found.point_b, 0}, box).distance, 0x1p-46) << i;
+  }
+}
+
 TYPED_TEST(CapsuleQueries, parallel_and_collinear) {
   using S = TypeParam;
   EXPECT_EQ(separation(this->rod, Capsule<S>{{-1, 3, 0}, {5, 3, 0}, 0.5}).distance, S(2));

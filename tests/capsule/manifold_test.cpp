@@ -83,6 +83,16 @@ TYPED_TEST(CapsuleManifolds, past_the_tip_of_a_needle_there_is_no_point) {
   for (const Contact<S>& c : beside) EXPECT_LE((center(needle) + c.local_b)[0], 4 * wide);
 }
 
+TYPED_TEST(CapsuleManifolds, on_a_triangle_they_have_as_many_points_at_any_scale) {
+  using S = TypeParam;
+  const Capsule<S> rod{{-4, 3, 0}, {-2, 3, 0}, 1};
+  const Triangle<S> triangle{{-4, 3, 1}, {1, -4, 1}, {0, 4, 1}};
+  const int far = std::min(std::numeric_limits<S>::max_exponent, 16000);
+  for (const int e : {0, -far * 5 / 8, -far * 7 / 8, far * 5 / 8, far * 7 / 8}) {
+    EXPECT_EQ(manifold(scaled(rod, e), scaled(triangle, e)).count, 2) << e;
+  }
+}
+
 TYPED_TEST(CapsuleManifolds, side_by_side_capsules_have_two_points) {
   using S = TypeParam;
   const Capsule<S> below{{4, 1, S(1) / S(2)}, {0, 1, S(1) / S(2)}, S(1) / S(2)};

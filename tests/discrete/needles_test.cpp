@@ -57,5 +57,30 @@ TYPED_TEST(Needles, are_as_far_as_their_corners_say) {
   }
 }
 
+TYPED_TEST(Needles, are_as_far_from_what_lies_past_their_tips) {
+  using S = TypeParam;
+  std::mt19937_64 engine(2);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  const auto vector = [&]() -> Vec3<S> { return {S(draw(engine)), S(draw(engine)), S(draw(engine))}; };
+  const auto at_most = [&](int bits) { return power<S>(-static_cast<int>(engine() % static_cast<unsigned>(bits))); };
+  constexpr int digits = std::numeric_limits<S>::digits;
+  for (int i = 0; i < 20000; ++i) {  // a thin one, whose sides are all but one line there
+    const Vec3<S> a = vector(), b = vector(),
+                  c = a + (b - a) * S(0.5 + 0.4 * draw(engine)) + vector() * at_most(digits);
+    const Vec3<S> x = b + (b - a) * at_most(digits / 2) + vector() * at_most(digits);
+    const S distance = separation(Triangle<S>{a, b, c}, Sphere<S>{x, S(0)}).distance;
+    const auto [X, A, B, C] =
+        std::tuple{oracle::lift_vector(x), oracle::lift_vector(a), oracle::lift_vector(b), oracle::lift_vector(c)};
+    const Real size = length(B - A) + length(C - A) + length(X - A);
+    ASSERT_LE(abs(oracle::lift(distance) - distance_of(X, A, B, C)), 4 * oracle::unit_roundoff<S>() * size) << i;
+  }
+}
+
+TYPED_TEST(Needles, without_an_area_have_no_plane) {
+  using S = TypeParam;
+  const Triangle<S> line{{-3, -3, 0}, {3, -2, -std::numeric_limits<S>::denorm_min()}, {0, S(-2.5), 0}};
+  EXPECT_NEAR(double(separation(line, Sphere<S>{{-1, 2, 0}, 0}).distance), 4.6031716445500041, 8 * double(unit<S>()));
+}
+
 }  // namespace
 }  // namespace thinwall::testing

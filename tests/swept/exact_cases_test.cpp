@@ -244,6 +244,35 @@ TEST(RoundingDecides, a_segment_at_a_rim_meets_a_face_that_it_comes_in_by) {
   EXPECT_GT(hits, 5'000);
 }
 
+TEST(RoundingDecides, a_segment_whose_way_back_meets_nothing_is_apart) {
+  const Moving<Capsule<double>> segment{{{0, 0, 1e300}, {0, 1, 0}, 0}, {0, 1e300, 0}};
+  const Triangle<double> line{{1e308, -2e-300, 0}, {0, 0, 0}, {0, 0, 0}};
+  EXPECT_EQ(time_of_impact(segment, at_rest(line)).status, ToiStatus::apart);
+}
+
+TEST(RoundingDecides, a_capsule_that_slides_along_a_face_is_met_by_its_nearer_end) {
+  // the plane leans by 1e-10: by their normal the two ends are 2e-14 apart, which takes 1e-9 of the step
+  const Moving<Capsule<double>> capsule{
+      {{-0x1.a8cb0441d7562p-13, 0, 0}, {0x1.a8cb0441d7562p-13, 0, 0}, 0x1.559473bc96f62p-14},
+      {0x1.49492650d771fp-7, 0x1.a9f6cf8eb7441p-5, -0x1.a2967bb812648p-6}};
+  const Moving<Triangle<double>> triangle{{{-0x1.02159c07e9d83p-3, 0x1.56de7c315fa99p-14, -0x1.4abf2c273431cp-1},
+                                           {0x1.67d2eb8c05e1dp-6, 0x1.56de65350219p-14, 0x1.3ef0fe386281ap-2},
+                                           {-0x1.02159c06ce38bp-3, 0x1.56de90e2bd87p-14, -0x1.9a7b6bb547576p+0}},
+                                          {0x1.51ef179b14b1p-2, 0x1.a9bc3cf4a9adcp-5, -0x1.6926c68314174p-2}};
+  EXPECT_NEAR(time_of_impact(capsule, triangle).time, 0.011002985272795947, 1e-15);  // at 113 digits
+}
+
+TEST(RoundingDecides, the_end_of_a_step_is_the_same_at_any_scale) {
+  const Triangle<double> triangle{{-0x1.a1a87813ab6a8p+13, -0x1.30e7c9bb1c733p+19, -0x1.d042c64b874ebp+18},
+                                  {0x1.2fa7228a94bf2p+13, 0x1.2a52db4f325e6p+18, -0x1.d8a59d9677f68p+18},
+                                  {0x1.c80556245aaep+11, 0x1.377cb8270688p+18, 0x1.d47431f0ffa28p+19}};
+  const Moving<Sphere<double>> point{{{-0x1.49b1c31d67e17p+12, -0x1.5a25c6008d314p+19, -0x1.5240e276ebddfp+21}, 0},
+                                     {0x1.48ce021e6d4edp+13, 0x1.d95ef23762fcep+19, 0x1.738c85026c317p+21}};
+  for (int e = -600; e <= 900; e += 50) {  // it is met a billionth of a rounding after the end
+    EXPECT_EQ(time_of_impact(scaled(at_rest(triangle), e), scaled(point, e)).status, ToiStatus::apart) << e;
+  }
+}
+
 TEST(RoundingDecides, a_box_that_passes_a_point_in_no_time_is_apart) {  // enters and leaves its slab at 0, rounded
   const double most = std::numeric_limits<double>::max();
   const Moving<Aabb<double>> box{{{3, 1, -2}, {1.5, 1.5, 2}}, {0.9, 1.4, most}};

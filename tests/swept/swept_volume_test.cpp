@@ -92,7 +92,7 @@ TYPED_TEST(SweptBoundsProperty, hold_the_shape_at_every_time) {
     ASSERT_TRUE(contains(bounds, hull(m))) << run;
     ASSERT_TRUE(contains(bounds, hull(pose_at(m, S(draw.plain() / S(2) + S(1) / S(2)))))) << run << ": a rounded pose";
     const Vec3<S> spare = bounds.half_extents - (half_widths(m.shape) + m.displacement.cwiseAbs() / S(2));
-    ASSERT_LE(largest(spare), 16 * unit<S>() * (largest(center(m.shape)) + largest(bounds.half_extents))) << run;
+    ASSERT_LE(spare.maxCoeff(), 16 * unit<S>() * (largest(center(m.shape)) + largest(bounds.half_extents))) << run;
   }
 }
 
@@ -200,6 +200,25 @@ TYPED_TEST(SweptVolume, oriented_box_at_any_scale) {
     const Obb<S> there = swept_volume(scaled(m, e));
     EXPECT_EQ(there.axes, here.axes);
     EXPECT_EQ(times_power_of_two(there.half_extents, -e), here.half_extents);
+  }
+}
+
+TYPED_TEST(SweptVolume, bounds_of_a_triangle_are_those_of_its_corners) {
+  using S = TypeParam;
+  const Aabb<S> box = swept_bounds(Moving<Triangle<S>>{{{0, 0, 0}, {0, 0, 0}, {3, 0, 0}}, {0, 1, 0}});
+  const auto at = [](const S& x, double expected) { EXPECT_NEAR(double(x), expected, 64 * double(unit<S>())); };
+  at(box.center[0] - box.half_extents[0], 0);
+  at(box.center[0] + box.half_extents[0], 3);
+  at(box.center[1] + box.half_extents[1], 1);
+}
+
+TYPED_TEST(SweptVolume, oriented_box_is_one_whatever_vanishes_beside_the_motion) {
+  using S = TypeParam;
+  const S least = std::numeric_limits<S>::denorm_min();
+  for (const S& aside : {least, S(20 * least), S(least / unit<S>()), unit<S>()}) {
+    const Obb<S> box = swept_volume(Moving<Aabb<S>>{{{0, 0, 0}, {1, 1, 1}}, {0, -4, aside}});
+    EXPECT_TRUE(valid(box)) << aside;
+    EXPECT_TRUE(overlaps(box, Sphere<S>{{0, 0, 0}, S(0.5)})) << aside;
   }
 }
 

@@ -252,6 +252,36 @@ TEST(TurningBounds, a_turn_whose_angle_is_no_number_is_given_up) {
   EXPECT_EQ(toi.time, 0);
 }
 
+TEST(TurningBounds, a_turn_that_is_out_of_range_is_no_hit_of_what_is_far_away) {
+  const double most = std::numeric_limits<double>::max();
+  const Turning<Obb<double>> box{{V(0, 0, 0), V(1, 1, 1), Mat3<double>::Identity()}, V::Zero(), V(0, most, most)};
+  const Turning<Capsule<double>> rod{{V(10, 0, 0), V(11, 0, 0), 0.5}, V::Zero(), V::Zero()};
+  EXPECT_EQ(time_of_impact(EndOfStep<double>{}, box, rod).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(Substeps<double>{}, box, rod).status, ToiStatus::apart);
+}
+
+/// A ball flies at the corner of a box whose axes are `length` long: when they meet.
+template <class S> void check_long_axes(const S& length) {
+  const S far = 20, radius = 10;
+  const Turning<Obb<S>> box{
+      {{0, 0, 0}, {1, 1, 1}, Mat3<S>(Mat3<S>::Identity() * length)}, Vec3<S>::Zero(), Vec3<S>::Zero()};
+  const Turning<Sphere<S>> ball{{{far, far, far}, radius}, {-far, -far, -far}, Vec3<S>::Zero()};
+  ASSERT_TRUE(valid(box));
+  const long double first = 1 - (length + 10 / std::sqrt(3.0L)) / 20;
+  EXPECT_LE(time_of_impact(box, ball).time, first);
+  EXPECT_LE(time_of_impact(ConservativeAdvancement<S>{std::numeric_limits<S>::epsilon()}, box, ball).time, first);
+  if constexpr (std::is_same_v<S, double>) {
+    const CertifiedToi proven = certified_time_of_impact(box, ball);
+    EXPECT_LE(proven.lower, first);
+    EXPECT_GE(proven.upper, first);
+  }
+}
+
+TEST(TurningBounds, axes_that_are_not_quite_unit_make_nothing_late) {
+  for (const float off : {2e-5F, 1e-6F, 2e-7F, -2e-5F}) check_long_axes(1 + off);
+  for (const double off : {0x1p-33, 0x1p-40, -0x1p-33}) check_long_axes(1 + off);
+}
+
 template <class A, class B> void check_certified(int& proven, int& asked) {
   PortableDraw draw(7);
   const auto count = static_cast<unsigned>(thorough(slow_build ? 100 : 1'000));
