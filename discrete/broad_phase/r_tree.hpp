@@ -30,7 +30,8 @@
 namespace thinwall {
 
 /// Boost.Geometry's R-tree, packed from all boxes at once, asked once for each moving body. Its boxes are floats, rounded
-/// outward; what it finds is checked with the boxes given. Time n log n, whatever the sizes.
+/// outward; what it finds is checked with the boxes given. Time n log n, whatever the sizes, as long as floats tell the boxes apart: not
+/// beyond 1e36, nor below 1e-36.
 /// Source: Leutenegger, Lopez and Edgington, STR: a simple and efficient algorithm for R-tree packing, 1997, and
 /// Garcia, Lopez and Leutenegger 1998, as Boost.Geometry says.
 struct RTree {
