@@ -195,7 +195,6 @@ Entry<S> flat_entry_near_one(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v
       return entry;
     }
   }
-  if (boxes_apart(shape, p, v, e1, e2, last)) return {};
   return exact_flat_entry(shape, p, v, e1, e2, last);
 }
 
@@ -206,6 +205,7 @@ Entry<S> flat_entry_near_one(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v
 template <Scalar S>
 Entry<S> flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                     const S& last) {
+  if (boxes_apart(shape, p, v, e1, e2, last)) return {};  // as given: nothing small has vanished
   const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(largest(v));
   const auto near_one = [](const Vec3<S>& x, int e) { return times_power_of_two(x, -e); };
   Entry<S> entry = flat_entry_near_one<S>(shape, near_one(p, length), near_one(v, displacement), near_one(e1, length),

@@ -262,6 +262,18 @@ TEST(RoundingDecides, a_capsule_that_slides_along_a_face_is_met_by_its_nearer_en
   EXPECT_NEAR(time_of_impact(capsule, triangle).time, 0.011002985272795947, 1e-15);  // at 113 digits
 }
 
+TEST(RoundingDecides, a_miss_by_the_least_number_is_one_beside_any_length) {
+  const double least = std::numeric_limits<double>::denorm_min();
+  for (const double size : {1.0, 4.0, 0x1p20, 0x1p300}) {
+    const Triangle<double> triangle{{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+    const auto past = [&](double x) {
+      return time_of_impact(at_rest(triangle), Moving<Sphere<double>>{{{x, size / 4, -1}, 0}, {0, 0, 4}}).status;
+    };
+    EXPECT_EQ(past(-least), ToiStatus::apart) << size;
+    EXPECT_EQ(past(0), ToiStatus::hit) << size;
+  }
+}
+
 TEST(RoundingDecides, the_end_of_a_step_is_the_same_at_any_scale) {
   const Triangle<double> triangle{{-0x1.a1a87813ab6a8p+13, -0x1.30e7c9bb1c733p+19, -0x1.d042c64b874ebp+18},
                                   {0x1.2fa7228a94bf2p+13, 0x1.2a52db4f325e6p+18, -0x1.d8a59d9677f68p+18},
