@@ -126,8 +126,8 @@ std::array<S, 2> stretch_between_faces(const Vec3<S>& p, const Vec3<S>& d, const
 
 /// The least translation that parts a segment p + s d from the box [-h, h] that it touches or crosses, as a gap from
 /// the segment (relative to its middle) to the box: the smallest overlap along the three face normals and the three
-/// products of an edge with d, which are all the faces their Minkowski difference has. The least one ends in the inside of its face: of those
-/// that rounding tells apart the one whose points come together is taken.
+/// products of an edge with d, which are all the faces their Minkowski difference has. The least one ends in the inside of its face: among
+/// those as small as each other, to rounding, the one whose points meet is taken.
 template <Scalar S> CoreGap<S> segment_through_box(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
   const Vec3<S> middle = p + d / S(2), direction = safe_unit(d);
   const S nearest = closest_parameter_to_box(p, d, h);
@@ -143,8 +143,8 @@ template <Scalar S> CoreGap<S> segment_through_box(const Vec3<S>& p, const Vec3<
   for (int i = 0; i < 3; ++i) {  // the deepest end; the middle of the crossing where the segment runs along the face
     const Vec3<S> outward = axis_vector<S>(i, middle[i] < S(0));
     const auto [first, last] = stretch_between_faces(p, d, h, i);  // an end beyond the face is no deeper than rounding
-    const bool at_first = (d[i] > S(0)) == (outward[i] > S(0)), along = d[i] == S(0) || !(first <= last);
-    const S s = along ? nearest : at_first ? first : last;
+    const bool at_first = (d[i] > S(0)) == (outward[i] > S(0)), runs_along = d[i] == S(0) || !(first <= last);
+    const S s = runs_along ? nearest : at_first ? first : last;
     Vec3<S> point = on_box(s);
     point[i] = outward[i] * h[i];
     consider(outward, S(h[i] + (largest(d[i]) / 2 - largest(middle[i]))), s, point);

@@ -81,10 +81,14 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
   if ((start_height < S(0)) == (end_height < S(0)) || least == S(0)) return best;
   const S s = start_height / (start_height - end_height);
   const Vec3<S> crossing = x + d * s;
-  if (largest(closest_on_triangle(crossing, e1, e2).gap) > 4 * rounding) return best;
+  bool inside =
+      largest(closest_on_triangle(crossing, e1, e2).gap) <= 4 * rounding;  // past a tip all three signs are roundings
+  for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], crossing - from[k]).dot(normal) >= S(0);
+  if (!inside) return best;
   // The segment pierces the face: out past an end along the normal, or past an edge along its product with d. The shortest way ends in the
-  // inside of its face of the prism: of ways that rounding tells apart the one whose points come together is taken.
+  // inside of its face of the prism: among ways as short as each other, to rounding, the one whose points meet is taken.
   const S length = safe_norm(normal);
+  const Vec3<S> up = normal / length;
   least = std::numeric_limits<S>::infinity();
   const auto consider = [&](const Vec3<S>& out, const S& depth, const Vec3<S>& on_triangle, const S& at) {
     const S apart = largest(Vec3<S>((x + d * at) + out * depth - on_triangle));
@@ -92,11 +96,11 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
     least = depth + apart;
     best = {{-1, CorePart<S>::face, x + out * depth, out, out, depth}, on_triangle, at};
   };
-  for (const bool at_start : {true, false}) {
-    const S height = at_start ? start_height : end_height;
-    const Vec3<S> up = normal / length, end = at_start ? x : Vec3<S>(x + d);
+  for (const S& at : {S(0), S(1)}) {
+    const Vec3<S> end = x + d * at;
+    const S height = at == S(0) ? start_height : end_height;
     consider(height > S(0) ? Vec3<S>(-up) : up, S(largest(height) / length), end - closest_on_triangle(end, e1, e2).gap,
-             at_start ? S(0) : S(1));
+             at);
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3<S> side = safe_unit(cross(along[k], d));

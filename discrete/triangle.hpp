@@ -96,9 +96,9 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
     part = {static_cast<int>(start) + (corner ? 4 : 1), corner ? CorePart<S>::corner : CorePart<S>::edge, from[start],
             along[start], gap};
   }
+  if (face.kind != CorePart<S>::face) return part;
   const S beside = sure ? S(2 * area / length) : noise;
-  const bool face_will_do = face.kind == CorePart<S>::face && largest(Vec3<S>(face.gap - part.gap)) <= beside;
-  return face_will_do ? face : part;
+  return largest(Vec3<S>(face.gap - part.gap)) <= beside ? face : part;
 }
 
 /// The unit normal of the plane, on the side of +x, then +y, then +z; zero for a triangle of no area.

@@ -58,8 +58,8 @@ template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Moving<A>& m) {
 /// A triangle's center is not the middle of the box around it.
 template <Scalar S> Aabb<S> swept_bounds(const Moving<Triangle<S>>& m) {
   const Triangle<S>& t = m.shape;
-  const Vec3<S> low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
-  return swept_bounds(Moving<Aabb<S>>{{(low + high) / S(2), (high - low) / S(2)}, m.displacement});
+  const Vec3<S> low = t.a.cwiseMin(t.b).cwiseMin(t.c) / S(2), high = t.a.cwiseMax(t.b).cwiseMax(t.c) / S(2);
+  return swept_bounds(Moving<Aabb<S>>{{low + high, high - low}, m.displacement});
 }
 
 /// The naive bound: a ball around the whole path, rounded outward. Mostly empty when the path is long.

@@ -90,13 +90,15 @@ void within_line(ExactStretch<S>& stretch, FlatShape shape, const ExactVec<S>& p
   stretch.not_negative(upper - p[axis], -v[axis]);
 }
 
-/// First time t in [0, last] at which p + v t is in the set; infinity if there is none. Requires lengths and displacements of about 1: products
-/// have up to seven factors.
+/// First time t in [0, latest] at which p + v t is in the set; infinity if there is none. Requires lengths and displacements of about 1: products
+/// have up to seven factors. An end so late that what is multiplied by it leaves the range is none; who asks compares the time with it.
 /// Error: the verdict is right; the time is off by a few u of itself.
 template <Scalar S>
 Entry<S> exact_flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
-                          const S& last) {
+                          const S& latest) {
   using Pair = std::array<ExactNumber<S>, 2>;
+  constexpr int far = std::numeric_limits<S>::max_exponent / 3;
+  const S last = latest < constant_power_of_two<S, far>() ? latest : std::numeric_limits<S>::infinity();
   const ExactVec<S> P = exact_vector(p), V = exact_vector(v), E1 = exact_vector(e1), E2 = exact_vector(e2);
   const ExactVec<S> normal = cross(E1, E2);
   const Vec3<S> plain_normal(normal[0].rounded(), normal[1].rounded(), normal[2].rounded());
@@ -161,14 +163,13 @@ bool boxes_apart(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3
   return false;
 }
 
-/// The same as flat_entry, for lengths and displacements of about 1.
+/// The same as flat_entry, for lengths and displacements whose products of four are in range.
 template <Scalar S>
-Entry<S> flat_entry_near_one(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
+Entry<S> flat_entry_in_range(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                              const S& latest) {
   const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p);
-  // An end so late that what is multiplied by it leaves the range is none; who asks compares the time with it.
-  constexpr int far = std::numeric_limits<S>::max_exponent / 3;
-  const S last = latest < constant_power_of_two<S, far>() ? latest : std::numeric_limits<S>::infinity();
+  const S farthest = latest * speed * std::max(S(1), S(largest(e1, e2) * largest(e1, e2)));
+  const S last = is_finite(farthest) ? latest : std::numeric_limits<S>::infinity();
   const Vec3<S> normal = accurate_cross(e1, e2);
   const Vec3<S> moment = cross(v, p);
   const S side = v.dot(normal) < S(0) ? S(-1) : S(1);
@@ -195,7 +196,13 @@ Entry<S> flat_entry_near_one(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v
       return entry;
     }
   }
-  return exact_flat_entry(shape, p, v, e1, e2, last);
+  if (boxes_apart(shape, p, v, e1, e2, last)) return {};
+  const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(speed);
+  const auto near_one = [&](const Vec3<S>& x) { return times_power_of_two(x, -length); };
+  Entry<S> entry = exact_flat_entry<S>(shape, near_one(p), times_power_of_two(v, -displacement), near_one(e1),
+                                       near_one(e2), times_power_of_two(latest, displacement - length));
+  entry.time = times_power_of_two(entry.time, length - displacement);
+  return entry;
 }
 
 /// First time t in [0, last] at which p + v t is in the set, touching included; infinity if there is none. `last` [1] >= 0
@@ -205,12 +212,11 @@ Entry<S> flat_entry_near_one(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v
 template <Scalar S>
 Entry<S> flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                     const S& last) {
-  if (boxes_apart(shape, p, v, e1, e2, last)) return {};  // as given: nothing small has vanished
-  const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(largest(v));
-  const auto near_one = [](const Vec3<S>& x, int e) { return times_power_of_two(x, -e); };
-  Entry<S> entry = flat_entry_near_one<S>(shape, near_one(p, length), near_one(v, displacement), near_one(e1, length),
-                                          near_one(e2, length), times_power_of_two(last, displacement - length));
-  entry.time = times_power_of_two(entry.time, length - displacement);
+  const SafeScale<S> scale(largest(p, e1, e2), largest(v));
+  if (scale.is_one()) return flat_entry_in_range(shape, p, v, e1, e2, last);
+  Entry<S> entry = flat_entry_in_range<S>(shape, scale.length(p), scale.displacement(v), scale.length(e1),
+                                          scale.length(e2), scale.time(last));
+  entry.time = scale.time_back(entry.time);
   return entry;
 }
 

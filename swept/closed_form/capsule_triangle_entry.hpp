@@ -34,9 +34,11 @@ PrismFace<S> first_face_of_prism(const Vec3<S>& p, const Vec3<S>& v, const Vec3<
                         const Vec3<S>& inward) {
     if (first.entry.inside) return;
     const Entry<S> entry = flat_entry<S>(shape, from, v, side1, side2, S(1));
-    const bool is_met = entry.inside || is_finite(entry.time), leaves = entry.normal.dot(inward) > S(0);
+    const S outwards = entry.normal.dot(inward), along = largest(S(entry.normal.dot(v)));
+    const bool leaves =
+        outwards > gap_noise(largest(inward)) && along > gap_noise(largest(v));  // of a flat prism signs are roundings
     const bool is_first = leaves == first.leaves ? entry.time < first.entry.time : first.leaves;
-    if (entry.inside || (is_met && is_first)) first = {entry, leaves};
+    if (entry.inside || (is_finite(entry.time) && is_first)) first = {entry, leaves};
   };
   meet(FlatShape::triangle, p, e1, e2, -d);
   meet(FlatShape::triangle, p + d, e1, e2, d);

@@ -6,7 +6,8 @@
 /// not cancel (ball_entry.hpp's perpendicular form, in three, two and one dimensions). The walk solves the part nearest
 /// now, moves to its answer, and looks again: the same part nearest there proves the answer, because the distance to a
 /// convex core is convex along the motion. Another part is solved in its turn; where an answer overshoots, a Newton step,
-/// which never passes the first contact, takes its place.
+/// which passes the first contact by roundings at most, takes its
+/// place.
 ///
 /// Error: forward at most 4 u kappa t, backward at most 4 u (docs/closed_forms.md). Source: derived there.
 
@@ -136,7 +137,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     if (!is_finite(target)) return answer;
     const CorePart<S> there = closest(p + v * target);
     if (there.id == part.id) {
-      // A step by the normal of a part as near as this one, to rounding, passes this one's entry: that proves itself too.
+      // Where another part was as near, to rounding, a step by its normal may have passed this one's entry, which then proves itself.
       const bool passed_by = entry.exists && entry.time < free && there.distance() < R;
       const S earlier = std::max(not_before, entry.time);
       if (passed_by && closest(p + v * earlier).id == part.id) return hit(earlier, entry.normal);
@@ -157,7 +158,8 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       part = there;
       continue;
     }
-    const S step = (part.distance() - R) / closing, next = now + step;  // Newton: never past the first contact
+    const S step = (part.distance() - R) / closing,
+            next = now + step;  // Newton: not past the first contact, but for roundings
     if (touched && largest(step) * speed > noise) return hit(now, part.outward());  // what is left is rounding
     if (!(next > free) || next == now) return hit(std::max(free, next), part.outward());
     free = now = next;

@@ -100,8 +100,10 @@ TEST(CrossingCores, a_segment_that_lies_in_a_triangle_all_but_touches_it_in_poin
     const Triangle<double> triangle{draw.plain_vector(), draw.plain_vector(), draw.plain_vector()};
     const Vec3<double> e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
     const double s = std::ldexp(1.0, -draw.pick(0, 8)), t = draw.plain() + 1, u = draw.plain() + 1;
-    const Vec3<double> in_plane = (e1 * draw.plain() + e2 * draw.plain()) * s, normal = thinwall::cross<double>(e1, e2);
-    const Vec3<double> tilt = normal * std::ldexp(draw.plain(), -draw.pick(20, 60));
+    const Vec3<double> ways = draw.plain_vector() * s, normal = thinwall::cross<double>(e1, e2);
+    const Vec3<double> in_plane = e1 * ways[0] + e2 * ways[1];
+    const int bits = draw.pick(20, 60);
+    const Vec3<double> tilt = normal * std::ldexp(draw.plain(), -bits);
     const Vec3<double> at = triangle.a + e1 * (t / 4) + e2 * (u / 4);
     const Capsule<double> segment{at - in_plane - tilt, at + in_plane + tilt, 0};
     const Separation<double> found = separation(segment, triangle);
@@ -118,7 +120,7 @@ TEST(CrossingCores, past_the_tip_of_a_triangle_without_area_do_not_cross_it) {
     const double x1 = tenth(), y1 = tenth(), x2 = tenth(), y2 = tenth(), part = 0.25 * draw.pick(1, 3);
     const Vec3<double> a(x1, y1, 0), b(x2, y2, 0), at = b + (b - a) * (0.25 * draw.pick(1, 4)), up(0, 0, 1);
     const Triangle<double> needle{a, b, a + (b - a) * part};
-    const double expected = separation(Sphere<double>{at, 0.05}, needle).distance;
+    const double expected = separation(Sphere<double>{at, 0.05}, Capsule<double>{a, b, 0}).distance;
     EXPECT_NEAR(separation(Capsule<double>{at - up, at + up, 0.05}, needle).distance, expected, 1e-15) << i;
   }
   for (int e = -350; e > -540; e -= 10) {
@@ -130,6 +132,15 @@ TEST(CrossingCores, past_the_tip_of_a_triangle_without_area_do_not_cross_it) {
   }
 }
 
+TEST(CrossingCores, beside_a_triangle_by_a_few_roundings_do_not_cross_it) {
+  const Triangle<double> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const double beside : {3e-15, 1e-15, 1e-17, 1e-30}) {
+    const Capsule<double> rod{{0.25, -beside, 1}, {0.25, -beside, -1}, beside / 4};
+    EXPECT_FALSE(overlaps(rod, triangle)) << beside;
+    EXPECT_NEAR(separation(rod, triangle).distance, beside * 3 / 4, 1e-16) << beside;
+  }
+}
+
 TEST(CrossingCores, along_a_face_to_rounding_leave_a_box_by_points_that_come_together) {
   Shaker<double> draw(20261128);
   for (int i = 0; i < 20'000; ++i) {
@@ -137,7 +148,8 @@ TEST(CrossingCores, along_a_face_to_rounding_leave_a_box_by_points_that_come_tog
     const int face = draw.pick(0, 2);
     Vec3<double> from = draw.vector() * 4, to = draw.vector() * 4;
     from[face] = 0.5 * draw.plain();
-    to[face] = from[face] + std::ldexp(draw.plain(), -draw.pick(40, 60));
+    const int bits = draw.pick(40, 60);
+    to[face] = from[face] + std::ldexp(draw.plain(), -bits);
     const Separation<double> found = separation(Capsule<double>{from, to, 0.25}, box);
     const Vec3<double> off = found.point_b - found.point_a - found.normal * found.distance;
     EXPECT_LE(largest(off), 0x1p-46) << i;

@@ -59,10 +59,9 @@ template <class A, class B> void check_turning(const Scene<A, B>& scene, Numbers
     check(gap_at(free) <= near + rounded + slack, "turning: a hit, and a gap", show);
   }
   const Aabb<double> box = swept_bounds(wide_a);
-  const auto pose = pose_at(wide_a, free);
-  const Vec3<double> beyond = (center(pose) - box.center).cwiseAbs() + half_widths(pose) - box.half_extents;
-  constexpr bool flat = std::is_same_v<A, Triangle<S>>;  // its half widths reach as far to both sides
-  check(flat || beyond.maxCoeff() <= slack, "swept_bounds(Turning) does not contain a pose", show);
+  const Aabb<double> pose = swept_bounds(at_rest(pose_at(wide_a, free)));
+  const Vec3<double> beyond = (pose.center - box.center).cwiseAbs() + pose.half_extents - box.half_extents;
+  check(beyond.maxCoeff() <= slack, "swept_bounds(Turning) does not contain a pose", show);
 }
 
 // ---- All checks.

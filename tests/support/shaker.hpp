@@ -28,7 +28,7 @@ template <class S> class Shaker {
 
   int pick(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
   S plain() { return S(static_cast<double>(engine_()) / 2147483648.0 - 1.0); }
-  /// Of any direction, coordinates in (-1, 1); and axes turned anyhow.
+  /// Of any direction, coordinates in [-1, 1); and axes turned anyhow.
   Vec3<S> plain_vector() { return {plain(), plain(), plain()}; }
   Mat3<S> plain_axes() {
     Mat3<S> axes;

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thinwall/swept/closed_form/capsule_triangle_entry.hpp>
+
 #include "support/bodies.hpp"
 #include "support/exact_cases.hpp"
 #include "support/judge.hpp"
@@ -230,7 +232,8 @@ TEST(RoundingDecides, a_segment_at_a_rim_meets_a_face_that_it_comes_in_by) {
        ++i) {  // an end of the segment at an edge of the triangle: two faces of their prism are met at once
     const Triangle<double> triangle{draw.plain_vector(), draw.plain_vector(), draw.plain_vector()};
     const Vec3<double> at = triangle.a + (triangle.b - triangle.a) * (0.5 + 0.25 * draw.plain());
-    const Vec3<double> core = draw.plain_vector() * std::ldexp(1.0, -draw.pick(0, 12)), way = draw.plain_vector();
+    const Vec3<double> way = draw.plain_vector(), shape = draw.plain_vector();
+    const Vec3<double> core = shape * std::ldexp(1.0, -draw.pick(0, 12));
     const Moving<Capsule<double>> segment{{at - way / 2, at - way / 2 + core, 0}, way};
     const auto toi = time_of_impact(segment, at_rest(triangle));
     if (toi.status != ToiStatus::hit) continue;
@@ -242,6 +245,16 @@ TEST(RoundingDecides, a_segment_at_a_rim_meets_a_face_that_it_comes_in_by) {
         << i;
   }
   EXPECT_GT(hits, 5'000);
+}
+
+TEST(RoundingDecides, a_segment_that_slides_within_a_plane_meets_the_first_side) {
+  // their prism has no volume: which of its faces the motion leaves by is a rounding
+  const Vec3<double> start(-.19629300143337683, .5750311711095426, -1.9054679765980496),
+      core(.03166032339275898, .1576387646584148, 1.234696176169295),
+      motion(.49566856344875754, -1.700735935630366, 3.8904769593097477),
+      edge1(-.16544016647571524, .8710307618849022, -.17492132577454828),
+      edge2(-.12439894562710642, .732830031354529, .15691187898923029);
+  EXPECT_NEAR(sharp_segment_triangle_entry<double>(start, motion, core, edge1, edge2).time, 0.25816, 1e-5);
 }
 
 TEST(RoundingDecides, a_segment_whose_way_back_meets_nothing_is_apart) {
@@ -264,13 +277,15 @@ TEST(RoundingDecides, a_capsule_that_slides_along_a_face_is_met_by_its_nearer_en
 
 TEST(RoundingDecides, a_miss_by_the_least_number_is_one_beside_any_length) {
   const double least = std::numeric_limits<double>::denorm_min();
-  for (const double size : {1.0, 4.0, 0x1p20, 0x1p300}) {
-    const Triangle<double> triangle{{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+  for (const double size : {1.0, 4.0, 0x1p20, 0x1p200}) {  // products of four are in range
+    const Triangle<double> triangle{{0, 0, 0}, {size, 0, 0}, {0, size, size}};
     const auto past = [&](double x) {
-      return time_of_impact(at_rest(triangle), Moving<Sphere<double>>{{{x, size / 4, -1}, 0}, {0, 0, 4}}).status;
+      return time_of_impact(at_rest(triangle), Moving<Sphere<double>>{{{x, size / 4, -size}, 0}, {0, 0, 4 * size}})
+          .status;
     };
     EXPECT_EQ(past(-least), ToiStatus::apart) << size;
     EXPECT_EQ(past(0), ToiStatus::hit) << size;
+    EXPECT_FALSE(overlaps(triangle, Sphere<double>{{0, 0, least}, 0})) << size;
   }
 }
 
