@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/swept/closed_form/capsule_triangle_entry.hpp>
-
 #include "support/bodies.hpp"
 #include "support/exact_cases.hpp"
 #include "support/judge.hpp"
@@ -245,16 +243,6 @@ TEST(RoundingDecides, a_segment_at_a_rim_meets_a_face_that_it_comes_in_by) {
         << i;
   }
   EXPECT_GT(hits, 5'000);
-}
-
-TEST(RoundingDecides, a_segment_that_slides_within_a_plane_meets_the_first_side) {
-  // their prism has no volume: which of its faces the motion leaves by is a rounding
-  const Vec3<double> start(-.19629300143337683, .5750311711095426, -1.9054679765980496),
-      core(.03166032339275898, .1576387646584148, 1.234696176169295),
-      motion(.49566856344875754, -1.700735935630366, 3.8904769593097477),
-      edge1(-.16544016647571524, .8710307618849022, -.17492132577454828),
-      edge2(-.12439894562710642, .732830031354529, .15691187898923029);
-  EXPECT_NEAR(sharp_segment_triangle_entry<double>(start, motion, core, edge1, edge2).time, 0.25816, 1e-5);
 }
 
 TEST(RoundingDecides, a_segment_whose_way_back_meets_nothing_is_apart) {
