@@ -62,12 +62,15 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
     if (better) least = distance;
     return better;
   };
-  for (int end = 0; end < 2; ++end) {
-    const Vec3<S> tip = end == 0 ? x : Vec3<S>(x + d);
-    const CorePart<S> face = closest_on_triangle(tip, e1, e2);
+  const std::array<Vec3<S>, 2> tips{x, x + d};
+  const std::array<CorePart<S>, 2> beside{closest_on_triangle(tips[0], e1, e2), closest_on_triangle(tips[1], e1, e2)};
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Vec3<S>& tip = tips[end];
+    const CorePart<S>& face = beside[end];
     if (face.kind != CorePart<S>::face || !becomes_best(face.gap)) continue;
-    best = {
-        {end, CorePart<S>::face, end == 0 ? Vec3<S>::Zero() : Vec3<S>(-d), normal, face.gap}, tip - face.gap, S(end)};
+    best = {{static_cast<int>(end), CorePart<S>::face, end == 0 ? Vec3<S>::Zero() : Vec3<S>(-d), normal, face.gap},
+            tip - face.gap,
+            S(end)};
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const SegmentPair<S> pair = closest_on_segments<S>(x - from[k], along[k], d);
@@ -77,14 +80,14 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
     side.id += 10 * (static_cast<int>(k) + 1);
     best = {side, from[k] + along[k] * pair.s, pair.t};
   }
-  const S start_height = x.dot(normal), end_height = (x + d).dot(normal);
-  if ((start_height < S(0)) == (end_height < S(0)) || least == S(0)) return best;
-  const S s = start_height / (start_height - end_height);
+  const std::array<S, 2> height{tips[0].dot(normal), tips[1].dot(normal)};
+  if ((height[0] < S(0)) == (height[1] < S(0)) || least == S(0)) return best;
+  const S s = height[0] / (height[0] - height[1]);
   const Vec3<S> crossing = x + d * s;
-  bool inside =
-      largest(closest_on_triangle(crossing, e1, e2).gap) <= 4 * rounding;  // past a tip all three signs are roundings
+  bool inside = true;
   for (std::size_t k = 0; k < 3; ++k) inside = inside && cross<S>(along[k], crossing - from[k]).dot(normal) >= S(0);
-  if (!inside) return best;
+  // Past a tip all three signs are roundings.
+  if (!inside || largest(closest_on_triangle(crossing, e1, e2).gap) > 4 * rounding) return best;
   // The segment pierces the face: out past an end along the normal, or past an edge along its product with d. The shortest way ends in the
   // inside of its face of the prism: among ways as short as each other, to rounding, the one whose points meet is taken.
   const S length = safe_norm(normal);
@@ -96,11 +99,9 @@ PrismPart<S> closest_on_swept_triangle(const Vec3<S>& x, const Vec3<S>& d, const
     least = depth + apart;
     best = {{-1, CorePart<S>::face, x + out * depth, out, out, depth}, on_triangle, at};
   };
-  for (const S& at : {S(0), S(1)}) {
-    const Vec3<S> end = x + d * at;
-    const S height = at == S(0) ? start_height : end_height;
-    consider(height > S(0) ? Vec3<S>(-up) : up, S(largest(height) / length), end - closest_on_triangle(end, e1, e2).gap,
-             at);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Vec3<S> out = height[end] > S(0) ? Vec3<S>(-up) : up;
+    consider(out, S(largest(height[end]) / length), tips[end] - beside[end].gap, S(end));
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3<S> side = safe_unit(cross(along[k], d));

@@ -6,8 +6,7 @@
 /// not cancel (ball_entry.hpp's perpendicular form, in three, two and one dimensions). The walk solves the part nearest
 /// now, moves to its answer, and looks again: the same part nearest there proves the answer, because the distance to a
 /// convex core is convex along the motion. Another part is solved in its turn; where an answer overshoots, a Newton step,
-/// which passes the first contact by roundings at most, takes its
-/// place.
+/// which passes the first contact by roundings at most, takes its place.
 ///
 /// Error: forward at most 4 u kappa t, backward at most 4 u (docs/closed_forms.md). Source: derived there.
 

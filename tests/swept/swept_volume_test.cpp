@@ -97,7 +97,7 @@ TYPED_TEST(SweptBoundsProperty, hold_the_shape_at_every_time) {
       half = (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)) / S(2);
     }
     const Vec3<S> spare = bounds.half_extents - (half + m.displacement.cwiseAbs() / S(2));
-    ASSERT_LE(spare.maxCoeff(), 16 * unit<S>() * (largest(center(m.shape)) + largest(bounds.half_extents))) << run;
+    ASSERT_LE(largest(spare), 16 * unit<S>() * (largest(center(m.shape)) + largest(bounds.half_extents))) << run;
   }
 }
 
