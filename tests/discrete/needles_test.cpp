@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include <thinwall/discrete/triangle.hpp>
 
 #include "support/real.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -38,23 +38,13 @@ Real distance_of(const Vector& x, const Vector& a, const Vector& b, const Vector
 template <class S> class Needles : public ::testing::Test {};
 TYPED_TEST_SUITE(Needles, Scalars, ScalarNames);
 
-/// Draws what thin triangles and points beside them are made of.
-template <class S> class NeedleDraw {
- public:
-  explicit NeedleDraw(unsigned seed) : engine_(seed) {}
-  S part() { return S(draw_(engine_)); }
-  Vec3<S> vector() { return {part(), part(), part()}; }
-  S at_most(int bits) { return power<S>(-static_cast<int>(engine_() % static_cast<unsigned>(bits))); }
-  /// A third corner beside the line from a to b, and next to it.
-  Vec3<S> beside(const Vec3<S>& a, const Vec3<S>& b, const S& place, int bits) {
-    const Vec3<S> aside = vector();
-    return a + (b - a) * place + aside * at_most(bits);
-  }
+template <class S> S at_most(Shaker<S>& draw, int bits) { return power<S>(-draw.pick(0, bits - 1)); }
 
- private:
-  std::mt19937_64 engine_;
-  std::uniform_real_distribution<double> draw_{-1, 1};
-};
+/// What lies next to a place on the line from a to b.
+template <class S> Vec3<S> beside(Shaker<S>& draw, const Vec3<S>& a, const Vec3<S>& b, const S& place, int bits) {
+  const Vec3<S> aside = draw.plain_vector();
+  return a + (b - a) * place + aside * at_most(draw, bits);
+}
 
 template <class S> void expect_as_far(const Vec3<S>& x, const Vec3<S>& a, const Vec3<S>& b, const Vec3<S>& c, int i) {
   const S distance = separation(Triangle<S>{a, b, c}, Sphere<S>{x, S(0)}).distance;
@@ -66,22 +56,23 @@ template <class S> void expect_as_far(const Vec3<S>& x, const Vec3<S>& a, const 
 
 TYPED_TEST(Needles, are_as_far_as_their_corners_say) {
   using S = TypeParam;
-  NeedleDraw<S> draw(1);
+  Shaker<S> draw(1);
   constexpr int bits = std::numeric_limits<S>::digits + 10;
   for (int i = 0; i < 20'000; ++i) {
-    const Vec3<S> a = draw.vector() * S(i % 3 == 0 ? 0 : 1), b = draw.vector();
-    const Vec3<S> c = draw.beside(a, b, S(0.7) + S(0.3) * draw.part(), bits);
-    expect_as_far<S>(draw.beside(a, b, draw.part(), bits), a, b, c, i);
+    const Vec3<S> a = draw.plain_vector() * S(i % 3 == 0 ? 0 : 1), b = draw.plain_vector();
+    const Vec3<S> c = beside<S>(draw, a, b, S(0.7) + S(0.3) * draw.plain(), bits);
+    expect_as_far<S>(beside<S>(draw, a, b, draw.plain(), bits), a, b, c, i);
   }
 }
 
 TYPED_TEST(Needles, are_as_far_from_what_lies_past_their_tips) {  // where all three sides are one line to rounding
   using S = TypeParam;
-  NeedleDraw<S> draw(2);
+  Shaker<S> draw(2);
   constexpr int bits = std::numeric_limits<S>::digits;
   for (int i = 0; i < 20'000; ++i) {
-    const Vec3<S> a = draw.vector(), b = draw.vector(), c = draw.beside(a, b, S(0.5) + S(0.4) * draw.part(), bits);
-    expect_as_far<S>(draw.beside(a, b, S(1) + draw.at_most(bits / 2), bits), a, b, c, i);
+    const Vec3<S> a = draw.plain_vector(), b = draw.plain_vector(),
+                  c = beside<S>(draw, a, b, S(0.5) + S(0.4) * draw.plain(), bits);
+    expect_as_far<S>(beside<S>(draw, a, b, S(1) + at_most(draw, bits / 2), bits), a, b, c, i);
   }
 }
 
