@@ -281,7 +281,8 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Capsule<dou
   const ClearSegmentEntry entry = clear_segment_entry(line, ends, along);
   const Lanes a = lanes(capsule.a), v = lanes(ray.direction), p = lanes(ray.origin) - a;
   const Lanes on_core = (lanes(capsule.b) - a) * all(entry.on);
-  const ClearEntry at{all_of(entry.clear), entry.time, unit((p - on_core) + v * all(entry.time))};
+  const ClearSegmentNormal out(entry, line, (p - on_core) + v * all(entry.time));
+  const ClearEntry at{all_of(entry.clear & out.clear), entry.time, out.normal};
   return clear_ray_hit(at, firsts(line.square), line.speed, ray.max_t, a + on_core, capsule.radius);
 }
 

@@ -14,15 +14,16 @@ namespace thinwall {
 struct ClearSide {
   packed::Pair length, speed, square, approach;  ///< d.d, v.v, and of each end p.p and p.v
   packed::Pair along;                            ///< p.d, from the start, and v.d
-  packed::Pair k_k, w_w, k_w, RR, RR_d;          ///< of k = p x d and w = v x d; R^2 and R^2 d.d
+  packed::Pair k_k, w_w, k_w, R, RR, RR_d;       ///< of k = p x d and w = v x d; R, R^2 and R^2 d.d
   packed::Pair off, reach;                       ///< (p.w)^2, which is below w.w R^2 where the line pierces the side
 
   THINWALL_HOT ClearSide(const packed::Vectors<packed::Pair>& ends, const packed::Vectors<packed::Pair>& v,
-                         const packed::Vectors<packed::Pair>& d, const packed::Pair& R)
+                         const packed::Vectors<packed::Pair>& d, const packed::Pair& radius)
       : length(dot(d, d)),
         speed(dot(v, v)),
         square(dot(ends, ends)),
         approach(dot(ends, v)),
+        R(radius),
         RR(R * R),
         RR_d(RR * length) {
     using Vectors = packed::Vectors<packed::Pair>;
@@ -78,5 +79,19 @@ THINWALL_HOT ClearSegmentEntry clear_segment_entry(const ClearSide& line, const 
       ((line.RR_d * both(packed::more_than_rounding) < line.k_k) | (from < zero) | (length < from));
   return {line.in_range() & outside & side_clear & (pierces | passes), time, on};
 }
+
+/// The unit vector along `gap`, from the segment to where it is entered: clear if that is R long, as it is but for roundings.
+struct ClearSegmentNormal {
+  packed::PairMask clear;
+  packed::Lanes normal;
+
+  THINWALL_HOT ClearSegmentNormal(const ClearSegmentEntry& entry, const ClearSide& line, const packed::Lanes& gap) {
+    using packed::both;
+    const packed::Lanes about = gap * all(both(1) / line.R);
+    const packed::Pair square = dot(about, about);
+    clear = (abs(square - both(1)) <= both(0x1p-28)) | (both(ClearEntry::never) <= entry.time);
+    normal = nearer_unit(about, square);
+  }
+};
 
 }  // namespace thinwall

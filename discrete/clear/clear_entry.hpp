@@ -3,7 +3,7 @@
 ///
 /// An entry is clear if no rounding decides it, nothing that counts over- or underflows and the start is outside. Every comparison is
 /// written so that what is not a number is not clear; docs/closed_forms.md has each filter and why it suffices. Where nothing is
-/// contracted into fused operations, a clear entry that is not turned has the careful form's bits, but for ties.
+/// contracted into fused operations, the time of a clear entry that is not turned has the careful form's bits, but for ties.
 
 #include <thinwall/discrete/clear/lanes.hpp>
 
@@ -48,35 +48,40 @@ struct ClearChord {
   packed::Pair speed, toward, square;  ///< v.v, p.v (negative: it approaches) and p.p
   packed::Pair off, RR, reach;         ///< |p x v|^2, which is below v.v R^2 where the line pierces the ball
   packed::Pair half;                   ///< half the chord times |v|
+  packed::Pair per_length;             ///< 1 / (v.v R): asked beside the root, not after it
   packed::Lanes moment;
 
-  THINWALL_HOT ClearChord(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& radius_square)
-      : RR(radius_square), moment(cross(p, v)) {
+  THINWALL_HOT ClearChord(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R)
+      : RR(R * R), moment(cross(p, v)) {
     const packed::Pair of_v = two_sums(v * v, p * v), of_p = two_sums(p * p, moment * moment);
     speed = firsts(of_v), toward = seconds(of_v), square = firsts(of_p), off = seconds(of_p);
     reach = speed * RR;
     half = root(max(reach - off, packed::both(0)));
+    per_length = packed::both(1) / (speed * R);
   }
   THINWALL_HOT packed::PairMask in_range() const {
     using packed::both;
     return (both(packed::least_square) <= min(RR, speed)) & (max(square, speed) <= both(packed::most_square)) &
-           (square * both(packed::short_path) < speed);
+           (square * both(packed::short_path) < min(speed, RR));
   }
   THINWALL_HOT packed::PairMask pierces() const { return off < reach * packed::both(packed::beside_graze); }
   THINWALL_HOT packed::PairMask passes() const { return reach < off * packed::both(packed::beside_graze); }
   THINWALL_HOT packed::PairMask approaches() const { return toward < packed::both(0); }
   THINWALL_HOT packed::Pair time() const { return (square - RR) / (half - toward); }
-  THINWALL_HOT packed::Lanes normal(const packed::Lanes& v) const { return unit(cross(v, moment) - v * all(half)); }
+  /// Unit to a few roundings: v.v R^2 is q.q + half^2, and q leans on v by no more than 2^-27 from as far as 2^25 R.
+  THINWALL_HOT packed::Lanes normal(const packed::Lanes& v) const {
+    return (cross(v, moment) - v * all(half)) * all(per_length);
+  }
 };
 
 /// The point p + v t and the ball of radius R around the origin.
 THINWALL_HOT ClearEntry clear_ball_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Pair& R) {
   using packed::both;
-  const ClearChord chord(p, v, R * R);
+  const ClearChord chord(p, v, R);
   const packed::PairMask outside = chord.RR * both(packed::more_than_rounding) < chord.square;
   const packed::PairMask pierces = chord.pierces();
   return {all_of(chord.in_range() & outside & (pierces | chord.passes())),
-          select(pierces & chord.approaches(), chord.time(), both(ClearEntry::never)), chord.normal(v)};
+          select(pierces & chord.approaches(), chord.time(), both(ClearEntry::never)), nearer_unit(chord.normal(v))};
 }
 
 /// The unit vector along the lowest axis of those whose bits are set, against the motion v.
@@ -154,9 +159,10 @@ THINWALL_HOT packed::Lanes clear_noise(const packed::Lanes& p, const packed::Lan
   return all(sum(abs(p) + h) * packed::both(0x1p-48));
 }
 
-/// The point p + v t and the box [-h, h] rounded by R, which is 2^20 times the noise or more; `turned` if p and v were. Where the widened
-/// slabs are first shared the point is beside a face, which it meets then, or beside an edge or a corner, whose ball it meets, or
-/// passes, or leaves for the next part. The squared distance is convex: what passes a part while beside it is nowhere nearer.
+/// The point p + v t and the box [-h, h] rounded by R, which is 2^20 times the noise or more; `turned` if p and v were, and the normal is
+/// to be: that is made unit to a rounding afterwards. Where the widened slabs are first shared the point is beside a face, which it meets
+/// then, or beside an edge or a corner, whose ball it meets, or passes, or leaves for the next part. The squared distance is convex: what
+/// passes a part while beside it is nowhere nearer.
 template <bool turned>
 THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
                                         const packed::Pair& R) {
@@ -192,7 +198,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const LanesMask before = all(now) < enter, beyond = leave <= all(now), outside = before | beyond;
     const Pair next = smallest_of(select(before, enter, select(beyond, all(ClearEntry::never), leave)));
     const Lanes q = keep(outside, select(before, slabs.low, slabs.high)), w = keep(outside, all(0) - slabs.W);
-    const ClearChord chord(q, w, R * R);
+    const ClearChord chord(q, w, R);
     ++entry.rounds;
     const Pair root = chord.time();
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
@@ -206,7 +212,8 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     const PairMask decided = (meets | passes) & chord.in_range();
     if (all_of(decided)) {
       entry.time = select(meets, max(root, now), both(ClearEntry::never));
-      entry.normal = against(chord.normal(w), v);
+      const Lanes normal = chord.normal(w);
+      entry.normal = against(turned ? normal : nearer_unit(normal), v);
       return entry;
     }
     if (!all_of(stays_out)) break;

@@ -97,20 +97,20 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   const Lanes reach = h + (h + all(R * both(0.5))) * (frame.squares - all(1));
   const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), max(reach, all(0)), R);
   const Lanes n = frame.out_of(entry.normal);
-  const Pair half_square = two_sums(n * n, n * n) * both(0.5);  // n is as long as its axes: 1 to rounding
+  const Pair square = dot(n, n);
   Pair time = entry.time;
   PairMask sure = clear_of_end(time);
   if (entry.rounds > 1) {
     const Lanes g = abs(frame.into(n)) * h;
     const Pair toward = two_sums(n * p, n * v), closing = both(0) - seconds(toward);
-    const Pair plane = (firsts(toward) - (R * (both(0.5) + half_square) + two_sums(g, g))) / closing;
+    const Pair plane = (firsts(toward) - (R * (both(0.5) + square * both(0.5)) + sum(g))) / closing;
     const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - time);
     const PairMask misses = both(ClearEntry::never) <= time;
     sure = misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= R * both(0x1p-26)));
     time = select(misses, time, max(plane, both(0)));
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
   }
-  const Lanes normal = n * all(both(1.5) - half_square);
+  const Lanes normal = nearer_unit(n, square);
   return {both(both(entry.clear, frame.clear()),
                both(all_of((all(0) <= h) & (h <= all(packed::most_length))), all_of(clear_sizes(r, r, gap) & sure))),
           time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
@@ -126,9 +126,10 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
   const ClearSegmentEntry entry = clear_segment_entry(line, ends, along);
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(capsule.shape.a);
   const Lanes p = center - a, v = path - lanes(capsule.displacement), core = lanes(capsule.shape.b) - a;
-  const Lanes time = all(entry.time), normal = unit((p - core * all(entry.on)) + v * time);
-  return {all_of(entry.clear & clear_sizes(r, s, gap) & clear_of_end(entry.time)), entry.time, normal,
-          (center + path * time) - normal * all(r + gap / 2)};
+  const Lanes time = all(entry.time);
+  const ClearSegmentNormal out(entry, line, (p - core * all(entry.on)) + v * time);
+  return {all_of(entry.clear & out.clear & clear_sizes(r, s, gap) & clear_of_end(entry.time)), entry.time, out.normal,
+          (center + path * time) - out.normal * all(r + gap / 2)};
 }
 
 /// Two boxes, `a` by its half extents and its axes, and the answer from a to b.
