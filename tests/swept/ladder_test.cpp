@@ -62,6 +62,7 @@ template <class A, class B> bool agrees_if_clear(const Motion<A, B>& motion, dou
   const double off = clear.status == ToiStatus::hit ? 4 * u * size / closing : 0;
   EXPECT_NEAR(clear.time, careful.time, off);
   if (clear.status != ToiStatus::hit) return true;
+  EXPECT_NEAR(static_cast<double>(clear.normal.cast<long double>().norm() - 1), 0, 4 * u);
   const double paths = motion.a.displacement.cwiseAbs().sum() + motion.b.displacement.cwiseAbs().sum();
   const auto from_point = [&](const auto& moving) {
     return separation(Ball{clear.point, 0}, pose_at(moving, clear.time)).distance;

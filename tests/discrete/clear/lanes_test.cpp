@@ -33,6 +33,16 @@ TEST(ClearLanes, arithmetic_goes_lane_by_lane) {
   EXPECT_EQ(value(root(both(2))), std::sqrt(2.0));
 }
 
+TEST(ClearLanes, a_length_near_1_is_made_nearer_by_its_square) {
+  const Vec3<long double> unit(0.6L, 0, 0.8L);
+  for (const double off : {0x1p-28, -0x1p-28, 0x1p-10}) {
+    const Vec3<double> made = stored(nearer_unit(lanes((unit * (1 + off)).cast<double>())));
+    EXPECT_NEAR(static_cast<double>(made.cast<long double>().norm() - 1), -1.5 * off * off,
+                0x1p-52 + std::abs(off * off * off))
+        << off;
+  }
+}
+
 TEST(ClearLanes, sums_have_one_order) {  // (1 + 2^-53) + 2^-53 is 1, 1 + (2^-53 + 2^-53) is not
   const double tiny = 0x1p-53;
   EXPECT_EQ(value(sum(lanes(Vec3<double>(1, tiny, tiny)))), 1.0);
