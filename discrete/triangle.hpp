@@ -47,19 +47,18 @@ template <Scalar S> Vec3<S> contact_point(const Triangle<S>&, const Vec3<S>& cor
 
 /// The part of the triangle (0, e1, e2) that is closest to x: 0 the face, 1 to 3 the edges e1, e2 - e1, -e2, 4 to 6 the
 /// corners they start from. Inside the face by the signs of three areas, else the nearest of the edges. Where a sign may be a rounding
-/// it is the face only if its point is one of an edge too, to rounding; beside a needle, whose plane roundings may turn by any angle, if it is
-/// so within the needle's width; a triangle of no area has edges only. Requires lengths whose products of four are in range.
+/// it is the face only if its point is one of an edge too, to rounding; a triangle of no area has edges only. Requires lengths whose products
+/// of four are in range.
 /// Error: a few u (|x| + |e1| + |e2|). Source: derived here.
 template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3<S>& e1, const Vec3<S>& e2) {
   const S epsilon = std::numeric_limits<S>::epsilon();
   Vec3<S> normal = accurate_cross(e1, e2);
-  const S area = largest(normal), length = largest(e1, e2);
-  if (!products_in_range(area)) normal = times_power_of_two(normal, -binary_exponent(area));
+  if (const S area = largest(normal); !products_in_range(area))
+    normal = times_power_of_two(normal, -binary_exponent(area));
   const std::array<Vec3<S>, 3> from{Vec3<S>::Zero(), e1, e2}, along{e1, e2 - e1, -e2};
-  const bool needle = area <= S(4096) * epsilon * length * length;
   const S noise = S(64) * epsilon * largest(x, e1, e2);  // of a place beside an edge's line
-  std::array<bool, 3> beyond{true, true,
-                             true};  // outside this edge's line: only such an edge, or its end, can be nearest
+  // outside this edge's line: only such an edge, or its end, can be nearest
+  std::array<bool, 3> beyond{true, true, true};
   CorePart<S> face;
   bool sure = true;
   if (normal != Vec3<S>::Zero()) {
@@ -71,9 +70,9 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
     if (!beyond[0] && !beyond[1] && !beyond[2]) {
       const Vec3<S> unit = safe_unit(normal);  // its square may vanish beside a far x
       face = {0, CorePart<S>::face, Vec3<S>::Zero(), normal, unit * x.dot(unit)};
-      if (sure && !needle) return face;
+      if (sure) return face;
     }
-    if (!sure || needle) beyond = {true, true, true};
+    if (!sure) beyond = {true, true, true};
   }
   CorePart<S> part;
   S least = std::numeric_limits<S>::infinity();
@@ -89,7 +88,7 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
     const Vec3<S> gap = corner ? Vec3<S>(x - from[start]) : Vec3<S>(to_x - along[k] * (projected / length_square));
     const S square = gap.squaredNorm();
     // Equal to rounding: an edge's gap is square to the edge and parts the triangle by all of it, a corner's may not.
-    const bool tie = largest(S(square - least)) <= 4 * std::numeric_limits<S>::epsilon() * square;
+    const bool tie = largest(S(square - least)) <= 4 * epsilon * square;
     const bool nearer = tie ? !corner && part.kind == CorePart<S>::corner : !(square >= least);
     if (!nearer) continue;
     least = square;
@@ -97,8 +96,7 @@ template <Scalar S> CorePart<S> closest_on_triangle(const Vec3<S>& x, const Vec3
             along[start], gap};
   }
   if (face.kind != CorePart<S>::face) return part;
-  const S beside = sure ? S(2 * area / length) : noise;
-  return largest(Vec3<S>(face.gap - part.gap)) <= beside ? face : part;
+  return largest(Vec3<S>(face.gap - part.gap)) <= noise ? face : part;
 }
 
 /// The unit normal of the plane, on the side of +x, then +y, then +z; zero for a triangle of no area.
