@@ -77,9 +77,9 @@ template <Scalar S> Vec3<S> contact_point(const Obb<S>&, const Vec3<S>& core_poi
 template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { return box.axes.transpose() * world; }
 template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
 
-/// A gap given in the box's own axes, in the world's.
+/// A gap given in the box's own axes, in the world's. Its normal may be an axis, which is as near unit as valid() asks: it is made unit.
 template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
-  return {gap.distance, out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),
+  return {gap.distance, safe_unit(out_of(box, gap.normal)), out_of(box, gap.local_a), out_of(box, gap.local_b),
           out_of(box, gap.along)};
 }
 
@@ -118,7 +118,11 @@ template <Scalar S> bool cores_within(const Obb<S>& a, const Aabb<S>& b, const S
 }
 
 template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Obb<S>& b) { return out_of(a, box_gap(box_pair(a, b))); }
-template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) { return flipped(box_gap(box_pair(b, a))); }
+template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) {
+  CoreGap<S> gap = flipped(box_gap(box_pair(b, a)));
+  gap.normal = safe_unit(gap.normal);
+  return gap;
+}
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Obb<S>& box) {
   const NearPath<S> path(ray.origin - box.center, ray.direction, box.half_extents.sum(), S(64));

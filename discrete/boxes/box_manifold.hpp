@@ -32,7 +32,7 @@ template <Scalar S> Manifold<S> face_manifold(const BoxPair<S>& pair, int axis, 
 
 /// A contact in B's axes, with A and B exchanged, as seen from A's axes.
 template <Scalar S> Contact<S> seen_from_a(const BoxPair<S>& pair, const Contact<S>& c) {
-  return {pair.axes * c.local_b, pair.axes * c.local_a, -(pair.axes * c.normal), c.penetration};
+  return {pair.axes * c.local_b, pair.axes * c.local_a, -safe_unit<S>(pair.axes * c.normal), c.penetration};
 }
 
 /// Of boxes that part along that face, in A's axes; empty if rounding leaves no point.
@@ -70,7 +70,7 @@ template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
 template <Scalar S> const Manifold<S>& out_of(const Aabb<S>&, const Manifold<S>& manifold) { return manifold; }
 template <Scalar S> Manifold<S> out_of(const Obb<S>& box, const Manifold<S>& manifold) {
   return changed(manifold, [&](const Contact<S>& c) -> Contact<S> {
-    return {out_of(box, c.local_a), out_of(box, c.local_b), out_of(box, c.normal), c.penetration};
+    return {out_of(box, c.local_a), out_of(box, c.local_b), safe_unit(out_of(box, c.normal)), c.penetration};
   });
 }
 

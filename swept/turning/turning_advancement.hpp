@@ -90,8 +90,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
         }
       }
     }
-    Separation<T> closest = separation_unchecked(a_now, b_now);
-    closest.normal = safe_unit(closest.normal);  // as long as a box's axes are: 1 to what valid() asks
+    const Separation<T> closest = separation_unchecked(a_now, b_now);
     if (!is_finite(closest.normal)) return {ToiStatus::gave_up, k, rounded_down_to<S>(now.time)};
     const T gap = closest.distance - T(method.min_separation);
     if (now.time == T(0) && gap <= near && overlaps_unchecked(a.shape, b.shape, T(method.min_separation)))

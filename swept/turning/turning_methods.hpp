@@ -60,7 +60,7 @@ Toi<typename A::Scalar> impact(const Speculative<S>& method, const Turning<A>& a
   const TurningPair<T> pair(a, b, min_separation);
   if (pair.speed == T(0)) return {ToiStatus::apart, 1};
   const Separation<T> closest = separation_unchecked(a.shape, b.shape);
-  const Vec3<T> n = safe_unit(closest.normal);
+  const Vec3<T>& n = closest.normal;
   const T gap =
       n.dot(pair.between) - core_reach(pair.a.core, n) - core_reach<T>(pair.b.core, -n) - pair.reach - pair.margin;
   const T slack = T(1) + T(64) * std::numeric_limits<T>::epsilon();

@@ -39,6 +39,17 @@ template <class A, class B> void expect_whole_answers(const A& a, const B& b) {
   }
 }
 
+TEST(AnyNumber, in_axes_that_are_as_long_as_they_may_be) {
+  for_each_served_pair<double>([]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double away : {-3.0, -1.75, -0.5, 0.5, 1.75, 3.0}) {
+        const Vec3<double> by = axis_vector<double>(axis) * away;
+        expect_whole_answers(lengthened(usual(first)), lengthened(moved(usual(second), by)));
+      }
+    }
+  });
+}
+
 TEST(AnyNumber, in_a_shape) {
   for_each_served_pair<double>([]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
     for (const double away : {0.5, 4.0}) {

@@ -70,6 +70,12 @@ template <class S, class Visit> void for_each_served_pair(const Visit& visit) {
   });
 }
 
+/// A box's axes longer than 1, by nearly as much as they may be.
+template <class A> A lengthened(A shape) {
+  if constexpr (requires { shape.axes; }) shape.axes *= 1 + 0x1p-33;
+  return shape;
+}
+
 template <class S> bool is_nan(const Vec3<S>& v) { return v[0] != v[0] && v[1] != v[1] && v[2] != v[2]; }
 template <class S> bool is_unit_vector(const Vec3<S>& v) {
   return largest(S(v.squaredNorm() - S(1))) <= 32 * std::numeric_limits<S>::epsilon();

@@ -60,6 +60,21 @@ TEST(AnyNumberInMotion, in_a_box_by_every_method) {  // they have one front door
       [](const auto& method) { ask_with_every_number(method, TypeTag<Obb<double>>{}, TypeTag<Sphere<double>>{}); });
 }
 
+TEST(AnyNumberInMotion, in_axes_that_are_as_long_as_they_may_be) {
+  for_each_served_pair<double>([]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
+    for_each_method<A, B>([&](const auto& method) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const double from : {-6.0, -1.0, 6.0}) {
+          const Vec3<double> start = axis_vector<double>(axis) * from;
+          const Moving a{lengthened(usual(first)), Vec3<double>(start * 1.5)};
+          const auto b = at_rest(lengthened(moved(usual(second), start)));
+          expect_whole(time_of_impact(method, a, b), true);
+        }
+      }
+    });
+  });
+}
+
 TEST(AnyNumberInMotion, in_an_option) {
   const Moving shot{usual(TypeTag<Obb<double>>{}), {6, 0.25, 0.125}};
   const Moving<Sphere<double>> ball{{{5, 0.25, 0.125}, 1}, {0, 0, 0}};
