@@ -38,25 +38,27 @@ template <Scalar S> struct MovingBoxPair {
 template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   const BoxPair<S>& pair = moving.pair;
   Entry<S> entry;
-  SharedTime<S> shared;
+  SharedTime<S> shared(pair.between.cwiseAbs().sum() + pair.half_a.sum() + pair.half_b.sum() +
+                       moving.motion.cwiseAbs().sum());
   const Mat3<S> size = pair.axes.cwiseAbs();
   const Vec3<S> reach_of_b = size * pair.half_b, reach_of_a = size.transpose() * pair.half_a;
   for (int i = 0; i < 3; ++i) shared.narrow(i, pair.between[i], moving.motion[i], pair.half_a[i] + reach_of_b[i]);
   for (int j = 0; j < 3; ++j) {
     shared.narrow(3 + j, moving.between_on_b[j], moving.motion_on_b[j], pair.half_b[j] + reach_of_a[j]);
   }
-  if (!shared.ever() && !shared.close()) return entry;  // most misses
+  if (!shared.ever()) return entry;  // most misses
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const EdgeAxis<S> axis(pair, i, j);
-      shared.narrow(6 + 3 * i + j, axis.along(pair.between), axis.along(moving.motion), axis.reach(pair));
+      shared.narrow(6 + 3 * i + j, axis.along(pair.between), axis.along(moving.motion), axis.reach(pair),
+                    largest(axis.on_u) + largest(axis.on_v));
     }
   }
   entry.graze = shared.close();
   if (!shared.ever() || shared.decided_by < 0) return entry;
   moving.axis_a = shared.decided_by < 3 ? shared.decided_by : shared.decided_by < 6 ? -1 : (shared.decided_by - 6) / 3;
   moving.axis_b = shared.decided_by < 3 ? -1 : shared.decided_by % 3;
-  entry.time = std::max(S(0), shared.first);
+  entry.time = shared.time();
   entry.not_before = shared.second;
   entry.not_after = shared.last;
   const Vec3<S> n = pair.direction(moving.axis_a, moving.axis_b);

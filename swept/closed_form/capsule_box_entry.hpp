@@ -10,13 +10,13 @@
 namespace thinwall {
 
 /// When the shadows of the segment p + v t + s * d, s in [0, 1], rounded by R, and of the box [-h, h] overlap on the three
-/// axes of the box and their products with d: exact where R is zero.
+/// axes of the box and their products with d: all there are where R is zero.
 template <Scalar S>
 SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h,
                                     const S& R) {
   using std::sqrt;
   const Vec3<S> middle = p + d / S(2);
-  SharedTime<S> shared;
+  SharedTime<S> shared(p.cwiseAbs().sum() + d.cwiseAbs().sum() + h.sum() + R + v.cwiseAbs().sum());
   for (int i = 0; i < 3; ++i) shared.narrow(i, middle[i], v[i], h[i] + largest(d[i]) / S(2) + R);
   if (!shared.ever()) return shared;
   for (int i = 0; i < 3; ++i) {
@@ -25,7 +25,7 @@ SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Ve
     const S n_j = times_power_of_two(S(-d[k]), -e), n_k = times_power_of_two(d[j], -e);
     const S length = sqrt(n_j * n_j + n_k * n_k);
     shared.narrow(3 + i, middle[j] * n_j + middle[k] * n_k, v[j] * n_j + v[k] * n_k,
-                  h[j] * largest(n_j) + h[k] * largest(n_k) + R * length);
+                  h[j] * largest(n_j) + h[k] * largest(n_k) + R * length, largest(n_j) + largest(n_k));
   }
   return shared;
 }
@@ -37,7 +37,7 @@ Entry<S> sharp_segment_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<
   Entry<S> entry;
   entry.graze = shared.close();
   if (!shared.ever() || shared.decided_by < 0) return entry;
-  entry.time = std::max(S(0), shared.first);
+  entry.time = shared.time();
   entry.not_before = shared.second;
   entry.not_after = shared.last;
   const int i = shared.decided_by % 3;

@@ -10,37 +10,45 @@
 
 namespace thinwall {
 
+/// Several axes tell the same time where they are normal to one flat face, each by roundings of its own. So shadows count as overlapping while
+/// they do but for `noise`.
 template <Scalar S> struct SharedTime {
+  /// `size` [length] is no less than the sum of what places, extents and displacements are computed of, on any axis.
+  explicit SharedTime(const S& size) : noise(8 * std::numeric_limits<S>::epsilon() * size) {}
+
+  S noise;                                        ///< [length] what roundings move a shadow by, at most
   S first = -std::numeric_limits<S>::infinity();  ///< [1] from when; at most 0: they overlap at the start
-  S last = std::numeric_limits<S>::infinity();    ///< [1] until when; before `first`: never
+  S last = std::numeric_limits<S>::infinity();    ///< [1] until when; before `first`: never, but for noise
   S second = first;                               ///< [1] from when but for that axis
   int decided_by = -1;                            ///< number of the axis that decided `first`
-  S first_leave = last, last_enter = first;       ///< the other ends of the intervals that decided them
+  S earliest = first, latest = last;              ///< [1] from when and until when, if they reach farther by noise,
+  S surely_first = first, surely_last = last;     ///< [1] and if less far
 
-  /// Shadows whose middles are `distance` apart and move at `speed`, and that reach `reach` from there together.
+  /// Shadows whose middles are `distance` apart and move at `speed`, and that reach `reach` from there together, on an axis whose numbers
+  /// add up to `weight`.
   /// An axis of length zero is 0 / 0, which changes nothing; without speed the quotients are infinite, or 0 / 0 where the
   /// shadows touch.
-  void narrow(int axis, const S& distance, const S& speed, const S& reach) {
+  void narrow(int axis, const S& distance, const S& speed, const S& reach, const S& weight = S(1)) {
     using std::copysign;
-    const S ahead = copysign(reach, speed);
-    const S enter = (-ahead - distance) / speed, leave = (ahead - distance) / speed;
+    const S side = copysign(S(1), speed);
+    const auto at = [&](const S& ahead) { return S((side * ahead - distance) / speed); };
+    const S enter = at(S(-reach)), leave = at(reach), off = noise * weight,
+            wider = speed == S(0) ? reach : S(reach + off);
     if (enter > first) decided_by = axis;
     second = enter > first ? first : enter > second ? enter : second;
-    first_leave = enter > first ? leave : first_leave;
     first = enter > first ? enter : first;
-    last_enter = leave < last ? enter : last_enter;
     last = leave < last ? leave : last;
+    earliest = std::max(earliest, at(S(-wider)));
+    latest = std::min(latest, at(wider));
+    surely_first = std::max(surely_first, at(S(off - reach)));
+    surely_last = std::min(surely_last, at(S(reach - off)));
   }
-  /// The shadows overlap on all axes at some time >= 0.
-  bool ever() const { return first <= last && last >= S(0); }
-  /// A few roundings of the lengths may decide whether they ever do: the ends of an axis's interval, the farther one, are those
-  /// lengths over its speed.
-  bool close() const {
-    const S first_size = std::max(largest(first), largest(first_leave)),
-            last_size = std::max(largest(last), largest(last_enter));
-    const S noise = 8 * std::numeric_limits<S>::epsilon() * (first_size + last_size);
-    return is_finite(noise) && largest(S(last - first)) <= noise;
-  }
+  /// The shadows overlap on all axes at some time >= 0, but for noise.
+  bool ever() const { return earliest <= latest && latest >= S(0); }
+  /// Noise may decide whether they ever do.
+  bool close() const { return earliest <= latest && !(surely_first <= surely_last); }
+  /// When they first do.
+  S time() const { return std::max(S(0), std::min(first, latest)); }
 };
 
 }  // namespace thinwall

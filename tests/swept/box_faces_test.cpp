@@ -158,6 +158,61 @@ TEST(Ties, two_axes_alike) {
   }
 }
 
+// ---- A floor without thickness, and what is as flat, laid level, that passes through it: of the axes that may part them several are one and
+// the same, and each tells its one time by roundings of its own.
+
+struct LevelShot : PortableDraw {
+  double time;
+  V start, path, along;  ///< seen in the floor's axes: y is up
+  Mat3<double> yawed, tilted = Mat3<double>::Identity();
+
+  explicit LevelShot(std::uint64_t seed) : PortableDraw(seed), time(between(0.2, 0.8)) {
+    path = {between(-3, 3), -between(1, 3), between(-3, 3)};
+    const V to{between(-2, 2), 0, between(-2, 2)};
+    start = to - path * time;
+    const double yaw = between(0, 3);
+    along = {std::cos(yaw), 0, std::sin(yaw)};
+    yawed << along, V::UnitY(), cross<double>(along, V::UnitY());
+    const V any = direction(), other = direction();
+    if (one_in(2)) tilted << any, safe_unit(cross(any, other)), cross<double>(any, safe_unit(cross(any, other)));
+  }
+  Obb<double> box(const V& at, const V& half, const Mat3<double>& axes) const {
+    return {V(tilted * at), half, Mat3<double>(tilted * axes)};
+  }
+};
+
+template <class A, class B> void expect_met(const Moving<A>& flat, const B& floor, const LevelShot& shot) {
+  for (const Toi<double>& toi : {time_of_impact(flat, at_rest(floor)), time_of_impact(at_rest(floor), flat)}) {
+    EXPECT_EQ(toi.status, ToiStatus::hit);
+    EXPECT_NEAR(toi.time, shot.time, 0x1p-46);
+    EXPECT_NEAR(std::abs(toi.normal.dot(shot.tilted.col(1))), 1, 0x1p-46);
+  }
+}
+
+TEST(LevelFaces, are_not_passed) {
+  for (std::uint64_t seed = 0; seed < motions; ++seed) {
+    SCOPED_TRACE(seed);
+    const LevelShot shot(seed);
+    const V path = shot.tilted * shot.path, half{5, 0, 5};
+    const Mat3<double> level = Mat3<double>::Identity();
+    const Obb<double> floor = shot.box(V::Zero(), half, level), yawed_floor = shot.box(V::Zero(), half, shot.yawed);
+    const V from = shot.tilted * (shot.start - shot.along), to = shot.tilted * (shot.start + shot.along);
+    const Moving segment{Capsule<double>{from, to, 0}, path};
+    const Moving card{shot.box(shot.start, {0.3, 0, 0.2}, shot.yawed), path};
+    const Moving rod{shot.box(shot.start, {0.3, 0, 0}, shot.yawed), path};
+    for (const Obb<double>& wall : {floor, yawed_floor}) {
+      expect_met(segment, wall, shot);
+      expect_met(card, wall, shot);
+      expect_met(rod, wall, shot);
+    }
+    if (shot.tilted != level) continue;
+    const Aabb<double> upright{V::Zero(), half};
+    expect_met(segment, upright, shot);
+    expect_met(card, upright, shot);
+    expect_met(rod, upright, shot);
+  }
+}
+
 // ---- Axes are of unit length to rounding only. A box along the world's axes, whose own are off by 8 u, is met as the upright box of its
 // edges' true lengths is.
 
