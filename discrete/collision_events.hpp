@@ -94,7 +94,7 @@ class CollisionEvents {
   };
 
   void tell(const CollisionEvent& event);
-  void tell_from(std::size_t first);
+  void tell_from(std::vector<CollisionEvent>& list, std::size_t first);
 
   int end_after_;
   std::uint64_t step_ = 0;
@@ -104,6 +104,7 @@ class CollisionEvents {
   std::vector<std::pair<std::size_t, Listener>> listeners_;
   std::size_t next_listener_ = 0;
   bool telling_ = false;
+  std::vector<CollisionEvent>* told_ = nullptr;  // while telling: what is told
   std::map<std::uint32_t, std::string> names_;
 };
 
@@ -135,12 +136,12 @@ inline void CollisionEvents::finish_step(double time) {
   }
   live_.swap(still_live_);
   met_.clear();
-  tell_from(first);
+  tell_from(events_, first);
 }
 
 inline void CollisionEvents::remove(std::uint32_t id, double time) {
   const auto has = [&](const auto& entry) { return entry.pair.first == id || entry.pair.second == id; };
-  std::vector<CollisionEvent>& list = telling_ ? events_ : ends_;
+  std::vector<CollisionEvent>& list = telling_ ? *told_ : ends_;
   const std::size_t first = list.size();
   for (const Live& live : live_) {
     if (!has(live)) continue;
@@ -148,24 +149,26 @@ inline void CollisionEvents::remove(std::uint32_t id, double time) {
   }
   std::erase_if(live_, has);
   std::erase_if(met_, has);
-  if (telling_) return;  // whoever is telling comes to them
-  const std::vector<CollisionEvent> ends(ends_.begin() + static_cast<std::ptrdiff_t>(first), ends_.end());
-  for (const CollisionEvent& end : ends) {
-    tell(end);
+  if (!telling_) tell_from(ends_, first);  // else whoever is telling comes to them
+}
+
+/// To all listeners there are by then, by their numbers, which rise: one may add others or forget them, itself included.
+inline void CollisionEvents::tell(const CollisionEvent& event) {
+  for (std::size_t next = 0;;) {
+    const auto listener =
+        std::find_if(listeners_.begin(), listeners_.end(), [&](const auto& l) { return l.first >= next; });
+    if (listener == listeners_.end()) return;
+    next = listener->first + 1;
+    Listener(listener->second)(event);
   }
 }
 
-/// To all listeners there are by then: one may add others or forget them, itself included.
-inline void CollisionEvents::tell(const CollisionEvent& event) {
-  std::size_t next = 0;
-  while (next < listeners_.size()) Listener(listeners_[next++].second)(event);
-}
-
 /// A listener may remove bodies, which adds events.
-inline void CollisionEvents::tell_from(std::size_t first) {
+inline void CollisionEvents::tell_from(std::vector<CollisionEvent>& list, std::size_t first) {
+  told_ = &list;
   const RaisedFlag telling(telling_);
-  for (std::size_t i = first; i < events_.size(); ++i) {
-    const CollisionEvent event = events_[i];
+  for (std::size_t i = first; i < list.size(); ++i) {
+    const CollisionEvent event = list[i];
     tell(event);
   }
 }

@@ -49,7 +49,7 @@ template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
 Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, const Moving<B>& b) {
   using T = typename A::Scalar;
-  if (!is_tolerance(method.tolerance)) return invalid_toi<T>();
+  if (!is_tolerance<T>(method.tolerance)) return invalid_toi<T>();
   const T margin(method.min_separation);
   if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
   const Vec3<T> path = relative_displacement(a, b);

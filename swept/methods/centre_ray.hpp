@@ -1,6 +1,7 @@
 #pragma once
 /// A ray from a body's center along its motion: the bullet as a point.
 
+#include <algorithm>
 #include <string_view>
 
 #include <thinwall/discrete/queries.hpp>
@@ -8,12 +9,16 @@
 
 namespace thinwall {
 
-/// True if A is the one whose center shoots the ray: the body that travels farther; of two that travel as far, the
-/// smaller. So the answer does not depend on the order of the arguments.
+/// True if A is the one whose center shoots the ray: the body that travels farther; of two that travel as far, the smaller; of two as small,
+/// the one whose displacement is greater in the first number in which they differ. So the answer does not depend on the order of the arguments.
 template <Shape A, Shape B> bool first_shoots(const Moving<A>& a, const Moving<B>& b) {
   using S = typename A::Scalar;
   const S a_path = safe_norm(a.displacement), b_path = safe_norm(b.displacement);
-  return a_path > b_path || (a_path == b_path && half_widths(a.shape).sum() < half_widths(b.shape).sum());
+  if (a_path != b_path) return a_path > b_path;
+  const S a_width = half_widths(a.shape).sum(), b_width = half_widths(b.shape).sum();
+  if (a_width != b_width) return a_width < b_width;
+  const Vec3<S>&v = a.displacement, &w = b.displacement;
+  return std::lexicographical_compare(w.data(), w.data() + 3, v.data(), v.data() + 3);
 }
 
 /// Claims: nothing. Misses what the radius would have hit, and is late by the radius over the cosine of incidence.

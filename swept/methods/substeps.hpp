@@ -29,7 +29,8 @@ template <Scalar S, template <class> class Motion, Shape A, Shape B>
 Toi<typename A::Scalar> first_touch_among_poses(const Substeps<S>& method, const Motion<A>& a, const Motion<B>& b) {
   using T = typename A::Scalar;
   if (method.n < 1) return invalid_toi<T>();
-  for (int k = 1; k <= method.n; ++k) {
+  for (int k = 0; k < method.n;) {
+    ++k;
     const T time = T(k) / T(method.n);
     const A a_then = pose_at(a, time);
     const B b_then = pose_at(b, time);

@@ -69,7 +69,7 @@ template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
 Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const Turning<A>& a, const Turning<B>& b) {
   using T = typename A::Scalar;
-  if (!is_tolerance(method.tolerance) || method.max_evaluations < 1) return invalid_toi<T>();
+  if (!is_tolerance<T>(method.tolerance) || method.max_evaluations < 1) return invalid_toi<T>();
   const TurningPair<T> pair(a, b, T(method.min_separation));
   const T near = std::max(T(T(method.tolerance) * pair.speed), T(T(4) * pair.margin));
   const T many_turns = 3;  // [rad] from here on whole orbits are worth a look

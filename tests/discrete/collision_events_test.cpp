@@ -105,6 +105,43 @@ TEST(CollisionEvents, let_listeners_come_and_go_while_they_are_told) {
   EXPECT_GE(second, 1);
 }
 
+TEST(CollisionEvents, are_told_to_all_that_stay_when_a_listener_goes) {
+  CollisionEvents events;
+  std::string heard;
+  std::size_t number = 0, later = 0;
+  number = events.listen([&](const CollisionEvent&) {
+    heard += "1";
+    events.forget(number);
+  });
+  events.listen([&](const CollisionEvent&) { heard += "2"; });
+  events.listen([&](const CollisionEvent&) {
+    heard += "3";
+    events.forget(later);
+  });
+  later = events.listen([&](const CollisionEvent&) { heard += "4"; });
+  events.listen([&](const CollisionEvent&) { heard += "5"; });
+  events.meet(1, 2, 0);
+  events.meet(3, 4, 0);
+  events.finish_step(1);
+  EXPECT_EQ(heard, "1235235");
+}
+
+TEST(CollisionEvents, of_a_removal_by_a_listener_of_a_removal_are_told_after_it) {
+  CollisionEvents events;
+  for (const std::uint32_t other : {2U, 3U}) events.meet(1, other, 0);
+  events.meet(2, 4, 0);
+  events.finish_step(1);
+  std::vector<CollisionEvent> heard;
+  events.listen([&](const CollisionEvent& event) {
+    heard.push_back(event);
+    if (event.removed && event.second == 2) events.remove(2, 1.5);
+  });
+  events.remove(1, 1.5);
+  ASSERT_EQ(heard.size(), 3U);
+  events.finish_step(2);
+  EXPECT_EQ(heard, events.events());
+}
+
 TEST(CollisionEvents, log_the_names) {
   CollisionEvents events;
   events.name(1, "bullet");

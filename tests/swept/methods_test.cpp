@@ -75,6 +75,22 @@ TYPED_TEST(SweptMethods, centre_ray_shoots_from_the_one_that_travels_farther) {
   EXPECT_TRUE(toi.normal[0] > S(0));
 }
 
+TYPED_TEST(SweptMethods, rays_do_not_turn_on_the_order_of_what_is_alike) {
+  using S = TypeParam;
+  const Moving<Sphere<S>> a{{{0.75, 1.25, 0}, 0.5}, {2, 0, 0}}, b{{{1.75, -0.25, 0}, 0.5}, {0, 2, 0}};
+  const Moving<Aabb<S>> x{{{-5, 0, 0}, {0.125, 0.25, 0.375}}, {5, 0, 0}},
+      y{{{5, 0.3125, 0}, {0.125, 0.375, 0.25}}, {-5, 0, 0}};
+  const auto expect_alike = [](const auto& method, const auto& first, const auto& second) {
+    const Toi<S> there = time_of_impact(method, first, second), back = time_of_impact(method, second, first);
+    EXPECT_EQ(there.status, back.status);
+    EXPECT_EQ(there.time, back.time);
+  };
+  for_each_type(TypeList<CentreRay<S>, SweptVolumeRay<S>, SweepThenConfirm<S>>{}, [&]<class Method>(TypeTag<Method>) {
+    if constexpr (serves<Method, Sphere<S>, Sphere<S>>) expect_alike(Method{}, a, b);
+    if constexpr (serves<Method, Aabb<S>, Aabb<S>>) expect_alike(Method{}, x, y);
+  });
+}
+
 TYPED_TEST(SweptMethods, swept_volume_ray_is_never_early) {
   using S = TypeParam;
   const Moving<Sphere<S>> slanted{this->bullet, {2, 0.5, 0}};

@@ -32,6 +32,14 @@ TYPED_TEST(BisectionMethod, is_late_by_at_most_the_tolerance) {
   }
 }
 
+TEST(BisectionOfShapes, has_no_tolerance_below_what_their_times_resolve) {  // it would halve for ever
+  const Moving<Sphere<double>> shot{{{-4, 0, 0}, 1}, {8, 0, 0}};
+  const auto ball = at_rest(Sphere<double>{{0, 0.25, 0}, 1});
+  const long double finest = std::numeric_limits<long double>::epsilon();
+  EXPECT_EQ(time_of_impact(Bisection<long double>{.tolerance = finest}, shot, ball).status, ToiStatus::invalid);
+  EXPECT_EQ(time_of_impact(Bisection<long double>{.tolerance = 0x1p-52L}, shot, ball).status, ToiStatus::hit);
+}
+
 TYPED_TEST(BisectionMethod, finds_a_contact_however_short) {  // no pose of a search by halves falls into this wall
   using S = TypeParam;
   const S third = S(1) / S(3);
