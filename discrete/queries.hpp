@@ -239,15 +239,18 @@ template <Scalar S, Shape A>
   const auto finite = [](const std::optional<RayHit<S>>& hit) {
     return hit && is_finite(hit->t) && is_finite(hit->point) ? hit : std::nullopt;
   };
+  const auto divided_by_power = [&](int e) {
+    auto hit = ray_entry(scaled(ray, -e), scaled(shape, -e));
+    if (hit) hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin : times_power_of_two(hit->point, e);
+    return finite(hit);
+  };
   switch (magnitudes_of(S(magnitude(ray) + magnitude(shape)), ray, shape)) {
-    case Magnitudes::ordinary: return finite(ray_entry(ray, shape));
-    case Magnitudes::huge: {
-      auto small = ray_entry(scaled(ray, -huge_exponent), scaled(shape, -huge_exponent));
-      if (!small) return small;
-      const bool from_inside = small->normal == Vec3<S>::Zero();
-      small->point = from_inside ? ray.origin : times_power_of_two(small->point, huge_exponent);
-      return finite(small);
+    case Magnitudes::ordinary: {
+      const S size = extent(shape) + ray.origin.cwiseAbs().sum() + ray.direction.cwiseAbs().sum();
+      const bool is_tiny = size < constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 2>();
+      return is_tiny && size > S(0) ? divided_by_power(binary_exponent(size)) : finite(ray_entry(ray, shape));
     }
+    case Magnitudes::huge: return divided_by_power(huge_exponent);
     case Magnitudes::invalid: break;
   }
   return std::nullopt;

@@ -168,7 +168,7 @@ THINWALL_HOT GapAhead<S> gap_ahead(const TurningPair<S>& pair, const AttachedPla
     if (!with_a && a.core.count > 0) take_core<S>(bound, now.core_a, n, cross<S>(rate - a.rotation, n), S(1));
     if (!with_b && b.core.count > 0) take_core<S>(bound, now.core_b, n, cross<S>(rate - b.rotation, n), S(-1));
   }
-  constexpr S slack = 32 * std::numeric_limits<S>::epsilon();
+  const S slack = 32 * std::numeric_limits<S>::epsilon();
   bound.curvature = (bound.curvature + of_centers) * (S(1) + slack) + pair.turn * pair.turn * pair.margin;
   return ahead;
 }

@@ -38,7 +38,7 @@ AttachedPlane<S> plane_from(const TurningPair<S>& pair, const TurningInstant<S>&
   const SquareEdges<S> of_a(now.core_a, normal), of_b(now.core_b, normal);
   if (of_a.count == 1 && of_b.count == 1) {
     const Vec3<S> a = safe_unit(of_a.edge[0]), b = safe_unit(of_b.edge[0]), product = cross(a, b);
-    constexpr S least_sine = S(1) / S(20);
+    const S least_sine = S(1) / S(20);
     if (product.squaredNorm() > least_sine * least_sine)
       return plane_of_edges<S>(pair, now, a, product.dot(normal) < S(0) ? Vec3<S>(-b) : b);
   }

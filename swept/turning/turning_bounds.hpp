@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/swept/swept_volume.hpp>
@@ -39,7 +38,7 @@ void contain(const CoreVectors<S>& core, const Mat3<S>& turn, const Vec3<S>& cen
 /// Source: derived in docs/turning.md.
 template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Turning<A>& m) {
   using S = typename A::Scalar;
-  using std::ceil, std::sin;
+  using std::acos, std::sin;
   if (m.rotation == Vec3<S>::Zero()) return swept_bounds(Moving<A>{m.shape, m.displacement});
   const S size = extent(m);
   const int e = is_finite(size) ? binary_exponent(size) : std::numeric_limits<S>::max_exponent;
@@ -55,7 +54,7 @@ template <Shape A> Aabb<typename A::Scalar> swept_bounds(const Turning<A>& m) {
   const Vec3<S> end = body.center + body.path, orbit = body.axis.cwiseAbs() * on_axis + across_axis;
   const Vec3<S> orbit_low = body.center.cwiseMin(end) - orbit, orbit_high = body.center.cwiseMax(end) + orbit;
   Vec3<S> low = orbit_low, high = orbit_high;
-  constexpr S full_turn = 2 * std::numbers::pi_v<S>;
+  const S full_turn = 2 * acos(S(-1));
   if (body.angle < full_turn) {
     const int pieces = 1 + static_cast<int>(body.angle * S(16) / full_turn);
     const S piece = body.angle / S(pieces), half_sine = sin(piece / S(4));

@@ -179,7 +179,7 @@ template <Scalar S> struct TurningPair {
     }
     if (a.turns() && b.turns())
       cross_rate = norm<S>(cross(a.rotation, b.rotation)) + (a.rotation - b.rotation).squaredNorm();
-    constexpr S u = std::numeric_limits<S>::epsilon() / 2;
+    const S u = std::numeric_limits<S>::epsilon() / 2;
     margin = S(64) * u * (S(1) + turn / S(4)) * size;
     hidden = reach > S(0) ? margin : std::max(margin, S(half_digits<S>() * size));
     when_balls_meet();
@@ -191,7 +191,7 @@ template <Scalar S> struct TurningPair {
     using std::sqrt;
     const S radius = (a.far + b.far + reach) * (S(1) + constant_power_of_two<S, -16>()) + S(16) * margin;
     const S apart = between.squaredNorm() - radius * radius, speed_square = path.squaredNorm();
-    constexpr S far_away = 4096;
+    const S far_away = 4096;
     if (!(between.squaredNorm() + speed_square < far_away * far_away * radius * radius)) return;
     const S approach = -between.dot(path), under_root = approach * approach - speed_square * apart;
     if (apart > S(0) && (approach <= S(0) || under_root < S(0))) {

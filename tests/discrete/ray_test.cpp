@@ -1,7 +1,11 @@
 // Rays against balls and boxes, by hand.
 
+#include <algorithm>
+#include <limits>
+
 #include <gtest/gtest.h>
 #include <thinwall/discrete/aabb.hpp>
+#include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/triangle.hpp>
 
 #include "support/real.hpp"
@@ -94,6 +98,23 @@ TYPED_TEST(Rays, a_point_is_hit_only_head_on) {
   EXPECT_EQ(hit->t, S(2));
   EXPECT_FALSE(raycast(Ray<S>{{-2, -4, next_up(S(6))}, {1, 2, -3}}, point).has_value());
   EXPECT_TRUE(raycast(Ray<S>{{-2, -4, -6}, {1, 2, 3}}, Aabb<S>{{0, 0, 0}, {0, 0, 0}}).has_value());
+}
+
+TYPED_TEST(Rays, a_point_of_a_turned_box_is_hit_at_every_size) {
+  using S = TypeParam;
+  Mat3<S> turn;
+  turn << S(0.8), S(-0.6), 0, S(0.6), S(0.8), 0, 0, 0, 1;
+  const Obb<S> point{{0, 0, 0}, {0, 0, 0}, turn};
+  const auto here = raycast(Ray<S>{{0, -8, 0}, {0, 8, 0}}, point);
+  ASSERT_TRUE(here.has_value());
+  EXPECT_EQ(here->t, S(1));
+  const int least = std::max(-20'000, std::numeric_limits<S>::min_exponent - std::numeric_limits<S>::digits);
+  for (int e = least; e < 0; e += 7) {
+    const auto hit = raycast(Ray<S>{{0, -power<S>(e + 3), 0}, {0, power<S>(e + 3), 0}}, point);
+    ASSERT_TRUE(hit.has_value()) << e;
+    EXPECT_EQ(hit->t, here->t) << e;
+    EXPECT_EQ(hit->normal, here->normal) << e;
+  }
 }
 
 TYPED_TEST(Rays, parallel_to_a_slab) {
