@@ -40,16 +40,15 @@ template <Scalar S> struct SeparatingPlane {
   }
 };
 
-/// The plane across `normal`, a vector from A towards B. It is made unit: one of an oriented box's is no more so than the
-/// axes are.
+/// The plane across the unit vector n, from A towards B.
 template <Shape A, Shape B>
 SeparatingPlane<typename A::Scalar> separating_plane(const Moving<A>& a, const Moving<B>& b,
-                                                     const Vec3<typename A::Scalar>& normal,
+                                                     const Vec3<typename A::Scalar>& n,
                                                      const typename A::Scalar& min_separation) {
   using S = typename A::Scalar;
   constexpr int tiny = 64;  // products of the smallest lengths vanish: a few dozen of them, each by one unit at most
   const S u = std::numeric_limits<S>::epsilon() / 2, least = tiny * std::numeric_limits<S>::denorm_min();
-  const Vec3<S> n = safe_unit(normal), path = relative_displacement(a, b);
+  const Vec3<S> path = relative_displacement(a, b);
   const S between = n.dot(center(b.shape) - center(a.shape));
   const S reach = reach_along(a.shape, n) + reach_along<S>(b.shape, -n) + min_separation;
   const Vec3<S> weight = n.cwiseAbs();
