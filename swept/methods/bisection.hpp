@@ -50,7 +50,7 @@ template <Scalar S, Shape A, Shape B>
 Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, const Moving<B>& b) {
   using T = typename A::Scalar;
   if (!is_tolerance<T>(method.tolerance)) return invalid_toi<T>();
-  const T margin(method.min_separation);
+  const T margin = T(method.min_separation);
   if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
   const Vec3<T> path = relative_displacement(a, b);
   if (path == Vec3<T>::Zero()) return {ToiStatus::apart, 1};
@@ -61,7 +61,7 @@ Toi<typename A::Scalar> impact(const Bisection<S>& method, const Moving<A>& a, c
     return GapSample<T>{time, closest.distance - margin, closest.normal.dot(path), closest};
   };
   // The direction of a gap is off by rounding, S's of the axes too, over its length; and its slope by that part of the path.
-  const T noise(gap_noise(S(extent(a) + extent(b)))), fastest = safe_norm(path);
+  const T noise = T(gap_noise(S(extent(a) + extent(b)))), fastest = safe_norm(path);
   const auto slope_noise = [&](const GapSample<T>& s) -> T {
     return fastest * (noise / std::max(s.closest.distance, noise));
   };

@@ -24,7 +24,7 @@ template <class Method, class S> std::vector<std::pair<Method, Racer>> rungs(con
   };
   if constexpr (requires { method.tolerance; }) {
     for (const double tolerance : options.tolerances) {
-      if (!is_tolerance(static_cast<S>(tolerance))) continue;
+      if (!is_tolerance<S>(static_cast<S>(tolerance))) continue;
       method.tolerance = static_cast<S>(tolerance);
       add(fmt::format("tolerance {:g}", tolerance), tolerance);
     }
