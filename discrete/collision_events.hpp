@@ -103,8 +103,7 @@ class CollisionEvents {
   std::vector<CollisionEvent> events_, ends_;  // ends_: by removals since the last step
   std::vector<std::pair<std::size_t, Listener>> listeners_;
   std::size_t next_listener_ = 0;
-  bool telling_ = false;
-  std::vector<CollisionEvent>* told_ = nullptr;  // while telling: what is told
+  bool telling_ = false, of_a_step_ = false;  // what is told: events_, else ends_
   std::map<std::uint32_t, std::string> names_;
 };
 
@@ -136,12 +135,13 @@ inline void CollisionEvents::finish_step(double time) {
   }
   live_.swap(still_live_);
   met_.clear();
+  const RaisedFlag of_a_step(of_a_step_);
   tell_from(events_, first);
 }
 
 inline void CollisionEvents::remove(std::uint32_t id, double time) {
   const auto has = [&](const auto& entry) { return entry.pair.first == id || entry.pair.second == id; };
-  std::vector<CollisionEvent>& list = telling_ ? *told_ : ends_;
+  std::vector<CollisionEvent>& list = of_a_step_ ? events_ : ends_;
   const std::size_t first = list.size();
   for (const Live& live : live_) {
     if (!has(live)) continue;
@@ -156,7 +156,7 @@ inline void CollisionEvents::remove(std::uint32_t id, double time) {
 inline void CollisionEvents::tell(const CollisionEvent& event) {
   for (std::size_t next = 0;;) {
     const auto listener =
-        std::find_if(listeners_.begin(), listeners_.end(), [&](const auto& l) { return l.first >= next; });
+        std::partition_point(listeners_.begin(), listeners_.end(), [&](const auto& l) { return l.first < next; });
     if (listener == listeners_.end()) return;
     next = listener->first + 1;
     Listener(listener->second)(event);
@@ -165,7 +165,6 @@ inline void CollisionEvents::tell(const CollisionEvent& event) {
 
 /// A listener may remove bodies, which adds events.
 inline void CollisionEvents::tell_from(std::vector<CollisionEvent>& list, std::size_t first) {
-  told_ = &list;
   const RaisedFlag telling(telling_);
   for (std::size_t i = first; i < list.size(); ++i) {
     const CollisionEvent event = list[i];

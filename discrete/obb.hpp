@@ -118,11 +118,7 @@ template <Scalar S> bool cores_within(const Obb<S>& a, const Aabb<S>& b, const S
 }
 
 template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Obb<S>& b) { return out_of(a, box_gap(box_pair(a, b))); }
-template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) {
-  CoreGap<S> gap = flipped(box_gap(box_pair(b, a)));
-  gap.normal = safe_unit(gap.normal);
-  return gap;
-}
+template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Aabb<S>& b) { return flipped(box_gap(box_pair(b, a))); }
 
 template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const Obb<S>& box) {
   const NearPath<S> path(ray.origin - box.center, ray.direction, box.half_extents.sum(), S(64));

@@ -239,7 +239,7 @@ template <Scalar S, Shape A>
   const auto finite = [](const std::optional<RayHit<S>>& hit) {
     return hit && is_finite(hit->t) && is_finite(hit->point) ? hit : std::nullopt;
   };
-  const auto divided_by_power = [&](int e) {
+  const auto divided_by_power = [&](int e) {  // huge, or so tiny that a start nearer by would lose its digits
     auto hit = ray_entry(scaled(ray, -e), scaled(shape, -e));
     if (hit) hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin : times_power_of_two(hit->point, e);
     return finite(hit);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 #include <Eigen/Core>
 
@@ -24,6 +25,12 @@ namespace thinwall {
 template <class S>
 concept Scalar = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer &&
                  std::numeric_limits<S>::has_quiet_NaN && std::numeric_limits<S>::radix == 2 && std::copyable<S>;
+
+/// The scalar that has the last word: long double for double where it holds more digits, else S itself.
+template <Scalar S>
+using Wider =
+    std::conditional_t<std::is_same_v<S, double> && (std::numeric_limits<long double>::digits > 60), long double, S>;
+template <Scalar S> inline constexpr bool has_wider = !std::is_same_v<Wider<S>, S>;
 
 template <Scalar S> using Vec3 = Eigen::Matrix<S, 3, 1>;
 template <Scalar S> using Mat3 = Eigen::Matrix<S, 3, 3>;

@@ -68,7 +68,7 @@ struct ClearChord {
   THINWALL_HOT packed::PairMask passes() const { return reach < off * packed::both(packed::beside_graze); }
   THINWALL_HOT packed::PairMask approaches() const { return toward < packed::both(0); }
   THINWALL_HOT packed::Pair time() const { return (square - RR) / (half - toward); }
-  /// Unit to a few roundings: v.v R^2 is q.q + half^2, and q leans on v by no more than 2^-27 from as far as 2^25 R.
+  /// Unit to a few roundings: v.v R^2 is moment^2 + half^2, and the moment leans on v by no more than 2^-27 from as far as 2^25 R.
   THINWALL_HOT packed::Lanes normal(const packed::Lanes& v) const {
     return (cross(v, moment) - v * all(half)) * all(per_length);
   }

@@ -21,7 +21,7 @@ enum class DecidedBy {
 
 /// A proven answer for the shapes as given: every number is exactly the double it is.
 struct CertifiedToi {
-  ToiStatus verdict = ToiStatus::invalid;                   ///< proven; `gave_up` of what turns alone
+  ToiStatus verdict = ToiStatus::invalid;  ///< proven, or `gave_up`, which only shapes that turn can be
   double lower = std::numeric_limits<double>::quiet_NaN();  ///< [1] no contact before it; in [0, 1], NaN if invalid
   double upper = std::numeric_limits<double>::quiet_NaN();  ///< [1] contact by then; in [0, 1], NaN if invalid
   DecidedBy decided_by = DecidedBy::guard;

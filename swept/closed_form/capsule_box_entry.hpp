@@ -63,7 +63,7 @@ Entry<S> capsule_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S&
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(
       p, v, R, largest(d, h), [&](const Vec3<S>& x) { return closest_on_swept_box(x, d, h); },
-      starts_apart ? shared.first : S(0));
+      starts_apart ? shared.time() : S(0));
 }
 
 /// First time at which the segment p + v t + s * d, s in [0, 1], is within R of the box [-h, h]; the normal out of the box.

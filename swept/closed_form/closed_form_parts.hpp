@@ -17,7 +17,6 @@
 
 #include <limits>
 #include <string_view>
-#include <type_traits>
 
 #include <thinwall/discrete/entry/ball_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
@@ -27,12 +26,6 @@
 #include <thinwall/swept/serves.hpp>
 
 namespace thinwall {
-
-/// The scalar that has the last word: long double for double where it holds more digits, else S itself.
-template <Scalar S>
-using Wider =
-    std::conditional_t<std::is_same_v<S, double> && (std::numeric_limits<long double>::digits > 60), long double, S>;
-template <Scalar S> inline constexpr bool has_wider = !std::is_same_v<Wider<S>, S>;
 
 /// An entry's time as settled by its normal (unit, from A to B), or as it was, with `graze` set, where that may not be done.
 /// `trust`: by how much the plane may move the shapes, in roundings of their size as `std::numeric_limits` names one.

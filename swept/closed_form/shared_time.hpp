@@ -11,23 +11,24 @@
 namespace thinwall {
 
 /// Several axes tell the same time where they are normal to one flat face, each by roundings of its own. So shadows count as overlapping while
-/// they do but for `noise`.
+/// they do but for `noise`: but not those that are left at the start.
 template <Scalar S> struct SharedTime {
-  /// `size` [length] is no less than the sum of what places, extents and displacements are computed of, on any axis.
-  explicit SharedTime(const S& size) : noise(8 * std::numeric_limits<S>::epsilon() * size) {}
+  /// `size` [length] is at least the sum of all lengths that go into a shadow on any axis. Where a wider scalar has the last word, noise is what
+  /// leaves it to that; else the contract's 4 u.
+  explicit SharedTime(const S& size) : noise(S(has_wider<S> ? 8 : 2) * std::numeric_limits<S>::epsilon() * size) {}
 
   S noise;                                        ///< [length] what roundings move a shadow by, at most
   S first = -std::numeric_limits<S>::infinity();  ///< [1] from when; at most 0: they overlap at the start
   S last = std::numeric_limits<S>::infinity();    ///< [1] until when; before `first`: never, but for noise
   S second = first;                               ///< [1] from when but for that axis
   int decided_by = -1;                            ///< number of the axis that decided `first`
-  S earliest = first, latest = last;              ///< [1] from when and until when, if they reach farther by noise,
-  S surely_first = first, surely_last = last;     ///< [1] and if less far
+  S earliest = first, latest = last;              ///< [1] the same of shadows that reach farther by noise
+  S surely_first = first, surely_last = last;     ///< [1] the same of shadows that reach less far
 
-  /// Shadows whose middles are `distance` apart and move at `speed`, and that reach `reach` from there together, on an axis whose numbers
-  /// add up to `weight`.
+  /// Shadows whose middles are `distance` apart and move at `speed`, and that reach `reach` from there together, on an axis the sizes of
+  /// whose components add up to `weight`.
   /// An axis of length zero is 0 / 0, which changes nothing; without speed the quotients are infinite, or 0 / 0 where the
-  /// shadows touch.
+  /// shadows touch: then plain numbers decide, as nothing tells when they would.
   void narrow(int axis, const S& distance, const S& speed, const S& reach, const S& weight = S(1)) {
     using std::copysign;
     const S side = copysign(S(1), speed);
@@ -44,7 +45,7 @@ template <Scalar S> struct SharedTime {
     surely_last = std::min(surely_last, at(S(reach - off)));
   }
   /// The shadows overlap on all axes at some time >= 0, but for noise.
-  bool ever() const { return earliest <= latest && latest >= S(0); }
+  bool ever() const { return earliest <= latest && latest >= S(0) && (first >= S(0) || last >= S(0)); }
   /// Noise may decide whether they ever do.
   bool close() const { return earliest <= latest && !(surely_first <= surely_last); }
   /// When they first do.

@@ -38,7 +38,7 @@ Entry<S> sphere_triangle_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, cons
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(
       p, v, R, largest(e1, e2), [&](const Vec3<S>& x) { return closest_on_triangle(x, e1, e2); },
-      starts_apart ? shared.first : S(0));
+      starts_apart ? shared.time() : S(0));
 }
 
 /// First time at which p + v t is within R > 0 of the triangle (0, e1, e2); the normal out of the triangle.

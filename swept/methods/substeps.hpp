@@ -30,7 +30,7 @@ Toi<typename A::Scalar> first_touch_among_poses(const Substeps<S>& method, const
   using T = typename A::Scalar;
   if (method.n < 1) return invalid_toi<T>();
   for (int k = 0; k < method.n;) {
-    ++k;
+    ++k;  // after the last int there is none
     const T time = T(k) / T(method.n);
     const A a_then = pose_at(a, time);
     const B b_then = pose_at(b, time);

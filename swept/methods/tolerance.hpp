@@ -12,7 +12,7 @@ namespace thinwall {
 /// [1] 2 to the power of minus half the digits of S: 2^-26 for double. Half of what S can tell apart, for little work.
 template <Scalar S> S half_digits() { return constant_power_of_two<S, -(std::numeric_limits<S>::digits / 2)>(); }
 
-/// True for a fraction of a step that S can resolve, and T, in which times are: from the greater epsilon to 1. False for NaN.
+/// True for a fraction of a step that both S and T, the scalar of times, can resolve: from the greater epsilon to 1. False for NaN.
 template <Scalar T, Scalar S> bool is_tolerance(const S& tolerance) {
   return tolerance >= std::numeric_limits<S>::epsilon() && T(tolerance) >= std::numeric_limits<T>::epsilon() &&
          tolerance <= S(1);

@@ -60,19 +60,24 @@ TEST(AnyNumberInMotion, in_a_box_by_every_method) {  // they have one front door
       [](const auto& method) { ask_with_every_number(method, TypeTag<Obb<double>>{}, TypeTag<Sphere<double>>{}); });
 }
 
-TEST(AnyNumberInMotion, in_axes_that_are_as_long_as_they_may_be) {
-  for_each_served_pair<double>([]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
-    for_each_method<A, B>([&](const auto& method) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const double from : {-6.0, -1.0, 6.0}) {
-          const Vec3<double> start = axis_vector<double>(axis) * from;
-          const Moving a{lengthened(usual(first)), Vec3<double>(start * 1.5)};
-          const auto b = at_rest(lengthened(moved(usual(second), start)));
-          expect_whole(time_of_impact(method, a, b), true);
-        }
+/// visit(a, b) for shots at each served pair, of boxes whose axes are as long as they may be.
+template <class S, class Visit> void with_long_axes(const Visit& visit) {
+  for_each_served_pair<S>([&]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double from : {-6.0, -1.0, 6.0}) {
+        const Vec3<S> start = axis_vector<S>(axis) * S(from);
+        visit(Moving{lengthened(usual(first)), Vec3<S>(start * S(1.5))},
+              at_rest(lengthened(moved(usual(second), start))));
       }
-    });
+    }
   });
+}
+
+TEST(AnyNumberInMotion, in_axes_that_are_as_long_as_they_may_be) {
+  with_long_axes<double>([]<class A, class B>(const Moving<A>& a, const Moving<B>& b) {
+    for_each_method<A, B>([&](const auto& method) { expect_whole(time_of_impact(method, a, b), true); });
+  });
+  with_long_axes<long double>([](const auto& a, const auto& b) { expect_whole(time_of_impact(a, b), true); });
 }
 
 TEST(AnyNumberInMotion, in_an_option) {

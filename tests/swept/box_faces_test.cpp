@@ -213,6 +213,26 @@ TEST(LevelFaces, are_not_passed) {
   }
 }
 
+/// A little above the floor and rising, or beside a thick box and leaving: at no time >= 0 they touch.
+template <class S> void expect_left() {
+  Mat3<S> yawed;
+  yawed << S(0.8), 0, S(0.6), 0, 1, 0, S(-0.6), 0, S(0.8);
+  const Aabb<S> floor{{0, 0, 0}, {8, 0, 8}}, block{{-1, 0, 0}, {1, 1, 1}};
+  for (int eps = 8; eps <= 64; eps *= 2) {
+    const S gap = eps * std::numeric_limits<S>::epsilon();
+    const Moving card{Obb<S>{{0, gap, 0}, {1, 0, 1}, yawed}, {S(0.25), S(0.5), 0}};
+    const Moving rod{Capsule<S>{{-1, gap, 0}, {1, gap, S(0.25)}, 0}, {S(0.25), S(0.5), 0}};
+    const Moving core{Capsule<S>{{gap, S(-0.25), 0}, {gap + S(0.125), S(0.25), S(0.25)}, 0}, {2, 1, S(0.5)}};
+    EXPECT_EQ(time_of_impact(card, at_rest(floor)).status, ToiStatus::apart) << eps;
+    EXPECT_EQ(time_of_impact(rod, at_rest(floor)).status, ToiStatus::apart) << eps;
+    EXPECT_EQ(time_of_impact(core, at_rest(block)).status, ToiStatus::apart) << eps;
+  }
+}
+TEST(LevelFaces, are_left) {
+  expect_left<double>();
+  expect_left<long double>();
+}
+
 // ---- Axes are of unit length to rounding only. A box along the world's axes, whose own are off by 8 u, is met as the upright box of its
 // edges' true lengths is.
 
