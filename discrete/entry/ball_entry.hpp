@@ -33,14 +33,19 @@ template <Scalar S> struct Chord {
   S excess = 0;                      ///< p.p - R^2: positive outside
   S half = 0;                        ///< sqrt(D), half the chord times |v|, where it exists
   Vec3<S> moment = Vec3<S>::Zero();  ///< p x v
+  S per_length = 0;  ///< 1 / (v.v R); 0 where R is so small beside |p| that the moment's roundings count
 
   /// The time the line enters the ball, where the chord exists and the point is outside and approaching: before it is closest, also where
   /// all of them are rounding.
   S entry_time() const { return std::min(S(excess / (approach + half)), S(approach / speed_square)); }
-  /// The direction of p + v t at that time; against the motion where R is zero. Its length is R only as far as the moment,
-  /// which loses the digits of a small ball far away, allows.
+  /// The direction of p + v t at that time; against the motion where R is zero. Its length is v.v R only as far as the moment,
+  /// which loses the digits of a small ball far away, allows: there it is made unit as such, else by a step of Newton's, as the clear rung does.
   Vec3<S> entry_normal(const Vec3<S>& v) const {
     const Vec3<S> offset = cross(v, moment) - v * half;
+    if (per_length > S(0)) {
+      const Vec3<S> near_unit = offset * per_length;
+      return near_unit * (S(1.5) - near_unit.squaredNorm() * S(0.5));
+    }
     return offset == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : safe_unit(offset);
   }
 };
@@ -94,7 +99,11 @@ Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R, cons
   } else {
     D = half = half_of_tiny(speed_square, moment, R);
   }
-  return {D >= S(0), speed_square, -p.dot(v), p.squaredNorm() - R * R, half, moment};
+  const S square = p.squaredNorm(), RR = R * R;
+  const bool is_near = square * constant_power_of_two<S, 2 - std::numeric_limits<S>::digits / 2 * 2>() < RR;
+  const bool has_length = is_near && square_in_range(speed_square) && square_in_range(reach);
+  const S per_length = has_length ? S(1) / (speed_square * R) : S(0);
+  return {D >= S(0), speed_square, -p.dot(v), square - RR, half, moment, per_length};
 }
 template <Scalar S> Chord<S> chord_through_ball(const Vec3<S>& p, const Vec3<S>& v, const S& R) {
   return chord_through_ball(p, v, R, [&] { return accurate_discriminant(p, v, R); });
