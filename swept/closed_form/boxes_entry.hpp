@@ -38,8 +38,7 @@ template <Scalar S> struct MovingBoxPair {
 template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   const BoxPair<S>& pair = moving.pair;
   Entry<S> entry;
-  SharedTime<S> shared(pair.between.cwiseAbs().sum() + pair.half_a.sum() + pair.half_b.sum() +
-                       moving.motion.cwiseAbs().sum());
+  SharedTime<S> shared(pair.between.cwiseAbs().sum() + pair.half_a.sum() + pair.half_b.sum());
   const Mat3<S> size = pair.axes.cwiseAbs();
   const Vec3<S> reach_of_b = size * pair.half_b, reach_of_a = size.transpose() * pair.half_a;
   for (int i = 0; i < 3; ++i) shared.narrow(i, pair.between[i], moving.motion[i], pair.half_a[i] + reach_of_b[i]);

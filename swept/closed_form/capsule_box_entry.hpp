@@ -16,7 +16,7 @@ SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Ve
                                     const S& R) {
   using std::sqrt;
   const Vec3<S> middle = p + d / S(2);
-  SharedTime<S> shared(p.cwiseAbs().sum() + d.cwiseAbs().sum() + h.sum() + R + v.cwiseAbs().sum());
+  SharedTime<S> shared(p.cwiseAbs().sum() + d.cwiseAbs().sum() + h.sum() + R);
   for (int i = 0; i < 3; ++i) shared.narrow(i, middle[i], v[i], h[i] + largest(d[i]) / S(2) + R);
   if (!shared.ever()) return shared;
   for (int i = 0; i < 3; ++i) {

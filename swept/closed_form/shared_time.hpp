@@ -13,7 +13,8 @@ namespace thinwall {
 /// Several axes tell the same time where they are normal to one flat face, each by roundings of its own. So shadows count as overlapping while
 /// they do but for `noise`: but not those that are left at the start.
 template <Scalar S> struct SharedTime {
-  /// `size` [length] is at least the sum of all lengths that go into a shadow on any axis. Where a wider scalar has the last word, noise is what
+  /// `size` [length] is at least the sum of all lengths that go into a shadow on any axis; not of the path, of which no more than three times
+  /// that lies between the start and a contact. Where a wider scalar has the last word, noise is what
   /// leaves it to that; else the contract's 4 u.
   explicit SharedTime(const S& size) : noise(S(has_wider<S> ? 8 : 2) * std::numeric_limits<S>::epsilon() * size) {}
 

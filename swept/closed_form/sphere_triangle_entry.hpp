@@ -17,7 +17,7 @@ SharedTime<S> point_and_triangle_share(const Vec3<S>& p, const Vec3<S>& v, const
   const Vec3<S> low = e1.cwiseMin(e2).cwiseMin(S(0)), high = e1.cwiseMax(e2).cwiseMax(S(0));
   const Vec3<S> from_middle = p - (low + high) / S(2), half = (high - low) / S(2);
   const S wide = R + gap_noise(size);
-  SharedTime<S> shared(p.cwiseAbs().sum() + e1.cwiseAbs().sum() + e2.cwiseAbs().sum() + R + v.cwiseAbs().sum());
+  SharedTime<S> shared(p.cwiseAbs().sum() + e1.cwiseAbs().sum() + e2.cwiseAbs().sum() + R);
   for (int i = 0; i < 3; ++i) shared.narrow(i, from_middle[i], v[i], half[i] + wide);
   if (!shared.ever()) return shared;
   const Vec3<S> side1 = times_power_of_two(e1, -safe_exponent(largest(e1)));
