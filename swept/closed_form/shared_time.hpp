@@ -14,9 +14,9 @@ namespace thinwall {
 /// they do but for `noise`: but not those that are left at the start.
 template <Scalar S> struct SharedTime {
   /// `size` [length] is at least the sum of all lengths that go into a shadow on any axis; not of the path, of which no more than three times
-  /// that lies between the start and a contact. Where a wider scalar has the last word, noise is what
-  /// leaves it to that; else the contract's 4 u.
-  explicit SharedTime(const S& size) : noise(S(has_wider<S> ? 8 : 2) * std::numeric_limits<S>::epsilon() * size) {}
+  /// that lies between the start and a contact. Where a wider scalar has the last word, noise is what leaves it to that; else what level faces
+  /// take to be met, 2 u.
+  explicit SharedTime(const S& size) : noise(S(has_wider<S> ? 8 : 1) * std::numeric_limits<S>::epsilon() * size) {}
 
   S noise;                                        ///< [length] what roundings move a shadow by, at most
   S first = -std::numeric_limits<S>::infinity();  ///< [1] from when; at most 0: they overlap at the start
