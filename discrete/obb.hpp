@@ -77,9 +77,12 @@ template <Scalar S> Vec3<S> contact_point(const Obb<S>&, const Vec3<S>& core_poi
 template <Scalar S> Vec3<S> into(const Obb<S>& box, const Vec3<S>& world) { return box.axes.transpose() * world; }
 template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { return box.axes * own; }
 
-/// A gap given in the box's own axes, in the world's. Its normal may be an axis, which is as near unit as valid() asks: it is made unit.
+/// A normal in the box's own axes, in the world's: it may be an axis, which is only as near unit as valid() asks, so it is made unit.
+template <Scalar S> Vec3<S> normal_out_of(const Obb<S>& box, const Vec3<S>& own) { return safe_unit(out_of(box, own)); }
+
+/// A gap given in the box's own axes, in the world's.
 template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
-  return {gap.distance, safe_unit(out_of(box, gap.normal)), out_of(box, gap.local_a), out_of(box, gap.local_b),
+  return {gap.distance, normal_out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),
           out_of(box, gap.along)};
 }
 
@@ -131,7 +134,7 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
   hit->t += path.base_time;
   hit->point = hit->normal == Vec3<S>::Zero() ? ray.origin
                                               : Vec3<S>(box.center + out_of<S>(box, hit->point.cwiseQuotient(squares)));
-  hit->normal = safe_unit(out_of(box, hit->normal));
+  hit->normal = normal_out_of(box, hit->normal);
   return hit;
 }
 

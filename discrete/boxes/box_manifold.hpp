@@ -70,7 +70,7 @@ template <Scalar S> Manifold<S> boxes_manifold(const BoxPair<S>& pair) {
 template <Scalar S> const Manifold<S>& out_of(const Aabb<S>&, const Manifold<S>& manifold) { return manifold; }
 template <Scalar S> Manifold<S> out_of(const Obb<S>& box, const Manifold<S>& manifold) {
   return changed(manifold, [&](const Contact<S>& c) -> Contact<S> {
-    return {out_of(box, c.local_a), out_of(box, c.local_b), safe_unit(out_of(box, c.normal)), c.penetration};
+    return {out_of(box, c.local_a), out_of(box, c.local_b), normal_out_of(box, c.normal), c.penetration};
   });
 }
 

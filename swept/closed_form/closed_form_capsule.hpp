@@ -76,7 +76,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Entry<T> own = capsule_box_entry<T>(start, own_motion, reach, core, h);
   Entry<T> entry = own;
   entry.come_later(path.base_time);
-  entry.normal = -safe_unit(out_of(box.shape, own.normal));
+  entry.normal = -normal_out_of(box.shape, own.normal);
   return toi_of_turned(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            out_of<T>(box.shape, point_on_box<T>(start + own_motion * own.time, core, h) + own.normal * (gap / 2));

@@ -61,7 +61,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
   const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
   Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
   entry.come_later(path.base_time);
-  entry.normal = safe_unit(out_of(frame, entry.normal));
+  entry.normal = normal_out_of(frame, entry.normal);
   return toi_of_turned(method, box, sphere, entry,
                        [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
@@ -78,7 +78,7 @@ template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap)
 /// because a face's normal that is turned twice tilts the face.
 template <Scalar T>
 Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& moving, const Entry<T>& entry) {
-  const Vec3<T> turned = safe_unit(out_of(a, entry.normal));
+  const Vec3<T> turned = normal_out_of(a, entry.normal);
   if (moving.axis_b < 0) return turned;  // A's own axis, which this turns back, or neither's
   const Vec3<T> edge_or_normal = b.axes.col(moving.axis_b);
   const Vec3<T> n = moving.axis_a < 0 ? edge_or_normal : accurate_cross<T>(a.axes.col(moving.axis_a), edge_or_normal);
