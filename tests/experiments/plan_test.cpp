@@ -9,7 +9,6 @@
 #include <thinwall/experiments/plan/model.hpp>
 #include <thinwall/experiments/world.hpp>
 
-#include "experiments/world/random_world.hpp"
 #include "support/experiment_run.hpp"
 #include "support/reply.hpp"
 
@@ -75,29 +74,6 @@ TEST(Plan, can_keep_whatever_it_could_omit_and_nothing_else) {
   WorldOptions options;
   options.keep = {"static bodies"};
   EXPECT_THROW(World({}, options), WorldError);
-}
-
-/// Random worlds of all shapes, policies and masks.
-TEST(Plan, of_any_world_gives_the_same_bits_with_any_single_omission_taken_back) {
-  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
-    const testing::DrawnWorld drawn = testing::drawn_world(seed);
-    if (!drawn.options.response && !drawn.options.events) continue;  // hits that nobody asked for may differ
-    const auto names = omission_names();
-    WorldOptions kept = drawn.options;
-    kept.keep = {std::string(names[seed % names.size()])};
-    World world(drawn.bodies, drawn.options), other(drawn.bodies, kept);
-    for (int k = 0; k < drawn.steps; ++k) {
-      world.step(drawn.dt);
-      other.step(drawn.dt);
-      ASSERT_EQ(world.state_hash(), other.state_hash()) << "seed " << seed << ", kept: " << kept.keep[0];
-      ASSERT_EQ(world.events().events(), other.events().events()) << "seed " << seed;
-      ASSERT_EQ(world.hits().size(), other.hits().size()) << "seed " << seed;
-      for (std::size_t i = 0; i < world.hits().size(); ++i) {
-        ASSERT_EQ(world.hits()[i].time, other.hits()[i].time) << "seed " << seed;
-        ASSERT_EQ(world.hits()[i].point, other.hits()[i].point) << "seed " << seed;
-      }
-    }
-  }
 }
 
 TEST(PlanGate, misses_what_theory_says) {
