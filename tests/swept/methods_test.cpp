@@ -1,12 +1,43 @@
-// What each method claims, and that the foils do fail as they are said to.
+// What each method claims, by cases, and that the foils do fail as they are said to; planes between moving shapes.
 
 #include <gtest/gtest.h>
-#include <thinwall/swept/methods.hpp>
 
-#include "support/method_cases.hpp"
+#include <thinwall/swept/methods.hpp>
+#include <thinwall/swept/methods/separating_plane.hpp>
+#include <thinwall/swept/methods/tolerance.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
+
+#include "support/judge.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
+
+/// Shots that every method is shown.
+template <class S> struct MethodCases : ::testing::Test {
+  const Moving<Aabb<S>> wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
+  const Moving<Sphere<S>> shot{{{-1, 0, 0}, 0.25}, {2, 0, 0}};  // in contact from 0.3125 on
+  const Moving<Sphere<S>> post = at_rest(Sphere<S>{{0, 0, 0}, 1});
+  const Moving<Sphere<S>> graze{{{-4, 1.9375, 0}, 1}, {8, 0, 0}};    // of that post
+  const Moving<Sphere<S>> passing{{{-4, 2.0625, 0}, 1}, {8, 0, 0}};  // beside it, by 1/16
+
+  /// The fewer evaluations a method may make, the less it has proven: it says how much, and never too much.
+  template <class Method> void expect_what_is_proven(bool more_each_time) const {
+    const S exact = time_of_impact(graze, post).time;
+    const Toi<S> enough = time_of_impact(Method{}, graze, post);
+    ASSERT_EQ(enough.status, ToiStatus::hit);
+    S before = 0;
+    for (int n = 1; n < enough.evaluations - 1; ++n) {
+      const Toi<S> toi = time_of_impact(Method{.max_evaluations = n}, graze, post);
+      EXPECT_EQ(text(toi.status), text(ToiStatus::gave_up));
+      EXPECT_EQ(toi.evaluations, n + 1);
+      EXPECT_TRUE((more_each_time ? toi.time > before : toi.time >= before) && toi.time < exact) << n;
+      EXPECT_EQ(toi.normal, Vec3<S>(0, 0, 0));
+      before = toi.time;
+    }
+    EXPECT_TRUE(before > exact / 2);
+  }
+};
 
 template <class S> struct SweptMethods : MethodCases<S> {
   const Moving<Aabb<S>> thin_wall = at_rest(Aabb<S>{{0, 0, 0}, {power<S>(-10), 8, 8}});
@@ -142,6 +173,452 @@ TYPED_TEST(SweptMethods, min_separation_before_a_wall) {  // 0.125 sooner along 
   for (const S& plane : {late_by(ConservativeAdvancement<S>{}), late_by(Speculative<S>{})}) {
     EXPECT_TRUE(plane < S(0) && plane >= -rounding) << plane;
   }
+}
+
+// ---- Bisection: late by at most the tolerance, bounded, and what it may miss.
+
+template <class S> using BisectionMethod = MethodCases<S>;
+TYPED_TEST_SUITE(BisectionMethod, Scalars, ScalarNames);
+
+TYPED_TEST(BisectionMethod, is_late_by_at_most_the_tolerance) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  for (const S& tolerance : {S(0.125), power<S>(-8), half_digits<S>(), S(4 * std::numeric_limits<S>::epsilon())}) {
+    const Bisection<S> method{.tolerance = tolerance};
+    const Toi<S> straight = time_of_impact(method, this->shot, this->wall);
+    EXPECT_EQ(straight.status, ToiStatus::hit);
+    EXPECT_TRUE(straight.time >= S(0.3125) && straight.time <= S(0.3125) + tolerance);
+    EXPECT_EQ(straight.normal, Vec3<S>(1, 0, 0));
+    const Toi<S> slanted = time_of_impact(method, this->graze, this->post);
+    EXPECT_EQ(slanted.status, ToiStatus::hit);
+    EXPECT_TRUE(slanted.time >= exact * (1 - 16 * unit<S>()) && slanted.time <= exact + tolerance + 16 * unit<S>());
+  }
+}
+
+TEST(BisectionOfShapes, has_no_tolerance_below_what_their_times_resolve) {  // it would halve for ever
+  const Moving<Sphere<double>> shot{{{-4, 0, 0}, 1}, {8, 0, 0}};
+  const auto ball = at_rest(Sphere<double>{{0, 0.25, 0}, 1});
+  const long double finest = std::numeric_limits<long double>::epsilon();
+  EXPECT_EQ(time_of_impact(Bisection<long double>{.tolerance = finest}, shot, ball).status, ToiStatus::invalid);
+  EXPECT_EQ(time_of_impact(Bisection<long double>{.tolerance = 0x1p-52L}, shot, ball).status, ToiStatus::hit);
+}
+
+TYPED_TEST(BisectionMethod, finds_a_contact_however_short) {  // no pose of a search by halves falls into this wall
+  using S = TypeParam;
+  const S third = S(1) / S(3);
+  const Moving<Sphere<S>> fast{{{-1, 0, 0}, 0}, {3, 0, 0}};
+  const S thin = power<S>(3 - std::numeric_limits<S>::digits);
+  const auto plate = at_rest(Aabb<S>{{0, 0, 0}, {thin, 8, 8}});
+  const Toi<S> toi = time_of_impact(Bisection<S>{}, fast, plate);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(toi.time > third - thin && toi.time < third + thin);
+}
+
+TYPED_TEST(BisectionMethod, a_miss_is_proven_by_two_tangents) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(Bisection<S>{}, this->passing, this->post);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_LE(toi.evaluations, 12);
+  const Moving<Sphere<S>> leaving{{{-4, 0, 0}, 1}, {-8, 0, 0}}, stopping{{{-4, 0, 0}, 1}, {1, 0, 0}};
+  EXPECT_EQ(time_of_impact(Bisection<S>{}, leaving, this->post).evaluations, 2);
+  EXPECT_EQ(time_of_impact(Bisection<S>{}, stopping, this->post).evaluations, 3);
+}
+
+TYPED_TEST(BisectionMethod, both_searches_are_bounded) {  // a touch that no pose shows and no tangent excludes
+  using S = TypeParam;
+  const int most = 3 + 2 * std::numeric_limits<S>::digits + std::numeric_limits<S>::digits;
+  int longest = 0;
+  for (int i = 0; i < 64; ++i) {
+    const S height = S(2) * (1 + S(i - 32) * 4 * unit<S>());
+    const Moving<Sphere<S>> touching{{{-4, height, 0}, 1}, {S(8) + S(i) / S(64), 0, 0}};
+    const Bisection<S> finest{.tolerance = std::numeric_limits<S>::epsilon()};
+    longest = std::max(longest, time_of_impact(finest, touching, this->post).evaluations);
+  }
+  EXPECT_LE(longest, most);
+  EXPECT_GE(longest, std::numeric_limits<S>::digits / 3);
+}
+
+/// Boxes that are apart by 2^-24 at first, a fortieth of what their axes in float are off by: the way from one to the other says nothing.
+TEST(BisectionInFloat, goes_by_no_slope_of_a_gap_that_is_rounding) {
+  Shaker<float> draw(632056760);
+  auto motion = drawn_motion<Obb<float>, Aabb<float>>(draw);
+  const float apart = separation(motion.a.shape, motion.b.shape).distance;
+  ASSERT_TRUE(apart > 0 && apart < 0x1p-22f) << apart;
+  for (const float longer : {1.0f, 64.0f}) {  // in contact at the end; through and out by then
+    motion.a.displacement *= longer;
+    motion.b.displacement *= longer;
+    const Toi<float> exact = time_of_impact(motion.a, motion.b),
+                     toi = time_of_impact(Bisection<float>{}, motion.a, motion.b);
+    ASSERT_EQ(exact.status, ToiStatus::hit);
+    EXPECT_EQ(toi.status, ToiStatus::hit) << longer;
+    EXPECT_LE(toi.time, exact.time + half_digits<float>());
+  }
+}
+
+/// They are apart by little more than rounding, and the way from one to the other says that they part.
+TEST(BisectionInDouble, goes_by_no_slope_that_rounding_may_turn) {
+  using V = Vec3<double>;
+  const Moving<Capsule<double>> needle{{V(0, 0, 0), V(0, 0, 0x1.fd9a4db5390ccp-1), 0},
+                                       V(-0x1.ebb818b0dbde4p-2, -0x1.ebb818b0dbde4p-2, 0)};
+  Mat3<double> axes;
+  axes.col(0) << -0x1.fe4ddcaa6fddep-1, -0x1.cce830d9ee0fdp-7, -0x1.481447cab8264p-4;
+  axes.col(1) << 0x1.46171621b2869p-4, 0x1.08046492ea62cp-5, -0x1.fe1ba9d833bebp-1;
+  axes.col(2) << 0x1.0fe5694e42465p-6, -0x1.ffaef0044f3bcp-1, -0x1.fbf0434b27903p-6;
+  const Moving<Obb<double>> plate{
+      {V(-0x1.c89be1512861ep-23, 0x1.f98ba07757453p-17, 0x1.500f3ee5d49cp-2), V(1, 0, 0x1.f9d7295c2a3a6p-17), axes},
+      V(-0x1.ebb80e0fc19b4p-2, -0x1.ebb82707d5eb5p-2, 0x1.6336e7e55ae2ep-3)};
+  EXPECT_TRUE(overlaps(pose_at(needle, 1.0), pose_at(plate, 1.0)));
+  EXPECT_EQ(time_of_impact(Bisection<double>{}, needle, plate).status, ToiStatus::hit);
+}
+
+TEST(BisectionInDouble,
+     goes_by_no_tangent_that_rounding_may_turn) {  // at the end they are apart by little more than rounding
+  using V = Vec3<double>;
+  Obb<double> a{V(-0x1.10e1ed99c9aep-3, 0x1.7a2ab948e3f6ep-1, 0x1.9cad44761579p-1),
+                V(0x1.920e3d9f5058ap-1, 0x1.0ddedad068f86p+0, 0x1.87044cdcc57d5p-2),
+                {}};
+  a.axes << 0x1.8e8d4f7927d9cp-2, 0x1.73fae93ba3df8p-1, 0x1.21f00cb56a68ep-1, -0x1.b155d8d4b0ab9p-3,
+      -0x1.0e3cdc3cf0022p-1, 0x1.a52a0dec0938cp-1, 0x1.cb046c06d74b5p-1, -0x1.c289fe3896be3p-2, -0x1.a78ee386b976p-5;
+  Obb<double> b{V(0x1.fb0b8e47c1e19p+0, -0x1.c04833662ba16p-2, -0x1.576dde720664ap-2),
+                V(0x1.a1b35d7527ee8p-1, 0x1.233bc7d95601fp+0, 0x1.601faa9793e3ap-1),
+                {}};
+  b.axes << -0x1.fb184f46f806p-1, -0x1.a76f8e5fc5b06p-5, 0x1.063f0c976d963p-3, -0x1.0ec3992ff980dp-3,
+      0x1.654ee56d54f18p-4, -0x1.f98954660592ep-1, 0x1.46956b60e248bp-5, -0x1.fd5c74bb9782dp-1, -0x1.7de04a2defbep-4;
+  const Moving<Obb<double>> moving{b, V(-0x1.b2d3d6d4eded7p-5, 0x1.f0728f5b1dbd3p-1, 0x1.8b4cefb648cf5p-1)};
+  EXPECT_TRUE(overlaps(a, pose_at(moving, 0.5)));
+  for (const int e : {0, -60, 60}) {
+    const Toi<double> toi = time_of_impact(Bisection<double>{}, at_rest(scaled(a, e)), scaled(moving, e));
+    EXPECT_EQ(toi.status, ToiStatus::hit) << e;
+    EXPECT_NEAR(toi.time, 0.2575, 1e-4) << e;
+  }
+}
+
+// ---- Conservative advancement: never late, and bounded.
+
+template <class S> using Advancement = MethodCases<S>;
+TYPED_TEST_SUITE(Advancement, Scalars, ScalarNames);
+
+TYPED_TEST(Advancement, one_step_takes_it_before_a_face) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{}, this->shot, this->wall);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(toi.time < S(0.3125));
+  EXPECT_TRUE(toi.time >= S(0.3125) * (1 - 1024 * unit<S>()));  // sizes of 18 over a closing speed of 2, times 16 u
+  EXPECT_EQ(toi.evaluations, 3);                                // the overlap at the start, there, and the proof
+  EXPECT_EQ(toi.normal, Vec3<S>(1, 0, 0));
+  EXPECT_TRUE(toi.point.isApprox(Vec3<S>(-0.125, 0, 0), 4096 * unit<S>()));
+}
+
+TYPED_TEST(Advancement, a_graze_takes_more_and_is_early_by_the_tolerance_over_the_cosine) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  const S cosine = S(31) / S(125);  // sqrt(4 - 1.9375^2) / 2 = 0.248...
+  for (const S& tolerance : {S(0.125), S(0.0625), power<S>(-8), half_digits<S>()}) {
+    const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{.tolerance = tolerance}, this->graze, this->post);
+    EXPECT_EQ(toi.status, ToiStatus::hit);
+    EXPECT_TRUE(toi.time < exact);
+    EXPECT_TRUE(toi.time > exact - tolerance / cosine - 64 * unit<S>());
+  }
+}
+
+TYPED_TEST(Advancement, a_miss_is_proven_in_a_few_steps) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{}, this->passing, this->post);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_LE(toi.evaluations, 8);
+}
+
+TYPED_TEST(Advancement, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
+  using S = TypeParam;
+  const ConservativeAdvancement<S> coarse{.tolerance = power<S>(-6)};  // 1/8 of a length over this path
+  EXPECT_EQ(time_of_impact(coarse, this->passing, this->post).status, ToiStatus::hit);
+}
+
+TYPED_TEST(Advancement, out_of_evaluations_gives_up_with_what_is_proven) {
+  this->template expect_what_is_proven<ConservativeAdvancement<TypeParam>>(true);
+}
+
+TYPED_TEST(Advancement, leaving_is_apart_however_near) {
+  using S = TypeParam;
+  const Moving<Sphere<S>> leaving{Sphere<S>{{-next_up(S(0.375)), 0, 0}, 0.25}, {-1, 0, 0}};
+  const Toi<S> toi = time_of_impact(ConservativeAdvancement<S>{}, leaving, this->wall);
+  EXPECT_TRUE(toi.status == ToiStatus::apart || (toi.status == ToiStatus::hit && toi.time == S(0)));
+  const Moving<Sphere<S>> clear{Sphere<S>{{-S(0.375) * (1 + 1024 * unit<S>()), 0, 0}, 0.25}, {-1, 0, 0}};
+  EXPECT_EQ(time_of_impact(ConservativeAdvancement<S>{}, clear, this->wall).status, ToiStatus::apart);
+}
+
+TEST(AdvancementInFloat,
+     rounds_its_time_down) {  // computed in double; to the nearest float would be late half the time
+  int below = 0;
+  for (int i = 0; i < 200; ++i) {
+    const float x = -1 - static_cast<float>(i) / 256;
+    const Moving<Sphere<float>> shot{{{x, 0, 0}, 0.25F}, {3, 0, 0}};
+    const auto wall = at_rest(Aabb<float>{{0, 0, 0}, {0.125F, 8, 8}});
+    const Toi<float> toi = time_of_impact(ConservativeAdvancement<float>{}, shot, wall);
+    EXPECT_LE(3 * static_cast<double>(toi.time), -0.375 - static_cast<double>(x));
+    below += static_cast<double>(toi.time) * 3 > (-0.375 - static_cast<double>(x)) * (1 - 2e-7) ? 1 : 0;
+  }
+  EXPECT_EQ(below, 200);
+}
+
+// ---- Inclusion: never late, early by at most the tolerance, and bounded.
+
+template <class S> using InclusionMethod = MethodCases<S>;
+TYPED_TEST_SUITE(InclusionMethod, Scalars, ScalarNames);
+
+template <class S>
+const Moving<Sphere<S>> passing_close{{{-4, 2 + power<S>(-10), 0}, 1}, {8, 0, 0}};  // beside the post
+
+TYPED_TEST(InclusionMethod, is_early_by_at_most_the_tolerance) {
+  using S = TypeParam;
+  const S exact = time_of_impact(this->graze, this->post).time;
+  for (const S& tolerance : {S(0.125), power<S>(-8), half_digits<S>(), S(4 * std::numeric_limits<S>::epsilon())}) {
+    const Inclusion<S> method{.tolerance = tolerance};
+    const Toi<S> straight = time_of_impact(method, this->shot, this->wall);
+    EXPECT_EQ(straight.status, ToiStatus::hit);
+    EXPECT_TRUE(straight.time < S(0.3125));
+    EXPECT_TRUE(straight.time >= S(0.3125) - tolerance - 512 * unit<S>());
+    EXPECT_EQ(straight.normal, Vec3<S>(1, 0, 0));
+    const Toi<S> slanted = time_of_impact(method, this->graze, this->post);
+    EXPECT_EQ(slanted.status, ToiStatus::hit);
+    EXPECT_TRUE(slanted.time < exact);
+    EXPECT_TRUE(slanted.time >= exact - tolerance - 512 * unit<S>());
+  }
+}
+
+TYPED_TEST(InclusionMethod, a_miss_is_proven_in_a_few_looks_each_time_the_interval_halves) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(Inclusion<S>{}, passing_close<S>, this->post);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_LE(toi.evaluations, 64);
+}
+
+TYPED_TEST(InclusionMethod, a_miss_nearer_than_the_tolerance_may_be_a_hit) {
+  using S = TypeParam;
+  auto later = passing_close<S>;  // nearest at no middle of an interval
+  later.shape.center[0] -= S(1) / S(3);
+  EXPECT_EQ(time_of_impact(Inclusion<S>{}, later, this->post).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(Inclusion<S>{.tolerance = power<S>(-4)}, later, this->post).status, ToiStatus::hit);
+}
+
+TYPED_TEST(InclusionMethod, out_of_evaluations_gives_up_with_what_is_proven) {
+  this->template expect_what_is_proven<Inclusion<TypeParam>>(false);
+}
+
+// ---- A plane: what it proves, and that rounding only ever weakens the proof.
+
+template <class S> using Plane = MethodCases<S>;
+TYPED_TEST_SUITE(Plane, Scalars, ScalarNames);
+
+TYPED_TEST(Plane, is_open_until_just_before_contact) {
+  using S = TypeParam;
+  const SeparatingPlane<S> plane = separating_plane<Sphere<S>, Aabb<S>>(this->shot, this->wall, {1, 0, 0}, S(0));
+  EXPECT_TRUE(plane.gap < S(0.625) && plane.gap > S(0.625) - 512 * unit<S>());
+  EXPECT_TRUE(plane.closing > S(2) && plane.closing < S(2) + 64 * unit<S>());
+  EXPECT_TRUE(plane.free_until() < S(0.3125) && plane.free_until() > S(0.3125) - 512 * unit<S>());
+  EXPECT_TRUE(plane.free_at(S(0)) && plane.free_at(plane.free_until() * (1 - 8 * unit<S>())));
+  EXPECT_FALSE(plane.free_at(S(0.3125)));
+  EXPECT_FALSE(plane.free_from(S(0)));
+}
+
+TYPED_TEST(Plane, across_any_other_direction_proves_less) {
+  using S = TypeParam;
+  for (const S& tilt : {S(0.03125), S(0.0625), S(1), S(-1)}) {
+    const Vec3<S> n = safe_unit(Vec3<S>(1, tilt, 0));
+    EXPECT_TRUE(separating_plane(this->shot, this->wall, n, S(0)).free_until() < S(0.3125)) << tilt;
+  }
+  EXPECT_EQ((separating_plane<Sphere<S>, Aabb<S>>(this->shot, this->wall, {0, 1, 0}, S(0)).free_until()), S(0));
+  EXPECT_EQ((separating_plane<Sphere<S>, Aabb<S>>(this->shot, this->wall, {-1, 0, 0}, S(0)).free_until()), S(0));
+}
+
+TYPED_TEST(Plane, stays_open_behind_what_leaves) {
+  using S = TypeParam;
+  const Moving<Sphere<S>> leaving{{{-1, 0, 0}, 0.25}, {-2, 0, 0}}, through{{{-0.25, 0, 0}, 0.25}, {-2, 0, 0}};
+  const auto open = separating_plane<Sphere<S>, Aabb<S>>(leaving, this->wall, {1, 0, 0}, S(0));
+  EXPECT_TRUE(open.free_from(S(0)) && open.free_until() > S(1));
+  const auto opening = separating_plane<Sphere<S>, Aabb<S>>(through, this->wall, {1, 0, 0}, S(0));
+  EXPECT_EQ(opening.free_until(), S(0));  // in contact at the start
+  EXPECT_FALSE(opening.free_from(S(0.0625)));
+  EXPECT_TRUE(opening.free_from(S(0.0625) + 512 * unit<S>()));
+}
+
+TYPED_TEST(Plane, knows_how_far_every_shape_reaches) {
+  using S = TypeParam;
+  const Vec3<S> x(1, 0, 0), n = safe_unit(Vec3<S>(1, 1, 0));
+  const S root = n[0];  // of one half
+  Mat3<S> turned = Mat3<S>::Identity();
+  turned.col(0) = n;
+  turned.col(1) = Vec3<S>(-root, root, 0);
+  const auto near = [](const S& found, const S& wanted) { return largest(S(found - wanted)) <= 16 * unit<S>(); };
+  EXPECT_EQ(reach_along(Sphere<S>{{5, 0, 0}, 2}, n), S(2));
+  EXPECT_TRUE(near(reach_along(Aabb<S>{{5, 0, 0}, {2, 1, 4}}, n), 3 * root));
+  EXPECT_TRUE(near(reach_along(Obb<S>{{5, 0, 0}, {2, 1, 4}, turned}, n), S(2)));
+  EXPECT_TRUE(near(reach_along(Obb<S>{{5, 0, 0}, {2, 1, 4}, turned}, x), 3 * root));
+  EXPECT_TRUE(near(reach_along(Triangle<S>{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, x), S(2)));  // the centroid is at 1
+  EXPECT_TRUE(near(reach_along<S>(Triangle<S>{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, -x), S(1)));
+  EXPECT_TRUE(near(reach_along(Capsule<S>{{-1, 0, 0}, {3, 2, 0}, 0.5}, x), S(2.5)));
+  EXPECT_TRUE(near(reach_along<S>(Capsule<S>{{-1, 0, 0}, {3, 2, 0}, 0.5}, -x), S(2.5)));
+}
+
+TEST(RoundedDown, is_the_largest_float_that_is_not_later) {
+  const double above = 0.5 + 1e-9, below = 0.5 - 1e-9;  // nearer to 0.5 than to its neighbors
+  EXPECT_EQ(rounded_down_to<float>(above), 0.5);
+  EXPECT_EQ(rounded_down_to<float>(below), 0.5 - power<double>(-25));
+  EXPECT_EQ(rounded_down_to<float>(0.5), 0.5);
+  EXPECT_EQ(rounded_down_to<float>(0.0), 0.0);
+  EXPECT_EQ(rounded_down_to<double>(above), above);
+  EXPECT_EQ(rounded_down_to<float>(1e-60), 0.0);  // the smallest float is later
+}
+
+// ---- Speculative contacts: what a margin sees, and its false hits.
+
+template <class S> using SpeculativeMethod = MethodCases<S>;
+TYPED_TEST_SUITE(SpeculativeMethod, Scalars, ScalarNames);
+
+TYPED_TEST(SpeculativeMethod, is_right_before_a_wall) {
+  using S = TypeParam;
+  const Toi<S> toi = time_of_impact(Speculative<S>{}, this->shot, this->wall);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(toi.time < S(0.3125) && toi.time > S(0.3125) * (1 - 1024 * unit<S>()));
+  EXPECT_EQ(toi.evaluations, 2);
+  EXPECT_EQ(toi.normal, Vec3<S>(1, 0, 0));
+}
+
+TYPED_TEST(SpeculativeMethod, takes_the_other_for_the_plane_before_it) {  // and hits what would pass beside
+  using S = TypeParam;
+  const Moving<Sphere<S>> past_the_rim{{{-2, 8.25, 0}, 0.25}, {8, 2, 0}};
+  EXPECT_EQ(time_of_impact(past_the_rim, this->wall).status, ToiStatus::apart);
+  const Toi<S> toi = time_of_impact(Speculative<S>{}, past_the_rim, this->wall);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  const Moving<Sphere<S>> stopping{{{-2, 8.25, 0}, 0.25}, {1, 0.25, 0}}, leaving{{{-2, 0, 0}, 0.25}, {-8, 1, 0}};
+  EXPECT_EQ(time_of_impact(Speculative<S>{}, stopping, this->wall).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(Speculative<S>{}, leaving, this->wall).status, ToiStatus::apart);
+}
+
+TYPED_TEST(SpeculativeMethod, a_smaller_margin_misses_what_is_farther_off) {
+  using S = TypeParam;  // a gap of 0.625, a path of 2
+  for (const S& margin : {S(0.3125), S(0.5), S(1), S(64)})
+    EXPECT_EQ(time_of_impact(Speculative<S>{.margin = margin}, this->shot, this->wall).status, ToiStatus::hit);
+  for (const S& margin : {S(0.25), S(0)})
+    EXPECT_EQ(time_of_impact(Speculative<S>{.margin = margin}, this->shot, this->wall).status, ToiStatus::apart);
+  const auto touching = at_rest(Sphere<S>{{-0.375, 0, 0}, 0.25});
+  EXPECT_EQ(time_of_impact(Speculative<S>{.margin = 0}, touching, this->wall).status, ToiStatus::overlapping);
+}
+
+TYPED_TEST(SpeculativeMethod,
+           the_margin_counts_from_the_minimal_separation) {  // which is all that keeps it from a miss
+  using S = TypeParam;
+  const Moving<Sphere<S>> short_step{{{-1, 0, 0}, 0.25}, {0.5, 0, 0}};  // a gap of 0.625
+  EXPECT_EQ(time_of_impact(Speculative<S>{}, short_step, this->wall).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(Speculative<S>{.min_separation = 0.25}, short_step, this->wall).status, ToiStatus::hit);
+}
+
+// ---- The tutorial's rule for two fast bodies: the false hits it removes and the true ones it misses.
+
+template <class S> class Confirm : public ::testing::Test {
+ protected:
+  using Ball = Moving<Sphere<S>>;
+  const Ball east{{{-4, 0, 0}, 0.5}, {8, 0, 0}};  // through the origin at half the step
+};
+TYPED_TEST_SUITE(Confirm, Scalars, ScalarNames);
+
+TYPED_TEST(Confirm, tracks_that_cross_at_different_times_are_no_hit) {
+  using S = TypeParam;
+  const typename TestFixture::Ball late{{{0, -16, 0}, 0.5}, {0, 20, 0}};
+  const Toi<S> toi = time_of_impact(SweepThenConfirm<S>{}, this->east, late);
+  EXPECT_EQ(toi.status, ToiStatus::apart);
+  EXPECT_EQ(toi.evaluations, 3);  // the start, the ray into the track, and the true volumes, which are apart
+  EXPECT_EQ(time_of_impact(this->east, late).status, ToiStatus::apart);
+}
+
+TYPED_TEST(Confirm, misses_two_bullets_that_do_meet) {  // the one is in the other's track before the other arrives
+  using S = TypeParam;
+  const typename TestFixture::Ball north{{{0, -3.5, 0}, 0.5}, {0, 9, 0}};
+  EXPECT_EQ(time_of_impact(this->east, north).status, ToiStatus::hit);
+  EXPECT_EQ(time_of_impact(SweepThenConfirm<S>{}, this->east, north).status, ToiStatus::apart);
+}
+
+TYPED_TEST(Confirm, sees_them_if_the_other_is_there_already) {
+  using S = TypeParam;
+  const typename TestFixture::Ball slow{{{0, -0.25, 0}, 0.5}, {0, 0.5, 0}};
+  const Toi<S> toi = time_of_impact(SweepThenConfirm<S>{}, this->east, slow);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(toi.time >= time_of_impact(this->east, slow).time);
+  EXPECT_TRUE(overlaps(pose_at(this->east, toi.time), pose_at(slow, toi.time)));
+}
+
+TYPED_TEST(Confirm, starting_in_the_track_looks_at_the_start_alone) {
+  using S = TypeParam;
+  const typename TestFixture::Ball chased{{{-2, 0, 0}, 0.5}, {1, 0, 0}}, oncoming{{{4, 0, 0}, 0.5}, {-8, 0, 0}};
+  EXPECT_EQ(time_of_impact(this->east, oncoming).status, ToiStatus::hit);
+  EXPECT_EQ(time_of_impact(SweepThenConfirm<S>{}, this->east, oncoming).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(SweepThenConfirm<S>{}, this->east, chased).status, ToiStatus::hit);
+}
+
+TYPED_TEST(Confirm, at_a_wall_at_rest_it_is_the_ray_from_the_center) {
+  using S = TypeParam;
+  const auto wall = at_rest(Aabb<S>{{0, 0, 0}, {0.125, 8, 8}});
+  for (const S& height : {S(0), S(7.5), S(8.25)}) {
+    const typename TestFixture::Ball shot{{{-1, height, 0}, 0.5}, {2, 0.25, 0}};
+    const Toi<S> toi = time_of_impact(SweepThenConfirm<S>{}, shot, wall);
+    const Toi<S> ray = time_of_impact(CentreRay<S>{}, shot, wall);
+    EXPECT_EQ(text(toi.status), text(ray.status)) << height;
+    EXPECT_EQ(toi.time, ray.time) << height;
+  }
+}
+
+TYPED_TEST(Confirm, overlap_at_the_start_is_overlapping_whatever_the_tracks) {
+  using S = TypeParam;
+  const typename TestFixture::Ball there{{{-4.5, 0, 0}, 0.5}, {-3, 1, 0}}, touching{{{-5, 0, 0}, 0.5}, {8, 0, 0}};
+  for (const auto& other : {there, touching}) {
+    const Toi<S> toi = time_of_impact(SweepThenConfirm<S>{}, this->east, other);
+    EXPECT_EQ(toi.status, ToiStatus::overlapping);
+    EXPECT_EQ(toi.time, S(0));
+    EXPECT_TRUE(is_unit(toi.normal));
+  }
+}
+
+TYPED_TEST(Confirm, boxes_sweep_oriented_boxes) {
+  using S = TypeParam;
+  const Moving<Aabb<S>> shooter{{{-4, 0, 0}, {0.5, 0.5, 0.5}}, {8, 0, 0}};
+  const Moving<Aabb<S>> drifting{{{0, -0.25, 0}, {0.5, 0.5, 0.5}}, {0.5, 0.5, 0}};
+  const Toi<S> toi = time_of_impact(SweepThenConfirm<S>{}, shooter, drifting);
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_TRUE(overlaps(pose_at(shooter, toi.time), pose_at(drifting, toi.time)));
+  const Toi<S> back = time_of_impact(SweepThenConfirm<S>{}, drifting, shooter);
+  EXPECT_EQ(back.time, toi.time);
+  EXPECT_EQ(back.normal, Vec3<S>(-toi.normal));
+}
+
+TYPED_TEST(Confirm, serves_what_sweeps_a_shape) {
+  using S = TypeParam;
+  using Method = SweepThenConfirm<S>;
+  static_assert(serves<Method, Sphere<S>, Sphere<S>> && serves<Method, Sphere<S>, Aabb<S>>);
+  static_assert(serves<Method, Aabb<S>, Aabb<S>> && !serves<Method, Obb<S>, Sphere<S>>);
+  static_assert(!serves<Method, Capsule<S>, Sphere<S>> && !serves<Method, Triangle<S>, Sphere<S>>);
+}
+
+/// Balls at equal speeds whose paths cross at a right angle, uniform over all that touch: the numbers of docs/methods.md.
+TEST(ConfirmedShare, is_two_in_five_at_a_right_angle) {
+  Shaker<double> draw(1);
+  const Vec3<double> east(50, 0, 0), north(0, 50, 0), across = safe_unit<double>(east + north), up(0, 0, 1);
+  int touching = 0, seen = 0;
+  while (touching < 5000) {
+    const double x = draw.plain(), z = draw.plain(), time = (draw.plain() + 1) / 2;
+    const Vec3<double> nearest = across * x + up * z;  // from the one to the other; they are half as wide
+    const Moving<Sphere<double>> a{{nearest - east * time, 0.5}, east}, b{{-north * time, 0.5}, north};
+    if (time_of_impact(a, b).status != ToiStatus::hit) continue;
+    ++touching;
+    seen += time_of_impact(SweepThenConfirm<double>{}, a, b).status == ToiStatus::hit ? 1 : 0;
+  }
+  EXPECT_GT(seen, 0.37 * touching);
+  EXPECT_LT(seen, 0.41 * touching);
+}
+
+TYPED_TEST(Confirm, min_separation_confirms_a_gap) {
+  using S = TypeParam;
+  const typename TestFixture::Ball north{{{0, -3.5, 0}, 0.5}, {0, 9, 0}};
+  EXPECT_EQ(time_of_impact(SweepThenConfirm<S>{.min_separation = 0.5}, this->east, north).status, ToiStatus::hit);
 }
 
 }  // namespace

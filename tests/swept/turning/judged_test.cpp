@@ -1,19 +1,22 @@
 // Every time of impact of what turns, judged by the oracle, on motions drawn to be hard: nothing touches before the answered time, a hit
-// is near by then, and what is called apart is proven apart.
+// is near by then, and what is called apart is proven apart. And the queries that are published.
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <thinwall/swept/turning/turning_impact.hpp>
 
-#include "support/numbers_of.hpp"
 #include "support/thorough.hpp"
 #include "support/turning_motions.hpp"
 #include "support/turning_oracle.hpp"
+#include "support/turning_rows.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -98,6 +101,116 @@ TEST(JudgedTurning, box_and_capsule) { judge_pair<Obb<double>, Capsule<double>>(
 TEST(JudgedTurning, box_and_box) { judge_pair<Obb<double>, Obb<double>>(); }
 TEST(JudgedTurning, triangle_and_sphere) { judge_pair<Triangle<double>, Sphere<double>>(); }
 TEST(JudgedTurning, triangle_and_capsule) { judge_pair<Triangle<double>, Capsule<double>>(); }
+
+// ---- The published queries of what turns (docs/data/turning): what draws, proves and writes them, and rows of them proven again. To write
+// them:
+//   THINWALL_WRITE_TURNING=docs/data/turning build/release/tests/tests_swept --gtest_filter='PublishedTurning.*'
+
+constexpr int queries = 1250;  ///< a pair, of which there are eight
+
+template <class A, class B> struct PublishedPair {
+  const char* name;
+  std::uint64_t number;
+};
+
+template <class F> void each_pair(const F& f) {
+  using Ball = Sphere<double>;
+  using Rod = Capsule<double>;
+  using Box = Obb<double>;
+  using Plate = Triangle<double>;
+  f(PublishedPair<Ball, Ball>{"sphere_sphere", 0});
+  f(PublishedPair<Rod, Ball>{"capsule_sphere", 1});
+  f(PublishedPair<Rod, Rod>{"capsule_capsule", 2});
+  f(PublishedPair<Box, Ball>{"obb_sphere", 3});
+  f(PublishedPair<Box, Rod>{"obb_capsule", 4});
+  f(PublishedPair<Box, Box>{"obb_obb", 5});
+  f(PublishedPair<Plate, Ball>{"triangle_sphere", 6});
+  f(PublishedPair<Plate, Rod>{"triangle_capsule", 7});
+}
+
+/// 30 decimals of a time in [0, 1], rounded down.
+std::string time_text(const oracle::Time& time) {
+  constexpr std::size_t decimals = 30;
+  std::string digits =
+      oracle::Time(floor(time * pow(oracle::Time(10), static_cast<int>(decimals)))).convert_to<oracle::Integer>().str();
+  if (digits.size() <= decimals) digits.insert(0, decimals + 1 - digits.size(), '0');
+  return digits.insert(digits.size() - decimals, ".");
+}
+
+/// A power of ten that they are proven to stay more than apart, one of the largest; 0 if that is less than 1e-12.
+template <class A, class B>
+std::string clearance_text(const Turning<A>& a, const Turning<B>& b, oracle::TurningOracle<A, B>& oracle) {
+  double seen = separation(a.shape, b.shape).distance;
+  for (int k = 1; k <= 64; ++k) seen = std::min(seen, separation(pose_at(a, k / 64.0), pose_at(b, k / 64.0)).distance);
+  int exponent = 0;
+  while (exponent > -12 && !(std::pow(10, exponent) < seen)) --exponent;
+  for (; exponent >= -12; --exponent) {
+    oracle.intervals = 0;
+    if (oracle.free_until(1, std::pow(10, exponent)) >= 1) return "1e" + std::to_string(exponent);
+  }
+  return "0";
+}
+
+/// Nothing where the oracle cannot decide.
+template <class A, class B> std::optional<TurningAnswer> proven_answer(const Turning<A>& a, const Turning<B>& b) {
+  using enum oracle::TurningVerdict;
+  oracle::TurningOracle<A, B> oracle(a, b);
+  const oracle::FirstContact contact = oracle.first_contact(31);
+  if (contact.verdict == apart) return TurningAnswer{"apart", "", clearance_text(a, b, oracle)};
+  if (contact.verdict == hit) return TurningAnswer{"hit", time_text(contact.lower), ""};
+  if (contact.verdict == overlapping) return TurningAnswer{"overlapping", "0", ""};
+  return {};
+}
+
+/// The line of a query: of every style and aim in turn, but none of a million turns; few in contact from the start.
+template <class A, class B> std::string published_row(const PublishedPair<A, B>& pair, int query) {
+  constexpr int styles = motion_styles - 1;
+  const int nth = query % styles, frantic = static_cast<int>(MotionStyle::frantic);
+  const int style = nth < frantic ? nth : nth + 1, aim = query / styles % 4;
+  MotionDraw draw(pair.number << 32 | static_cast<std::uint64_t>(query));
+  for (int tries = 1;; ++tries) {
+    const auto [a, b] = draw.motion<A, B>(static_cast<MotionStyle>(style), static_cast<Aim>(aim));
+    if (query % 16 != 0 && tries < 8 && overlaps(a.shape, b.shape)) continue;
+    if (const auto answer = proven_answer(a, b)) {
+      return turning_row(query, motion_style_names[static_cast<std::size_t>(style)],
+                         aim_names[static_cast<std::size_t>(aim)], *answer, a, b);
+    }
+  }
+}
+
+template <class A, class B> std::string header_of(const PublishedPair<A, B>&) {
+  MotionDraw draw(0);
+  const auto [a, b] = draw.motion<A, B>(MotionStyle::any, Aim::none);
+  return turning_header(a, b);
+}
+
+TEST(PublishedTurning, are_written_where_asked) {
+  const char* folder = std::getenv("THINWALL_WRITE_TURNING");
+  if (folder == nullptr) GTEST_SKIP() << "THINWALL_WRITE_TURNING names no folder";
+  each_pair([&](const auto& pair) {
+    std::ofstream out(std::filesystem::path(folder) / (std::string(pair.name) + ".csv"), std::ios::binary);
+    out << header_of(pair) << "\n";
+    for (int query = 0; query < queries; ++query) out << published_row(pair, query) << "\n";
+    EXPECT_TRUE(out.flush()) << pair.name;
+  });
+}
+
+/// A part of them, the same for every pair; THINWALL_THOROUGH=160 is all.
+TEST(PublishedTurning, are_drawn_and_proven_again_to_the_byte) {
+  const int every = std::max(1, 160 / static_cast<int>(thorough(1)));
+  each_pair([&](const auto& pair) {
+    std::ifstream in(std::string(THINWALL_TURNING_QUERIES) + "/" + pair.name + ".csv", std::ios::binary);
+    std::string line;
+    ASSERT_TRUE(std::getline(in, line)) << pair.name;
+    EXPECT_EQ(line, header_of(pair));
+    int query = 0;
+    for (; std::getline(in, line); ++query) {
+      if (query % every != query / every % every) continue;
+      EXPECT_EQ(line, published_row(pair, query)) << pair.name;
+    }
+    EXPECT_EQ(query, queries) << pair.name;
+  });
+}
 
 }  // namespace
 }  // namespace thinwall::testing
