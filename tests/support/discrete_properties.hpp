@@ -4,7 +4,6 @@
 #include <thinwall/discrete/queries.hpp>
 
 #include "support/draw.hpp"
-#include "support/errors.hpp"
 #include "support/judge.hpp"
 #include "support/property.hpp"
 

@@ -4,9 +4,7 @@
 #include <thinwall/swept/time_of_impact.hpp>
 
 #include "support/bodies.hpp"
-#include "support/errors.hpp"
-#include "support/pair.hpp"
-#include "support/real.hpp"
+#include "support/oracle.hpp"
 
 namespace thinwall::testing {
 

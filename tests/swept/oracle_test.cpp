@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/errors.hpp"
+#include "support/oracle.hpp"
 
 namespace thinwall::oracle {
 namespace {
