@@ -22,18 +22,12 @@ namespace thinwall {
 
 namespace {
 
-/// Of the small configuration, run once for all tests that only look.
-const Outcome& small_outcome() {
-  static const Outcome outcome = outcome_of(bouncing_experiment(), small_toml("bouncing"));
-  return outcome;
-}
-
 const BouncePolicy& policy_of(std::string_view name) {
   return *std::ranges::find(all_bounce_policies, name, &BouncePolicy::name);
 }
 
 TEST(Bouncing, agrees_with_theory) {
-  const Outcome& outcome = small_outcome();
+  const Outcome& outcome = small_outcome(bouncing_experiment());
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 5U);
   EXPECT_EQ(table_of(outcome, "cells").rows.size(), 3U * 3 * 5);
@@ -108,7 +102,8 @@ TEST(Bouncing, fails_a_scenario_that_went_wrong) {
 }
 
 TEST(Bouncing, too_few_bounces_are_not_judged) {
-  EXPECT_EQ(value_of(table_of(small_outcome(), "self_test"), "project_flip", "other_cells"), Value(std::int64_t{0}));
+  EXPECT_EQ(value_of(table_of(small_outcome(bouncing_experiment()), "self_test"), "project_flip", "other_cells"),
+            Value(std::int64_t{0}));
   const Outcome few = outcome_of(bouncing_experiment(), small_toml("bouncing"), {.seed = 1, .trials = 20});
   EXPECT_EQ(value_of(table_of(few, "self_test"), "linear_toi", "other_cells"), Value(std::int64_t{6}));
 }

@@ -22,14 +22,8 @@ namespace thinwall {
 
 namespace {
 
-/// Of every kind of cell, at rest, chase, crossing and head-on: run once for all tests that only look.
-const Outcome& small_outcome() {
-  static const Outcome outcome = outcome_of(crossing_bullets_experiment(), small_toml("crossing_bullets"));
-  return outcome;
-}
-
 std::int64_t count(const char* table, const char* rule, const char* column) {
-  return std::get<std::int64_t>(value_of(table_of(small_outcome(), table), rule, column));
+  return std::get<std::int64_t>(value_of(table_of(small_outcome(crossing_bullets_experiment()), table), rule, column));
 }
 
 /// The failure is specified too.
@@ -51,7 +45,7 @@ TEST(CrossingBullets, sweeping_both_makes_false_hits_and_the_confirmed_are_none)
 }
 
 TEST(CrossingBullets, agrees_with_theory) {
-  const Outcome& outcome = small_outcome();
+  const Outcome& outcome = small_outcome(crossing_bullets_experiment());
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 1U + 4 * 3);
   EXPECT_EQ(table_of(outcome, "times").rows.size(), 3U);

@@ -40,12 +40,6 @@ std::vector<HitscanCell> cells_of(const char* text) {
   return make_hitscan_cells(Settings(text, "test.toml", hitscan_experiment().default_toml));
 }
 
-/// Of every kind of cell, near and far, thin and thick, steep and flat: run once for all tests that only look.
-const Outcome& small_outcome() {
-  static const Outcome outcome = outcome_of(hitscan_experiment(), small_toml("hitscan"));
-  return outcome;
-}
-
 /// Whether the bullet touches a target at `center` across the line of fire, and what each rule says.
 std::vector<bool> hits_at(const HitscanCell& c, const Vec3<double>& center) {
   const Vec3<double> there = center + Vec3<double>(c.range, 0, 0);
@@ -96,7 +90,7 @@ TEST(Hitscan, nothing_differs_where_nothing_pulls) {
 }
 
 TEST(Hitscan, agrees_with_theory_and_says_what_the_ray_misses) {
-  const Outcome& outcome = small_outcome();
+  const Outcome& outcome = small_outcome(hitscan_experiment());
   EXPECT_NE(outcome.answer.find("with a rifle at 100 m (theory 28.7 %"), std::string::npos) << outcome.answer;
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 1U + 4 * 3);

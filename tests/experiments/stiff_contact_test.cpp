@@ -363,12 +363,6 @@ TEST(StiffBounce, walls_and_balls_may_be_thin) {
 
 // ---- The stiff contact's settings and answers, and whether a wrong theory would be noticed.
 
-/// Of the small configuration, run once for all tests that only look.
-const Outcome& small_stiff_outcome() {
-  static const Outcome outcome = outcome_of(stiff_contact_experiment(), small_toml("stiff_contact"));
-  return outcome;
-}
-
 StiffResults measured_small() {
   const Settings settings(small_toml("stiff_contact"), "test.toml", stiff_contact_experiment().default_toml);
   StiffResults all = {make_stiff_plan(settings, {.seed = 1, .trials = {}}), {}, {}, {}};
@@ -397,7 +391,7 @@ bool passes_with_limit(StiffResults m, Scheme scheme, const std::function<double
 }
 
 TEST(StiffContact, agrees_with_theory_and_says_so) {
-  const Outcome& outcome = small_stiff_outcome();
+  const Outcome& outcome = small_outcome(stiff_contact_experiment());
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
   for (const std::vector<Value>& row : table_of(outcome, "self_test").rows) {
     EXPECT_GT(std::get<std::int64_t>(row[1]), 0) << std::get<std::string>(row[0]);  // no claim is empty
@@ -456,7 +450,7 @@ TEST(StiffContact, fails_a_wrong_bounce) {
 }
 
 TEST(StiffContact, an_unstable_step_is_reported_with_the_step_where_it_blew_up) {
-  const Table& map = table_of(small_stiff_outcome(), "stability");
+  const Table& map = table_of(small_outcome(stiff_contact_experiment()), "stability");
   std::size_t unstable = 0;
   for (std::size_t row = 0; row < map.rows.size(); ++row) {
     if (value_of(map, row, "verdict") != Value("unstable")) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -107,6 +108,14 @@ inline Outcome outcome_of(const Run& run) {
 inline Outcome outcome_of(const Experiment& experiment, std::string_view text,
                           RunOptions options = {.seed = 1, .trials = {}}) {
   return outcome_of(*run_of(experiment, text, options));
+}
+
+/// Of its small configuration, run once for all tests that only look.
+inline const Outcome& small_outcome(const Experiment& experiment) {
+  static std::map<std::string, Outcome> outcomes;
+  const std::string name(experiment.name);
+  if (!outcomes.contains(name)) outcomes[name] = outcome_of(experiment, small_toml(name));
+  return outcomes[name];
 }
 
 // ---- What is in a result.
