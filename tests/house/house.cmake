@@ -48,13 +48,8 @@ add_test(NAME house/presets COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_
 # A pair that is not served is a compile error that names it.
 add_test(NAME house/unserved_pair_is_named
   COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/swept/unserved_pair.cpp"
-          "-DINCLUDES=${PROJECT_BINARY_DIR}/include;$<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>"
-          -P "${house}/unserved_pair.cmake")
-add_test(NAME house/uncertified_pair_is_named
-  COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}"
-          "-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/swept/certified/uncertified_pair.cpp"
           "-DINCLUDES=${PROJECT_BINARY_DIR}/include;$<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>;$<TARGET_PROPERTY:Boost::headers,INTERFACE_INCLUDE_DIRECTORIES>"
-          -P "${house}/uncertified_pair.cmake")
+          -P "${house}/unserved_pair.cmake")
 
 if(thinwall_slow_build)  # what follows does not depend on sanitizers
   return()

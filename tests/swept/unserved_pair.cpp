@@ -1,8 +1,11 @@
-// Compiled by tests/house/unserved_pair.cmake: a scene's list with a box and a triangle, a pair that is not served. Asked
-// one by one (ONE_BY_ONE) or in groups (GROUPED) it must not compile, and the error must name the pair.
+// Compiled by tests/house/unserved_pair.cmake: a box and a triangle, a pair that is not served. Asked about one by one
+// (ONE_BY_ONE), in groups (GROUPED) or for a proof (CERTIFIED) it must not compile, and the error must name the pair.
 
 #include <thinwall/swept/dispatch.hpp>
 #include <thinwall/swept/turning/turning_impact.hpp>
+#ifdef CERTIFIED
+#include <thinwall/swept/certified.hpp>
+#endif
 
 using namespace thinwall;
 
@@ -19,6 +22,13 @@ std::vector<bool> ask(const std::vector<Body>& a, const std::vector<Wall>& b, co
 std::vector<bool> ask(const std::vector<Body>& a, const std::vector<Wall>& b, const std::vector<IndexPair>& pairs) {
   return answers(group_pairs(a, b, pairs), a, b, pairs, false,
                  [](const auto& x, const auto& y) { return overlaps(x, y); });
+}
+#endif
+
+#ifdef CERTIFIED
+bool ask(const Moving<Obb<double>>& a, const Moving<Triangle<double>>& b);
+bool ask(const Moving<Obb<double>>& a, const Moving<Triangle<double>>& b) {
+  return certified_time_of_impact(a, b).verdict == ToiStatus::hit;
 }
 #endif
 
