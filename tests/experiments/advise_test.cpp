@@ -239,13 +239,6 @@ TEST(AdviceText, says_what_to_use_and_what_it_costs) {
   EXPECT_EQ(advice_sentence(advise(bullet_wish, {}, {})), "No method here meets the wish at this step.");
 }
 
-TEST(AdviceText, a_point_against_a_sheet_is_explained) {
-  const std::string text = advice_text(advice_on(all_sorts()[2]));
-  EXPECT_TRUE(holds(text, "A point and a wall of no thickness are in contact for an instant"));
-  EXPECT_TRUE(holds(text, "end of each step would not do at any step"));
-  EXPECT_TRUE(holds(text, "no formula"));
-}
-
 TEST(AdviceText, a_bound_is_rounded_to_the_safe_side) {
   EXPECT_EQ(rounded_down_text(0.0199999, 4), "0.01999");
   EXPECT_EQ(rounded_down_text(0.02, 4), "0.02");

@@ -169,7 +169,6 @@ TEST(BouncingConfig, refuses_what_does_not_go_together) {
                                           {"step = [1e-6]", "gravity adds 0.0001 to 0.5 of the impact speed"},
                                           {"radius = 1e-4", "0.001 to 10 times the height"},
                                           {"radius = 11", "0.001 to 10 times the height"},
-                                          {"policy = ['project_flp']", "did you mean 'project_flip'?"},
                                           {"mass_ratio = [0.5]", "key 'mass_ratio'"},
                                           {"runs = 1", "key 'runs'"},
                                           {"run_bounces = 0", "key 'run_bounces'"},

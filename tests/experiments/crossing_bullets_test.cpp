@@ -146,13 +146,6 @@ TEST(CrossingBulletsConfig, asks_every_method_of_the_list_that_serves_two_sphere
   EXPECT_EQ(table_of(outcome, "rules").rows.size(), names.size());
 }
 
-TEST(CrossingBulletsConfig, answers_for_any_choice_of_rules) {
-  const Outcome outcome = outcome_of(crossing_bullets_experiment(),
-                                     "rule = ['bisection']\nspeed = [10]\nratio = [1]\nangle_deg = [90]\nshots = 20");
-  EXPECT_TRUE(holds(outcome.answer, "bisection misses 0 of"));
-  EXPECT_TRUE(outcome.figures.empty());
-}
-
 TEST(CrossingBulletsConfig, refuses_what_cannot_be_asked) {
   expect_refusals(crossing_bullets_experiment(),
                   {{"speed = [1e-6]", "a path of 0.01 to 10000 contact distances a step"},

@@ -541,8 +541,6 @@ TEST(EnginesConfig, names_the_setting_that_is_out_of_range) {
                    {"swept_radius = [1.5]", "key 'swept_radius'"},
                    {"motion_threshold = 0", "key 'motion_threshold'"},
                    {"substeps = [1]", "key 'substeps'"},
-                   {"engine = ['unity']", "key 'engine'"},
-                   {"stage = ['brick']", "key 'stage'"},
                    {"stage_path = 0.66", "at least 0.67 m, so that what is not stopped has passed"}});
   EXPECT_EQ(refusal_of(engines_experiment(), "stage_path = 0.67"), "");
 }

@@ -408,7 +408,6 @@ TEST(ThinWallConfig, refuses_what_cannot_be_fired) {
                                            {"step = [1e-9]", "key 'step'"},
                                            {"wall_size = 0.01", "key 'wall_size'"},
                                            {"substeps = [1]", "key 'substeps'"},
-                                           {"method = ['closedform']", "key 'method'"},
                                            {"response = 'bounces'", "key 'response'"}});
 }
 

@@ -239,15 +239,6 @@ TEST(WorkPrecisionHeat, of_what_turns_who_claims_to_be_never_late_is_held_to_it)
   EXPECT_FALSE(keeps_contract(heat)) << "missed";
 }
 
-TEST(WorkPrecisionResult, keeps_times_out_of_what_is_hashed) {
-  const Outcome outcome = outcome_of(work_precision_experiment(), small_toml("work_precision"));
-  for (const Table& table : outcome.tables) EXPECT_EQ(table.is_timing, table.name != "errors") << table.name;
-  for (const Figure& figure : outcome.figures) {
-    EXPECT_EQ(figure.panels.size(), 2u) << figure.name;
-    EXPECT_EQ(figure.is_timing, !figure.name.ends_with("evaluations")) << figure.name;
-  }
-}
-
 TEST(WorkPrecisionResult, leaves_out_pictures_of_nothing) {  // gnuplot minds
   const auto run = race_run("method = [\"end_of_step\"]\nset = [\"sphere_wall\"]\nqueries = 40\nrounds = 2");
   for (const Figure& figure : outcome_of(*run).figures) {

@@ -20,13 +20,6 @@ namespace thinwall {
 
 namespace {
 
-/// 10 of 100, by hand with z = 1.959963984540054.
-TEST(Wilson, agrees_with_its_formula) {
-  const Interval interval = wilson(10, 100);
-  EXPECT_NEAR(interval.lower, 0.0552291370606751, 1e-14);
-  EXPECT_NEAR(interval.upper, 0.17436566150491345, 1e-14);
-}
-
 /// The ends of the interval are the probabilities for which the count is 1.96 standard errors away.
 TEST(Wilson, ends_are_a_normal_quantile_away) {
   const Interval interval = wilson(37, 1000);

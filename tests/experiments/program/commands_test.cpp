@@ -257,12 +257,6 @@ TEST_F(CompletionTest, other_shells_can_read_their_scripts) {
   }
 }
 
-TEST_F(CompletionTest, refuses_a_shell_it_does_not_know) {
-  const ProcessResult reply = in_folder({THINWALL_PROGRAM, "completion", "bsh"});
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_EQ(reply.output, "completion: 'bsh' is not allowed; did you mean 'bash'? (allowed: bash, zsh, fish)\n");
-}
-
 TEST_F(CompletionTest, knows_every_option_of_every_command_and_its_meaning) {
   for (const CompletedCommand& command : completed_commands({})) {
     EXPECT_FALSE(command.summary.empty()) << command.name;
@@ -371,23 +365,9 @@ struct BadInputTest : ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
     EXPECT_FALSE(std::filesystem::exists(folder / "results"));
   }
-
-  void expect_refused_config(const std::string& text, const Words& said) const {
-    write_text(folder / "my.toml", "experiment = \"thin_wall\"\n" + text + "\n");
-    expect_refused({"run", "my.toml", "--out", "out"}, said);
-  }
 };
 
-TEST_F(BadInputTest, configurations) {
-  expect_refused_config("raduis = [0.1]", {"my.toml:2: key 'raduis': unknown key", "did you mean 'radius'?"});
-  expect_refused_config("step = [0]", {"my.toml:2: key 'step': 0 is not allowed", "numbers > 0", "[s]"});
-  expect_refused_config(
-      "method = [\"end_of_stp\"]",
-      {"my.toml:2: key 'method': 'end_of_stp' is not allowed; did you mean 'end_of_step'? (allowed: "});
-  expect_refused_config("radius = [0.1", {"my.toml:2: not TOML, at column "});
-}
-
-TEST_F(BadInputTest, experiments) {
+TEST_F(BadInputTest, experiments_and_their_files) {
   expect_refused({"run", "thin_wal", "--out", "out"}, {"'thin_wal': unknown experiment; did you mean 'thin_wall'?"});
   write_text(folder / "my.toml", "experiment = \"thinwall\"\n");
   expect_refused({"run", "my.toml", "--out", "out"},

@@ -40,6 +40,8 @@ TEST_F(ToyRunTest, leaves_a_whole_result_folder) {
     EXPECT_TRUE(files.contains(name)) << name;
   }
   for (const auto& [name, text] : files) EXPECT_TRUE(name.find("journal") == name.npos && name[0] != '.') << name;
+  EXPECT_TRUE(holds(files.at("report.html"), "The squares &amp; &lt;their&gt; sum."));
+  EXPECT_TRUE(holds(files.at("report.html"), "<p>First.</p>\n<p>Second.</p>"));
   EXPECT_TRUE(files.at("data/cells.csv").starts_with("cell,square,name,root,even\n0,3,\"a, \"\"b\"\"\",,true\n1,4,"));
 }
 
@@ -73,13 +75,6 @@ TEST_F(ToyRunTest, says_in_its_manifest_where_it_came_from) {
   EXPECT_FALSE(json.at("machine").at("cpu").get<std::string>().empty());
   EXPECT_LE(json.at("started").get<std::string>(), json.at("finished").get<std::string>());
   EXPECT_EQ(json.at("started").get<std::string>().size(), std::string("2026-11-21T12:34:56Z").size());
-}
-
-TEST_F(ToyRunTest, writes_what_it_says_into_its_report) {
-  ASSERT_EQ(run().status, 0);
-  const std::string page = read_text(out + "/report.html");
-  EXPECT_TRUE(holds(page, "The squares &amp; &lt;their&gt; sum."));
-  EXPECT_TRUE(holds(page, "<p>First.</p>\n<p>Second.</p>"));
 }
 
 TEST_F(ToyRunTest, reports_a_failed_self_test) {
