@@ -1,9 +1,11 @@
-/// The program as it is, with its headline experiment in small: the same bytes for any thread count, and after any end.
+/// The program as it is, with its headline experiment in small: the same bytes for any thread count, and after any end; and every
+/// command of the README, run as it stands there.
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <iostream>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -377,6 +379,136 @@ TEST_F(FullDiskTest, is_no_bad_input_when_there_is_no_room_for_the_first_row) {
       "mount -t tmpfs -o nr_inodes=2 none disk\n"
       "'" THINWALL_PROGRAM "' run my.toml --out disk/out; echo $?; ls -A disk/out");
   EXPECT_EQ(end.output, "failed: --out disk/out: cannot be written: No space left on device\n1\n");
+}
+
+// ---- The commands of a document and what they print, as a reader would type and see them.
+//
+//     ```console
+//     $ build/release/thinwall list
+//     thin_wall  How often ...
+//     ```
+//
+// A line of output that is `...` stands for any lines, and `...` within a line for any text. A fenced TOML block whose first line
+// is `# NAME.toml` is a file that the commands find.
+
+struct ConsoleCommand {
+  std::string line;                 ///< without the prompt
+  std::vector<std::string> output;  ///< what the document shows of it
+};
+
+struct Document {
+  std::vector<ConsoleCommand> commands;
+  std::map<std::string, std::string> files;  ///< text by name
+};
+
+Document read_document(const std::string& markdown) {
+  Document out;
+  std::string fence, file;
+  std::istringstream in(markdown);
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      fence = fence.empty() ? line.substr(3) : "";
+      file.clear();
+    } else if (fence == "console") {
+      if (line.starts_with("$ ")) {
+        out.commands.push_back({line.substr(2), {}});
+      } else if (!out.commands.empty()) {
+        out.commands.back().output.push_back(line);
+      }
+    } else if (fence == "toml") {
+      if (file.empty() && line.starts_with("# ") && line.ends_with(".toml")) file = line.substr(2);
+      if (!file.empty()) out.files[file] += line + "\n";
+    }
+  }
+  return out;
+}
+
+/// True if `line` is `pattern`, in which `...` stands for any text.
+bool line_matches(std::string_view pattern, std::string_view line) {
+  const auto gap = pattern.find("...");
+  if (gap == std::string_view::npos) return pattern == line;
+  if (!line.starts_with(pattern.substr(0, gap))) return false;
+  const std::string_view rest = pattern.substr(gap + 3);
+  for (std::size_t at = gap; at <= line.size(); ++at) {
+    if (line_matches(rest, line.substr(at))) return true;
+  }
+  return false;
+}
+
+/// True if `lines` from the `i`-th are `pattern` from its `j`-th.
+bool lines_match(const std::vector<std::string>& pattern, const std::vector<std::string>& lines, std::size_t j = 0,
+                 std::size_t i = 0) {
+  if (j == pattern.size()) return i == lines.size();
+  if (pattern[j] == "...") {
+    for (std::size_t k = i; k <= lines.size(); ++k) {
+      if (lines_match(pattern, lines, j + 1, k)) return true;
+    }
+    return false;
+  }
+  return i < lines.size() && line_matches(pattern[j], lines[i]) && lines_match(pattern, lines, j + 1, i + 1);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string indented(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const std::string& line : lines) out += "  | " + line + "\n";
+  return out;
+}
+
+TEST(Console, finds_commands_output_and_files) {
+  const Document document =
+      read_document("text\n```console\n$ a b\nx\n...\n$ c\n```\n```toml\n# my.toml\nk = 1\n```\n");
+  ASSERT_EQ(document.commands.size(), 2u);
+  EXPECT_EQ(document.commands[0].line, "a b");
+  EXPECT_EQ(document.commands[0].output, (std::vector<std::string>{"x", "..."}));
+  EXPECT_TRUE(document.commands[1].output.empty());
+  EXPECT_EQ(document.files.at("my.toml"), "# my.toml\nk = 1\n");
+}
+
+TEST(Console, three_points_stand_for_any_text) {
+  EXPECT_TRUE(line_matches("a ... c", "a b c"));
+  EXPECT_TRUE(line_matches("a...", "a"));
+  EXPECT_FALSE(line_matches("a ... c", "a b d"));
+  EXPECT_FALSE(line_matches("a", "a b"));
+  EXPECT_TRUE(lines_match({"x", "...", "z"}, {"x", "y", "y", "z"}));
+  EXPECT_TRUE(lines_match({"...", "z"}, {"z"}));
+  EXPECT_FALSE(lines_match({"x", "...", "z"}, {"x", "y"}));
+  EXPECT_FALSE(lines_match({"x"}, {"x", "y"}));
+}
+
+TEST(Readme, every_command_prints_what_is_shown) {
+  if (testing::slow_build)
+    GTEST_SKIP() << "the commands take minutes under the sanitizers; the release build runs them";
+  const std::filesystem::path root = THINWALL_SOURCE;
+  const Document readme = read_document(read_text(root / "README.md"));
+  ASSERT_GE(readme.commands.size(), 10u);
+  TemporaryFolder folder;  // as a fresh clone looks to the commands, after the build
+  for (const char* name : {"experiments", "docs"})
+    std::filesystem::create_directory_symlink(root / name, folder / name);
+  std::filesystem::create_directories(folder / "build/release");
+  std::filesystem::create_symlink(THINWALL_PROGRAM, folder / "build/release/thinwall");
+  for (const auto& [name, text] : readme.files) write_text(folder / name, text);
+
+  for (const auto& [line, output] : readme.commands) {
+    SCOPED_TRACE(line);
+    if (line.starts_with("./") || line.starts_with("git ")) {
+      std::cout << "not run here but by ./check itself, or before it: " << line << "\n";
+      continue;
+    }
+    const ProcessResult result = run_process({"sh", "-c", line + " 2>/dev/null"}, folder.path());
+    EXPECT_EQ(result.status, 0);
+    if (output.empty()) continue;
+    const std::vector<std::string> printed = lines_of(result.output);
+    EXPECT_TRUE(lines_match(output, printed)) << "the README shows\n"
+                                              << indented(output) << "but it prints\n"
+                                              << indented(printed);
+  }
 }
 
 }  // namespace
