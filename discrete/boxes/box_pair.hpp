@@ -348,6 +348,31 @@ template <Scalar S> BoxTouch<S> touch_of(const BoxPair<S>& pair, const LeastOver
   return touch;
 }
 
+/// The direction n out of the box [-h, h] at a point of its surface, without what rounding has put in: at a corner it does not lean inwards,
+/// on an edge or a face not along it.
+template <Scalar S> Vec3<S> leaning_outwards(const Vec3<S>& n, const Vec3<S>& point, const Vec3<S>& h, const S& noise) {
+  Vec3<S> outwards = n;
+  for (int i = 0; i < 3; ++i) {
+    const bool on_side = largest(point[i]) >= h[i] - noise, leans_in = (n[i] > S(0)) != (point[i] > S(0));
+    if (h[i] > noise && (!on_side || leans_in)) outwards[i] = 0;
+  }
+  return outwards;
+}
+
+/// The unit vector n from one of two near points to the other, each on its box, or what is left of it without what it leans by rounding, if
+/// that parts the boxes more: over a gap hardly wider than a rounding the line through two points is hardly a direction.
+template <Scalar S> Vec3<S> straightened(const BoxPair<S>& pair, const BoxPoints<S>& points, const Vec3<S>& n) {
+  const S noise = box_noise(pair);
+  const Vec3<S> on_b = pair.axes.transpose() * (points.on_b - pair.between);
+  Vec3<S> best = n, next = n;
+  for (int round = 0; round < 2; ++round) {
+    next = -(pair.axes * leaning_outwards<S>(-(pair.axes.transpose() * next), on_b, pair.half_b, noise));
+    next = safe_unit(leaning_outwards(next, points.on_a, pair.half_a, noise));
+    if (next != Vec3<S>::Zero() && pair.overlap(next) < pair.overlap(best)) best = next;
+  }
+  return best;
+}
+
 /// The gap from A to B in A's axes, with B's point relative to B's center.
 /// Degenerate: among axes of equal overlap the first wins: A's faces, B's faces, edges; coincident centers go positive.
 template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
@@ -356,7 +381,7 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
   if (!boxes_overlap(pair)) {
     points = closest_points(pair);
     gap.distance = safe_norm<S>(points.on_b - points.on_a);
-    gap.normal = safe_unit<S>(points.on_b - points.on_a);
+    gap.normal = straightened(pair, points, safe_unit<S>(points.on_b - points.on_a));
   }
   if (gap.distance <= box_noise(pair)) {
     const BoxTouch<S> touch = touch_of(pair, least_overlap(pair));
@@ -369,39 +394,15 @@ template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
   return gap;
 }
 
-/// The direction n out of the box [-h, h] at a point of its surface, without what rounding has put in: at a corner it does not lean inwards,
-/// on an edge or a face not along it.
-template <Scalar S> Vec3<S> leaning_outwards(const Vec3<S>& n, const Vec3<S>& point, const Vec3<S>& h, const S& noise) {
-  Vec3<S> outwards = n;
-  for (int i = 0; i < 3; ++i) {
-    const bool on_side = largest(point[i]) >= h[i] - noise, leans_in = (n[i] > S(0)) != (point[i] > S(0));
-    if (h[i] > noise && (!on_side || leans_in)) outwards[i] = 0;
-  }
-  return outwards;
-}
-
 /// The same with the normal of a plane that parts the boxes by all of the gap, and how far it parts them. Beside nearly parallel
-/// faces or edges many points are as near as rounding can tell, and the line through two of them may lean: then an axis parts
-/// them more, or that line without what it leans.
+/// faces or edges many points are as near as rounding can tell, and an axis may part them more.
 template <Scalar S> CoreGap<S> parting_gap(const BoxPair<S>& pair) {
   CoreGap<S> gap = box_gap(pair);
   if (!(gap.distance > S(0))) return gap;
-  S least = pair.overlap(gap.normal);
-  const auto consider = [&](const Vec3<S>& n) {
-    if (n == Vec3<S>::Zero() || !(pair.overlap(n) < least)) return;
-    least = pair.overlap(n);
-    gap.normal = n;
-  };
-  const S noise = box_noise(pair);
-  const Vec3<S> on_b = pair.axes.transpose() * gap.local_b;
-  Vec3<S> n = gap.normal;
-  for (int round = 0; round < 2; ++round) {
-    n = -(pair.axes * leaning_outwards<S>(-(pair.axes.transpose() * n), on_b, pair.half_b, noise));
-    n = safe_unit(leaning_outwards(n, gap.local_a, pair.half_a, noise));
-    consider(n);
-  }
-  consider(least_overlap(pair).normal);
-  gap.distance = -least;
+  const LeastOverlap<S> axis = least_overlap(pair);
+  const S along = pair.overlap(gap.normal), least = pair.overlap(axis.normal);
+  if (least < along) gap.normal = axis.normal;
+  gap.distance = -std::min(along, least);
   return gap;
 }
 
