@@ -11,7 +11,8 @@
 namespace thinwall {
 
 /// Several axes tell the same time where they are normal to one flat face, each by roundings of its own. So shadows count as overlapping while
-/// they do but for `noise`: but not those that are left at the start.
+/// they do but for `noise`: but not those that are left at the start; and in the last scalar only those that reach hardly farther than it, as
+/// those of level faces without thickness do. All others would be met too soon by it.
 template <Scalar S> struct SharedTime {
   /// `size` [length] is at least the sum of all lengths that go into a shadow on any axis; not of the path, of which no more than three times
   /// that lies between the start and a contact. Where a wider scalar has the last word, noise is what leaves it to that; else what level faces
@@ -34,8 +35,9 @@ template <Scalar S> struct SharedTime {
     using std::copysign;
     const S side = copysign(S(1), speed);
     const auto at = [&](const S& ahead) { return S((side * ahead - distance) / speed); };
-    const S enter = at(S(-reach)), leave = at(reach), off = noise * weight,
-            wider = speed == S(0) ? reach : S(reach + off);
+    const S enter = at(S(-reach)), leave = at(reach), off = noise * weight;
+    const bool counts = has_wider<S> || reach <= 4 * off;
+    const S wider = speed == S(0) || !counts ? reach : S(reach + off);
     if (enter > first) decided_by = axis;
     second = enter > first ? first : enter > second ? enter : second;
     first = enter > first ? enter : first;

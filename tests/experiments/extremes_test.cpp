@@ -130,6 +130,15 @@ TEST(Extremes, the_textbook_breaks_at_scales_whose_squares_are_out_of_range) {
   }
 }
 
+/// The kernel alone, without a wider scalar behind it.
+TEST(Extremes, what_turned_boxes_graze_in_float_is_right_to_its_digits) {
+  for (const std::string_view pair : {"obb_obb", "aabb_obb"}) {
+    const ExtremeTally grazing = tally_of(pair, in_float, {ExtremeAxis::grazing, 1e-6}, 100, "closed_form");
+    EXPECT_EQ(grazing.queries, 100);
+    EXPECT_LE(grazing.worst_wrong, break_verdict) << pair;
+  }
+}
+
 TEST(Extremes, asks_nothing_that_a_precision_cannot_hold) {
   const Place place = {ExtremeAxis::scale, 1e-100};
   EXPECT_EQ(tally_of("sphere_sphere", in_float, place, 5, "closed_form").queries, 0);
