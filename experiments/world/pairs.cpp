@@ -242,7 +242,7 @@ struct Seen {
 struct Look {
   template <class A, class B> Seen operator()(const Moving<A>& a, const Moving<B>& b) const {
     Seen seen{thinwall::contact(a.shape, b.shape)};
-    if (seen.contact) seen.point = center(a.shape) + seen.contact->local_a;
+    if (seen.contact) seen.point = middle(separation(a.shape, b.shape));
     return seen;
   }
 };

@@ -49,7 +49,7 @@ Gyration gyration(const Capsule<double>& capsule) {
 
 Gyration gyration(const Obb<double>& box) {
   const Vec3<double> square = box.half_extents.cwiseAbs2() / 3;
-  return {box.axes, Vec3<double>::Constant(square.sum()) - square};
+  return {box.axes, {square[1] + square[2], square[0] + square[2], square[0] + square[1]}};
 }
 Gyration gyration(const Aabb<double>& box) { return gyration(to_obb(box)); }
 Gyration gyration(const Sphere<double>& ball) {

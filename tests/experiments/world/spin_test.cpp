@@ -58,6 +58,8 @@ TEST(Spin, inertia_is_that_of_the_solid) {
   EXPECT_NEAR(rod.axes.determinant(), 1, 1e-15);
   const Gyration box = gyration_of(Obb<double>{{0, 0, 0}, {1, 2, 3}, Mat3<double>::Identity()});
   EXPECT_LT((box.squares - Vec3<double>(13.0 / 3, 10.0 / 3, 5.0 / 3)).norm(), 1e-15);
+  const Gyration needle = gyration_of(Obb<double>{{0, 0, 0}, {1e-9, 1e-9, 1}, Mat3<double>::Identity()});
+  EXPECT_NEAR(needle.squares[2] / 1e-18, 2.0 / 3, 1e-15);
   EXPECT_EQ(gyration_of(Sphere<double>{{0, 0, 0}, 5}).squares, Vec3<double>(10, 10, 10));
   const Mat3<double> thin = inverse_inertia(rod_along_x(1, 0), 1);  // no extent about its own axis
   EXPECT_EQ(thin(0, 0), 0);
@@ -109,6 +111,24 @@ TEST(Spin, a_rod_struck_by_a_ball_turns_as_the_arm_says) {
       const double about_start = ball_mass * position(*world.find(2)).x() * world.find(2)->velocity.y() +
                                  inertia * world.find(1)->angular_velocity.z();
       EXPECT_NEAR(about_start, ball_mass * arm * speed, 1e-8);  // the numeric inertia's digits
+    }
+  }
+}
+
+/// On a wide floor a box lands flat, far from the floor's middle: it meets it under its own, whichever of the two is first.
+TEST(Spin, a_box_that_lands_flat_is_thrown_back_as_it_came) {
+  for (const TimePolicy policy : {TimePolicy::discrete, TimePolicy::clamp, TimePolicy::event_driven}) {
+    for (const std::uint32_t id_of_floor : {0U, 9U}) {
+      const Obb<double> cube{{0, 0.505, 0}, {0.5, 0.5, 0.5}, Mat3<double>::Identity()};
+      Body box = spinning_body(5, cube, {0, 0, 0});
+      box.velocity = {0, -1, 0};
+      World world({fixed(body_of(id_of_floor, Aabb<double>{{40, -0.5, 0}, {60, 0.5, 60}})), box}, {.policy = policy});
+      for (int k = 0; k < 3; ++k) {
+        world.step(0.01);
+        for (const Hit& hit : world.hits()) EXPECT_LT((hit.point - Vec3<double>(0, 0, 0)).norm(), 0.01);
+      }
+      EXPECT_NEAR(world.find(5)->velocity.y(), 1, 1e-9) << name_of(policy) << ", floor " << id_of_floor;
+      EXPECT_LT(world.find(5)->angular_velocity.norm(), 1e-9);
     }
   }
 }
