@@ -16,10 +16,10 @@
 #include <thinwall/experiments/validate/validate.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
+#include "support/numbers_of.hpp"
 #include "support/program.hpp"
 #include "support/real.hpp"
 #include "support/reply.hpp"
-#include "support/turning_rows.hpp"
 
 namespace thinwall {
 namespace {

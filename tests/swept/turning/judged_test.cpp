@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 #include <thinwall/swept/turning/turning_impact.hpp>
 
+#include "support/numbers_of.hpp"
 #include "support/thorough.hpp"
 #include "support/turning_motions.hpp"
 #include "support/turning_oracle.hpp"
-#include "support/turning_rows.hpp"
 
 namespace thinwall::testing {
 namespace {
