@@ -387,18 +387,6 @@ TEST(AdviceAgreement, is_there_whatever_is_wished) {
   expect_agreement({.cell = {10, 0.001, 0.02, 0.01, 0}});                         // a step shorter than the contact
 }
 
-/// At the longest step that is called safe the count is within the wish, and a tenth beyond it is not.
-TEST(AdviceAgreement, the_longest_step_is_safe_and_a_longer_one_is_not) {
-  for (const double miss : {0.0, 0.4}) {
-    Wish wish = bullet_wish;
-    wish.miss = miss;
-    wish.cell.step = *longest_step(wish, row_of(advice_on(wish), "end_of_step").method.theory);
-    EXPECT_TRUE(counts_of(miss).contains(static_cast<double>(Fired(wish).found("end_of_step").tunneled))) << miss;
-    wish.cell.step *= 1.1;
-    EXPECT_GT(static_cast<double>(Fired(wish).found("end_of_step").tunneled), counts_of(miss).upper) << miss;
-  }
-}
-
 /// What docs/advise.md says of a ball that is in contact when it starts, uniformly along its path in the wall.
 TEST(AdviceAgreement, a_start_in_contact_is_lost_on_tested_poses_alone) {
   Cell cell = bullet;

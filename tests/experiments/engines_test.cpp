@@ -168,18 +168,6 @@ TEST(EngineJudge, measures_depth_at_the_ends_of_steps) {
   EXPECT_EQ(tally.deepest, 0.25);
 }
 
-TEST(EngineJudge, adds_up) {
-  EngineTally sum;
-  sum += judged({-8, 0, 0}, {-2, 0, 0});
-  sum += judged({-6, 0, 0}, {-2, 0, 0});
-  sum += judged({6, 0, 0}, {2, 0, 0});
-  EXPECT_EQ(sum.shots, 3);
-  EXPECT_EQ(sum.turned, 2);
-  EXPECT_EQ(sum.lateness.mean(), 0.25);
-  EXPECT_EQ(sum.earliest, 0);
-  EXPECT_EQ(sum.latest, 0.5);
-}
-
 // ---- The experiment engines: what ours does, what the engines of others that are built in do, what is said of the rest, and its settings.
 
 constexpr std::string_view few_engine_shots = R"(

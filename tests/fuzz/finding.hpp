@@ -2,7 +2,6 @@
 /// What the fuzz target does when a property fails: says which, prints the input as C++ and stops, so that the fuzzer keeps
 /// the bytes. With THINWALL_FUZZ_KEEP_GOING set it goes on: it prints the first few of each kind and counts the rest.
 
-#include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>

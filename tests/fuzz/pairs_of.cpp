@@ -1,8 +1,5 @@
 // Every pair with one shape as the later, at one scalar: compiled once for each, for all of them in one file take minutes.
 
-#include <algorithm>
-#include <string>
-
 #include <thinwall/swept/turning/turning_bounds.hpp>
 #include <thinwall/swept/turning/turning_impact.hpp>
 

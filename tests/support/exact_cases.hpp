@@ -4,7 +4,6 @@
 /// Inputs are written as doubles. A scalar that does not hold one takes its nearest value, and then the oracle alone
 /// says what is right; a scalar in which one overflows or vanishes leaves the case out.
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>

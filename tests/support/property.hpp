@@ -2,7 +2,6 @@
 /// Property tests that draw the same cases in every run.
 /// RC_PARAMS="seed=1 max_success=1000" draws others, ten times as many.
 
-#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>

@@ -1,11 +1,8 @@
 #pragma once
 /// Motions that turn, drawn to be hard: what dips in and returns, misses by a hair, touches as the step ends, or is degenerate.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>

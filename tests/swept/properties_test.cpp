@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/swept/swept_volume.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 #include "support/draw.hpp"
@@ -143,25 +142,6 @@ TYPED_TEST(SweptPair, powers_of_two_change_no_bits) {
     RC_ASSERT(faster.time == expected || put_at_end);
     RC_ASSERT(faster.normal == here.normal);
   });
-}
-
-/// A swept ball is a capsule: its core holds the center at every time, to rounding.
-template <class S> void capsule_holds_the_ball() {
-  const Style style = draw_style();
-  const Moving<Sphere<S>> moving{drawn(style, TypeTag<Sphere<S>>{}), draw_vector<S>(style)};
-  const Capsule<S> swept = swept_volume(moving);
-  RC_ASSERT(swept.radius == moving.shape.radius);
-  oracle::Body core = oracle::body(swept), ball = oracle::body(moving);
-  core.radius = ball.radius = 0;
-  for (int step = 0; step <= 8; ++step) {
-    const oracle::Real time = oracle::Real(step) / 8;
-    const oracle::Pair pair{core, at_time(ball, time), 0};
-    RC_ASSERT(oracle::gap(pair, 0).separation <= oracle::unit_roundoff<S>() * size_at(pair, 0));
-  }
-}
-TEST(SweptVolume, capsule_holds_the_ball) {
-  check_property(2000, capsule_holds_the_ball<float>);
-  check_property(2000, capsule_holds_the_ball<double>);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Swept volumes and naive bounds hold the moving shape at every time, checked without rounding.
 
-#include <array>
 #include <thinwall/swept/swept_volume.hpp>
 #include <vector>
 
@@ -114,6 +113,18 @@ TYPED_TEST(SweptVolume, enclosing_sphere_and_box_hold_the_shape_at_every_time) {
     ASSERT_LE(enclosing_sphere(ball).radius - tight, 64 * unit<S>() * (largest(ball.shape.center) + tight)) << run;
     const auto box = drawn_moving<Aabb<S>>(draw);
     ASSERT_TRUE(contains(enclosing_aabb(box), hull(box))) << run;
+  }
+}
+
+TYPED_TEST(SweptVolume, capsule_is_the_way_of_the_balls_center_and_its_radius) {
+  using S = TypeParam;
+  Shaker<S> draw(2);
+  for (int run = 0; run < 1000; ++run) {
+    const auto ball = drawn_moving<Sphere<S>>(draw);
+    const Capsule<S> swept = swept_volume(ball);
+    ASSERT_EQ(swept.a, ball.shape.center) << run;
+    ASSERT_EQ(swept.b, Vec3<S>(ball.shape.center + ball.displacement)) << run;
+    ASSERT_EQ(swept.radius, ball.shape.radius) << run;
   }
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_int.hpp>

@@ -2,7 +2,6 @@
 // the time. Boxes around motions and certificates are held against poses of the motion.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
