@@ -481,8 +481,8 @@ TEST(WorldInput, names_the_option_and_what_is_allowed) {
 
 TEST(WorldInput, refuses_a_step_that_is_none) {
   World world({bullet()}, {});
-  for (const double dt : {0.0, -1.0, nan, infinite}) {
-    EXPECT_EQ(error_of<WorldError>([&] { world.step(dt); }), "world: a step must be > 0 s and finite");
+  for (const double bad : {0.0, -1.0, nan, infinite}) {
+    EXPECT_EQ(error_of<WorldError>([&] { world.step(bad); }), "world: a step must be > 0 s and finite");
   }
   EXPECT_EQ(world.report().step, 0U);
 }
