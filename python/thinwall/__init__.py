@@ -7,6 +7,8 @@
 array([False, False,  True])
 """
 
+from typing import TYPE_CHECKING
+
 from ._version import __version__
 from .queries import (
     DecidedBy,
@@ -23,6 +25,16 @@ from .queries import (
     valid,
 )
 from .shapes import Aabb, Capsule, Moving, Obb, Ray, Sphere, Triangle, Turning, at_rest
+
+if TYPE_CHECKING:
+    from . import theory as theory
+    from .advice import advise as advise
+    from .experiments import defaults as defaults
+    from .experiments import run as run
+    from .results import Result as Result
+    from .results import read as read
+    from .scenes import compare as compare
+    from .scenes import world as world
 
 # Experiments are loaded when they are first asked for: whoever asks queries waits for none of it.
 _LAZY = {
@@ -63,16 +75,18 @@ __all__ = [
 ]
 
 
-def __getattr__(name):
-    if name not in _LAZY:
-        raise AttributeError(f"module 'thinwall' has no attribute {name!r}")
-    import importlib
+if not TYPE_CHECKING:  # to which what is not above does not exist
 
-    module = importlib.import_module("." + (_LAZY[name] or name), __name__)
-    value = module if _LAZY[name] is None else getattr(module, name)
-    globals()[name] = value
-    return value
+    def __getattr__(name):
+        if name not in _LAZY:
+            raise AttributeError(f"module 'thinwall' has no attribute {name!r}")
+        import importlib
+
+        module = importlib.import_module("." + (_LAZY[name] or name), __name__)
+        value = module if _LAZY[name] is None else getattr(module, name)
+        globals()[name] = value
+        return value
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted(set(globals()) | set(__all__))

@@ -51,8 +51,8 @@ def _near(name, known):
 
 def _nearest(name, known, what):
     near = _near(name, known)
-    meant = f"; did you mean {near[0]!r}?" if near else ""
-    return f"{what} is {name!r}{meant} Allowed is {', '.join(known)}" if near else f"{what} is {name!r}; allowed is {', '.join(known)}"
+    hint = f"; did you mean {near[0]!r}? Allowed" if near else "; allowed"
+    return f"{what} is {name!r}{hint} is {', '.join(known)}"
 
 
 def _check_shape(query, argument, shape, classes):

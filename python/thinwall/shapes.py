@@ -5,20 +5,38 @@ against any number of rows, as NumPy broadcasts. Numbers of Python's own and lis
 arrays beside them, and are float64 where there is none. Whatever else is an error; nothing is cast in silence.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+    from typing import NoReturn, Union
+
+    from numpy.typing import NDArray
+    from typing_extensions import Self, TypeAlias
+
+    _Array: TypeAlias = NDArray[np.floating[Any]]
+    _Number: TypeAlias = Union[float, np.floating[Any], Sequence[float], _Array]
+    _Vector: TypeAlias = Union[Sequence[float], Sequence[Sequence[float]], _Array]
+    _Matrix: TypeAlias = Union[Sequence[Sequence[float]], Sequence[Sequence[Sequence[float]]], _Array]
+    _Rows_At: TypeAlias = Union[slice, Sequence[int], NDArray[np.integer[Any]], NDArray[np.bool_]]
+    _Still: TypeAlias = Union["Sphere", "Aabb", "Obb", "Triangle", "Capsule"]
 
 _AXES = {"scalar": (), "vector": (3,), "matrix": (3, 3)}
 _FLOATS = (np.dtype(np.float64), np.dtype(np.float32))
 
 
-def _is_literal(value):
+def _is_literal(value: Any) -> bool:
     """True for a number of Python's own, and for lists and tuples of nothing else."""
     if isinstance(value, (list, tuple)):
         return all(map(_is_literal, value))
     return type(value) in (float, int)
 
 
-def _words(shape):
+def _words(shape: tuple[Any, ...]) -> str:
     return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
 
 
@@ -26,10 +44,13 @@ class _Rows:
     """What all shapes share: arrays, one a field, of one row or of N."""
 
     __slots__ = ("_arrays", "_rows", "dtype")
-    _fields: "dict[str, str]" = {}
+    _fields: dict[str, str] = {}
+    _arrays: tuple[_Array, ...]
+    _rows: int | None
+    dtype: np.dtype[np.floating[Any]]
 
-    def _set(self, values, dtype=None):
-        arrays = {}
+    def _set(self, values: Mapping[str, Any], dtype: Any = None) -> None:
+        arrays: dict[str, Any] = {}
         for name, value in values.items():
             if isinstance(value, np.generic):  # a scalar of NumPy's
                 value = np.asarray(value)
@@ -64,33 +85,32 @@ class _Rows:
         self._arrays = tuple(arrays.values())
         self._rows = rows
 
-    def _literal(self, name, value):
+    def _literal(self, name: str, value: Any) -> _Array:
         try:
-            array = np.array(value, dtype=self.dtype)
+            return np.array(value, dtype=self.dtype)
         except (ValueError, OverflowError) as error:
             self._refuse(name, f"{value!r:.60}", f"numbers in rows of equal length ({error})", ValueError)
-        return array
 
-    def _refuse(self, name, got, allowed, error=None):
+    def _refuse(self, name: str, got: str, allowed: str, error: type[Exception] | None = None) -> NoReturn:
         error = error or (ValueError if "shape" in got or "rows" in got else TypeError)
         raise error(f"{type(self).__name__}: {name} is {got}; allowed is {allowed}")
 
-    def __len__(self):
+    def __len__(self) -> int:
         """The number of rows. A shape of one row without an axis of rows has no length, as a scalar of NumPy's."""
         if self._rows is None:
             raise TypeError(f"{type(self).__name__}: one shape, without rows, has no length")
         return self._rows
 
     @property
-    def is_one(self):
+    def is_one(self) -> bool:
         """True if no array has an axis of rows."""
         return self._rows is None
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Self]:
         for i in range(len(self)):
             yield self[i]
 
-    def _at(self, key, rows):
+    def _at(self, key: Any, rows: int) -> list[Any]:
         """The arrays at those of `rows` rows: views for slices, copies for arrays of indices and masks, as of NumPy's arrays."""
         arrays = []
         for axes, array in zip(self._fields.values(), self._arrays):
@@ -99,55 +119,55 @@ class _Rows:
             arrays.append(array)
         return arrays
 
-    def _rows_at(self, key, rows):
+    def _rows_at(self, key: Any, rows: int) -> Self:
         return type(self)(*self._at(key, rows))
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: int | np.integer[Any] | _Rows_At) -> Self:
         """Rows, by an index, a slice, an array of indices or a mask."""
         if self._rows is None:
             raise TypeError(f"{type(self).__name__}: one shape, without rows, cannot be indexed")
-        if isinstance(key, tuple) or key is None or key is Ellipsis or np.ndim(key) > 1:
+        if isinstance(key, tuple) or key is None or key is Ellipsis or np.ndim(key) > 1:  # type: ignore[arg-type]
             raise TypeError(f"{type(self).__name__}: rows are indexed by an index, a slice, an array (N,) or a mask, not by {key!r:.60}")
         return self._rows_at(key, self._rows)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         fields = ", ".join(self._fields)
         rows = "one" if self._rows is None else f"{self._rows} rows"
         return f"<{type(self).__name__}({fields}): {rows}, {self.dtype}>"
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         """True if all arrays are equal, row for row; NaN is unequal to itself."""
-        if type(self) is not type(other):
+        if not isinstance(other, _Rows) or type(self) is not type(other):
             return NotImplemented
         return self.dtype == other.dtype and self._rows == other._rows and all(map(np.array_equal, self._arrays, other._arrays))
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
-    def __copy__(self):
+    def __copy__(self) -> Self:
         return type(self)(*self._given())
 
-    def __deepcopy__(self, memo):
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
         return type(self)(*(np.copy(a) if isinstance(a, np.ndarray) else a.__deepcopy__(memo) for a in self._given()))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._given()
 
-    def _given(self):
+    def _given(self) -> tuple[Any, ...]:
         return self._arrays
 
-    def _side(self):
+    def _side(self) -> tuple[str, list[_Array]]:
         """The kind and the arrays, as _queries takes them."""
         return type(self).__name__, list(self._arrays)
 
 
-def _field(cls, index, name):
-    def get(self):
+def _field(cls: type, index: int, name: str) -> None:
+    def get(self: _Rows) -> _Array:
         return self._arrays[index]
 
     setattr(cls, name, property(get, doc=f"The {name}, as given."))
 
 
-def _shape(cls):
+def _shape(cls: Any) -> Any:
     for index, name in enumerate(cls._fields):
         _field(cls, index, name)
     return cls
@@ -166,9 +186,11 @@ class Sphere(_Rows):
     """
 
     __slots__ = ()
+    center: _Array
+    radius: _Array
     _fields = {"center": "vector", "radius": "scalar"}
 
-    def __init__(self, center, radius):
+    def __init__(self, center: _Vector, radius: _Number) -> None:
         self._set({"center": center, "radius": radius})
 
 
@@ -185,9 +207,11 @@ class Aabb(_Rows):
     """
 
     __slots__ = ()
+    center: _Array
+    half_extents: _Array
     _fields = {"center": "vector", "half_extents": "vector"}
 
-    def __init__(self, center, half_extents):
+    def __init__(self, center: _Vector, half_extents: _Vector) -> None:
         self._set({"center": center, "half_extents": half_extents})
 
 
@@ -207,9 +231,12 @@ class Obb(_Rows):
     """
 
     __slots__ = ()
+    center: _Array
+    half_extents: _Array
+    axes: _Array
     _fields = {"center": "vector", "half_extents": "vector", "axes": "matrix"}
 
-    def __init__(self, center, half_extents, axes):
+    def __init__(self, center: _Vector, half_extents: _Vector, axes: _Matrix) -> None:
         self._set({"center": center, "half_extents": half_extents, "axes": axes})
 
 
@@ -224,9 +251,12 @@ class Triangle(_Rows):
     """
 
     __slots__ = ()
+    a: _Array
+    b: _Array
+    c: _Array
     _fields = {"a": "vector", "b": "vector", "c": "vector"}
 
-    def __init__(self, a, b, c):
+    def __init__(self, a: _Vector, b: _Vector, c: _Vector) -> None:
         self._set({"a": a, "b": b, "c": c})
 
 
@@ -243,9 +273,12 @@ class Capsule(_Rows):
     """
 
     __slots__ = ()
+    a: _Array
+    b: _Array
+    radius: _Array
     _fields = {"a": "vector", "b": "vector", "radius": "scalar"}
 
-    def __init__(self, a, b, radius):
+    def __init__(self, a: _Vector, b: _Vector, radius: _Number) -> None:
         self._set({"a": a, "b": b, "radius": radius})
 
 
@@ -264,9 +297,12 @@ class Ray(_Rows):
     """
 
     __slots__ = ()
+    origin: _Array
+    direction: _Array
+    max_t: _Array
     _fields = {"origin": "vector", "direction": "vector", "max_t": "scalar"}
 
-    def __init__(self, origin, direction, max_t=float("inf")):
+    def __init__(self, origin: _Vector, direction: _Vector, max_t: _Number = float("inf")) -> None:
         self._set({"origin": origin, "direction": direction, "max_t": max_t})
 
 
@@ -274,9 +310,11 @@ class _InMotion(_Rows):
     """A shape and its motion over one step."""
 
     __slots__ = ("shape",)
-    _still = (Sphere, Aabb, Obb, Triangle, Capsule)
+    shape: _Still
+    displacement: _Array
+    _still: tuple[type, ...] = (Sphere, Aabb, Obb, Triangle, Capsule)
 
-    def _set_motion(self, shape, motion):
+    def _set_motion(self, shape: _Still, motion: Mapping[str, Any]) -> None:
         if not isinstance(shape, self._still):
             allowed = ", ".join(cls.__name__ for cls in self._still[:-1]) + f" or {self._still[-1].__name__}"
             hint = "; a box along the axes that turns is an Obb" if isinstance(shape, Aabb) else ""
@@ -290,20 +328,22 @@ class _InMotion(_Rows):
         elif self._rows != shape._rows:
             self._refuse("displacement", f"an array of {self._rows} rows", f"{shape._rows}, as the shape has, or 1")
 
-    def _given(self):
+    def _given(self) -> tuple[Any, ...]:
         return (self.shape, *self._arrays)
 
-    def _rows_at(self, key, rows):
+    def _at(self, key: Any, rows: int) -> list[Any]:
         shape = self.shape if self.shape.is_one else self.shape._rows_at(key, rows)
-        return type(self)(shape, *self._at(key, rows))
+        return [shape, *super()._at(key, rows)]
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         """True if the shapes and all arrays are equal, row for row; NaN is unequal to itself."""
+        if not isinstance(other, type(self)):
+            return NotImplemented
         return super().__eq__(other) and self.shape == other.shape
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
-    def _side(self):
+    def _side(self) -> tuple[str, list[_Array]]:
         kind, arrays = self.shape._side()
         return kind, arrays + list(self._arrays)
 
@@ -323,7 +363,7 @@ class Moving(_InMotion):
     __slots__ = ()
     _fields = {"displacement": "vector"}
 
-    def __init__(self, shape, displacement):
+    def __init__(self, shape: _Still, displacement: _Vector) -> None:
         self._set_motion(shape, {"displacement": displacement})
 
 
@@ -343,13 +383,14 @@ class Turning(_InMotion):
     """
 
     __slots__ = ()
+    rotation: _Array
     _fields = {"displacement": "vector", "rotation": "vector"}
     _still = (Sphere, Obb, Triangle, Capsule)
 
-    def __init__(self, shape, displacement, rotation):
+    def __init__(self, shape: Sphere | Obb | Triangle | Capsule, displacement: _Vector, rotation: _Vector) -> None:
         self._set_motion(shape, {"displacement": displacement, "rotation": rotation})
 
 
-def at_rest(shape):
+def at_rest(shape: _Still) -> Moving:
     """`shape` as one that moves nowhere: ``Moving(shape, [0, 0, 0])``."""
     return Moving(shape, [0.0, 0.0, 0.0])
