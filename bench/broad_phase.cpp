@@ -15,7 +15,7 @@
 
 #include <thinwall/experiments/broad_phase/model.hpp>
 
-#include "median_times.hpp"
+#include "floors.hpp"
 
 namespace {
 

@@ -18,13 +18,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 #if defined(__x86_64__)
-#define THINWALL_WIDE __attribute__((target("avx2")))
+#define THINWALL_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define THINWALL_WIDE
 #endif
 
 namespace thinwall::bench {
@@ -43,58 +45,37 @@ template <class Pass> double best_ns(const Pass& pass, double budget = 3e7) {
   return best;
 }
 
-namespace wide {  // the same loop twice: as the build says, and for AVX2 where the machine has it
+// The loops that are timed, each as the build says and for AVX2 where the machine has it.
 
-template <std::size_t Loads>
-[[gnu::always_inline]] inline void sum_rows(const std::array<const double*, Loads>& in, double* out, std::size_t rows) {
+using StreamedRows = std::array<const double*, 7>;
+
+THINWALL_WIDE static void sum_rows(const StreamedRows& in, double* out, std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) {
     double sum = in[0][i];
-    for (std::size_t k = 1; k < Loads; ++k) sum += in[k][i];
+    for (std::size_t k = 1; k < in.size(); ++k) sum += in[k][i];
     out[i] = sum;
   }
 }
-[[gnu::always_inline]] inline std::uint64_t mix_words(const std::uint64_t* words, std::size_t count) {
+THINWALL_WIDE static std::uint64_t mix_words(const std::uint64_t* words, std::size_t count) {
   std::uint64_t mixed = 0;
   for (std::size_t i = 0; i < count; ++i) mixed ^= words[i];
   return mixed;
 }
-[[gnu::always_inline]] inline void add_one(std::uint64_t* words, std::size_t count) {
+THINWALL_WIDE static void add_one(std::uint64_t* words, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) ++words[i];
 }
 
-#if defined(THINWALL_WIDE)
-template <std::size_t Loads>
-THINWALL_WIDE void sum_rows_avx2(const std::array<const double*, Loads>& in, double* out, std::size_t rows) {
-  sum_rows(in, out, rows);
-}
-THINWALL_WIDE inline std::uint64_t mix_words_avx2(const std::uint64_t* words, std::size_t count) {
-  return mix_words(words, count);
-}
-THINWALL_WIDE inline void add_one_avx2(std::uint64_t* words, std::size_t count) { add_one(words, count); }
-inline bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
-#endif
-
-}  // namespace wide
-
-/// [ns] a row, of one core that reads a double from each of `Loads` arrays and writes one to another, as a batch kernel does.
-/// 128 MB in all: far more than any cache holds. A row is 8 (Loads + 1) bytes; that the caches read a line before it is written
-/// is in the time, not in the bytes.
-template <std::size_t Loads> double measure_stream() {
-  const std::size_t rows = (std::size_t{128} << 20) / (8 * (Loads + 1));
-  std::vector<std::vector<double>> inputs(Loads, std::vector<double>(rows, 1.0));
+/// [ns] a row, of one core that reads a double from each of so many arrays and writes one to another, as a batch kernel does.
+/// 128 MB in all: far more than any cache holds. That the caches read a line before it is written is in the time, not in the bytes.
+inline double measure_stream() {
+  StreamedRows in{};
+  const std::size_t rows = (std::size_t{128} << 20) / (8 * (in.size() + 1));
+  std::vector<std::vector<double>> inputs(in.size(), std::vector<double>(rows, 1.0));
   std::vector<double> output(rows);
-  std::array<const double*, Loads> in{};
-  for (std::size_t k = 0; k < Loads; ++k) in[k] = inputs[k].data();
+  for (std::size_t k = 0; k < in.size(); ++k) in[k] = inputs[k].data();
   const double ns = best_ns(
       [&] {
-#if defined(THINWALL_WIDE)
-        if (wide::has_avx2()) {
-          wide::sum_rows_avx2(in, output.data(), rows);
-          benchmark::ClobberMemory();
-          return;
-        }
-#endif
-        wide::sum_rows(in, output.data(), rows);
+        sum_rows(in, output.data(), rows);
         benchmark::ClobberMemory();
       },
       6e7);
@@ -104,14 +85,7 @@ template <std::size_t Loads> double measure_stream() {
 /// [ns] to read `bytes` from `data`, wherever in the caches or the memory so many bytes stay between passes.
 inline double read_ns(const void* data, std::size_t bytes) {
   const auto* words = static_cast<const std::uint64_t*>(data);
-  return best_ns(
-      [&] {
-#if defined(THINWALL_WIDE)
-        if (wide::has_avx2()) return benchmark::DoNotOptimize(wide::mix_words_avx2(words, bytes / 8));
-#endif
-        benchmark::DoNotOptimize(wide::mix_words(words, bytes / 8));
-      },
-      5e6);
+  return best_ns([&] { benchmark::DoNotOptimize(mix_words(words, bytes / 8)); }, 5e6);
 }
 
 /// [ns] to read so many bytes, change them and write them back.
@@ -122,14 +96,7 @@ inline double update_ns(std::size_t bytes) {
   const double ns = best_ns(
       [&] {
         for (std::size_t i = 0; i < passes; ++i) {
-#if defined(THINWALL_WIDE)
-          if (wide::has_avx2()) {
-            wide::add_one_avx2(words.data(), words.size());
-            benchmark::ClobberMemory();
-            continue;
-          }
-#endif
-          wide::add_one(words.data(), words.size());
+          add_one(words.data(), words.size());
           benchmark::ClobberMemory();
         }
       },
@@ -154,7 +121,7 @@ template <class Operation> double measure_operation(const Operation& operation) 
 }
 
 struct Floors {
-  double stream_row_ns;  ///< [ns] to read 7 doubles and write one, streaming: measure_stream<7>()
+  double stream_row_ns;  ///< [ns] to read 7 doubles and write one, streaming: measure_stream()
   double division_ns;    ///< [ns] a division of doubles, throughput
   double root_ns;        ///< [ns] a square root of a double, throughput
 
@@ -163,7 +130,7 @@ struct Floors {
 
 /// Measured at the first call, in about a fifth of a second.
 inline const Floors& floors() {
-  static const Floors measured = {measure_stream<7>(), measure_operation([](double x) { return 3.7 / x; }),
+  static const Floors measured = {measure_stream(), measure_operation([](double x) { return 3.7 / x; }),
                                   measure_operation([](double x) { return std::sqrt(x); })};
   return measured;
 }
@@ -203,6 +170,36 @@ class FloorReporter : public benchmark::ConsoleReporter {
     }
     ConsoleReporter::ReportRuns(shown);
   }
+};
+
+/// Prints as that one does and keeps each time, for a closing table.
+class MedianTimes : public FloorReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    FloorReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Aggregate && run.aggregate_name != "median") continue;
+      times_[run.run_name.function_name] = run.GetAdjustedCPUTime();
+      if (const auto ratio = run.counters.find("to_floor"); ratio != run.counters.end())
+        to_floor_[run.run_name.function_name] = ratio->second.value;
+    }
+  }
+
+ protected:
+  /// [ns] by benchmark name, the median if it was repeated; 0 if it was not run.
+  double time(const std::string& name) const { return value(times_, name); }
+
+  /// [1] its time over its floor, the same way.
+  double to_floor(const std::string& name) const { return value(to_floor_, name); }
+
+ private:
+  using Values = std::map<std::string, double>;
+  static double value(const Values& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? 0 : found->second;
+  }
+
+  Values times_, to_floor_;
 };
 
 /// What main() of a benchmark program does.

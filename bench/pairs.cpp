@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <iterator>
@@ -19,7 +18,6 @@
 #include <thinwall/discrete/boxes/box_manifold.hpp>
 
 #include "errors.hpp"
-#include "median_times.hpp"
 #include "plain_forms.hpp"
 
 namespace {

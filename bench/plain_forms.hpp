@@ -6,7 +6,6 @@
 /// "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Written from the formulas.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "query_sets.hpp"

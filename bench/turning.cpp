@@ -5,7 +5,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <string>
 
 #include <thinwall/swept/certified/turning_certified.hpp>

@@ -1,7 +1,6 @@
 #pragma once
 /// What an adapter is written with: the same queries for everybody, a row a peer and pair, named KIND/PAIR/PEER.
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,22 +15,24 @@ using Box = Aabb<double>;
 using TurnedBox = Obb<double>;
 using Pill = Capsule<double>;
 
-// Made once, in sets.cpp.
-extern template const Shots<Ball, Box>& any_shots();
-extern template const Shots<Ball, Ball>& any_shots();
-extern template const Shots<Box, Box>& any_shots();
-extern template const Shots<Ball, Pill>& any_shots();
-extern template const Shots<Pill, Box>& any_shots();
-extern template const Shots<Box, TurnedBox>& any_shots();
-extern template const Rays<Ball>& any_rays();
-extern template const Rays<Box>& any_rays();
-extern template const Rays<TurnedBox>& any_rays();
-extern template const Rays<Pill>& any_rays();
-extern template const Poses<Ball, Ball>& any_poses();
-extern template const Poses<Box, Box>& any_poses();
-extern template const Poses<Ball, Box>& any_poses();
-extern template const Poses<TurnedBox, TurnedBox>& any_poses();
-extern template const Poses<Pill, Pill>& any_poses();
+// Made once, in peers.cpp.
+#define THINWALL_PEER_SETS(made)                                \
+  made template const Shots<Ball, Box>& any_shots();            \
+  made template const Shots<Ball, Ball>& any_shots();           \
+  made template const Shots<Box, Box>& any_shots();             \
+  made template const Shots<Ball, Pill>& any_shots();           \
+  made template const Shots<Pill, Box>& any_shots();            \
+  made template const Shots<Box, TurnedBox>& any_shots();       \
+  made template const Rays<Ball>& any_rays();                   \
+  made template const Rays<Box>& any_rays();                    \
+  made template const Rays<TurnedBox>& any_rays();              \
+  made template const Rays<Pill>& any_rays();                   \
+  made template const Poses<Ball, Ball>& any_poses();           \
+  made template const Poses<Box, Box>& any_poses();             \
+  made template const Poses<Ball, Box>& any_poses();            \
+  made template const Poses<TurnedBox, TurnedBox>& any_poses(); \
+  made template const Poses<Pill, Pill>& any_poses();
+THINWALL_PEER_SETS(extern)
 const Shots<Ball, Box>& wall_shots();
 const Shots<Ball, Box>& plane_shots();
 inline constexpr std::string_view in_plane = "sphere_aabb_in_plane";

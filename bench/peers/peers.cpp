@@ -7,21 +7,7 @@
 
 namespace thinwall::bench {
 
-template const Shots<Ball, Box>& any_shots();
-template const Shots<Ball, Ball>& any_shots();
-template const Shots<Box, Box>& any_shots();
-template const Shots<Ball, Pill>& any_shots();
-template const Shots<Pill, Box>& any_shots();
-template const Shots<Box, TurnedBox>& any_shots();
-template const Rays<Ball>& any_rays();
-template const Rays<Box>& any_rays();
-template const Rays<TurnedBox>& any_rays();
-template const Rays<Pill>& any_rays();
-template const Poses<Ball, Ball>& any_poses();
-template const Poses<Box, Box>& any_poses();
-template const Poses<Ball, Box>& any_poses();
-template const Poses<TurnedBox, TurnedBox>& any_poses();
-template const Poses<Pill, Pill>& any_poses();
+THINWALL_PEER_SETS()
 
 const Shots<Ball, Box>& wall_shots() { return thin_wall_shots(); }
 const Shots<Ball, Box>& plane_shots() {
@@ -29,11 +15,7 @@ const Shots<Ball, Box>& plane_shots() {
   return set;
 }
 
-}  // namespace thinwall::bench
-
 // ---- Our own front door, in the same run.
-
-namespace thinwall::bench {
 
 bool add_thinwall() {
   const auto as_it_is = [](const auto& query) { return query; };

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/broad_phase/growth.hpp>
+#include <thinwall/experiments/broad_phase/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>

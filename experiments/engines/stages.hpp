@@ -94,13 +94,4 @@ std::vector<std::string> drop_failed(std::vector<EngineRow>& rows, std::vector<S
 /// What ours must do: let nothing pass and disturb nothing where it sweeps, and pass as theory says where it looks at poses.
 std::vector<CellCount> own_counts(const std::vector<StageRow>& rows);
 
-// What a run says of them.
-
-Table stages_table(const std::vector<StageRow>& rows);
-Table stage_timings_table(const std::vector<StageRow>& rows);
-/// For the terminal: a row for each engine and mode, a column for each stage.
-std::string stages_summary(const std::vector<StageRow>& rows);
-/// For the report: what each stage is, and which engines play none.
-std::string stages_text(const EnginePlan& plan, const std::vector<StageRow>& rows);
-
 }  // namespace thinwall

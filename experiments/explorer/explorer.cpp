@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -232,4 +234,9 @@ const char* explorer_advice(double miss, double late) {
 }
 
 const char* explorer_toml() { return here().say(config_text(here().wish(), candidates_of(here().methods))); }
+
+#ifdef __wasm__  // what Debian's runtime library for WebAssembly was compiled to look for
+extern const std::uintptr_t __stack_chk_guard = 0x2f8a16c3;  // NOLINT(bugprone-reserved-identifier): theirs
+[[noreturn]] void __stack_chk_fail() { std::abort(); }       // NOLINT(bugprone-reserved-identifier): theirs
+#endif
 }

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/explorer/rod.hpp>
+#include <thinwall/experiments/explorer/explorer.hpp>
 
 #include <array>
 #include <cmath>

@@ -22,7 +22,7 @@
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
-#include <thinwall/experiments/scene.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
@@ -251,15 +251,6 @@ Action declare_run(CLI::App& self) {
   };
 }
 
-}  // namespace
-
-Command run_command() {
-  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", run_examples, declare_run,
-          true};
-}
-
-namespace {
-
 constexpr const char* compare_examples = R"(  thinwall compare experiments/scenes/bullet_against_bullet.toml
   thinwall compare my_scene.toml --out results/mine --threads 1
 )";
@@ -280,15 +271,6 @@ Action declare_compare(CLI::App& self) {
     return perform_run(parse_run(*text), call);
   };
 }
-
-}  // namespace
-
-Command compare_command() {
-  return {"compare", "Step a scene under every time policy, and hold each against the exact run", compare_examples,
-          declare_compare, true};
-}
-
-namespace {
 
 std::string json_reply(const Scene& scene, const Plan& plan) {
   using nlohmann::ordered_json;
@@ -341,6 +323,16 @@ Action declare_plan(CLI::App& self) {
 }
 
 }  // namespace
+
+Command run_command() {
+  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", run_examples, declare_run,
+          true};
+}
+
+Command compare_command() {
+  return {"compare", "Step a scene under every time policy, and hold each against the exact run", compare_examples,
+          declare_compare, true};
+}
 
 Command plan_command() { return {"plan", "Print what a scene does not need, and why", plan_examples, declare_plan}; }
 

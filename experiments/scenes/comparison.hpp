@@ -102,17 +102,18 @@ struct Contest {
 
 Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration);
 
-// ---- What is said of them: tables, pictures and words.
-
-Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const std::vector<Contest>& contests);
-
-/// Everything a run of a scene hands over but the trace.
-Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback);
+// ---- What is said of a scene, alone and compared: tables, pictures and words.
 
 /// True of a policy that misses nothing, with that gate.
 bool looks_at_all_motion(TimePolicy policy, double gate);
 
 /// True if what this policy claims held.
 bool claims_held(const Scene& scene, const Playback& playback);
+
+/// `thinwall run FILE`: steps the scene once. What tunneled, who met whom, energy, and time a step by phase.
+Experiment scene_experiment();
+
+/// `thinwall compare FILE`: steps it under every time policy and step, and holds each against the finest exact run.
+Experiment compare_experiment();
 
 }  // namespace thinwall

@@ -219,7 +219,7 @@ WorldOptions world_options(const Settings& settings, int threads) {
   options.contact_rounds = static_cast<int>(settings.integer("contact_rounds", 0, 1000));
   options.correction = settings.number("correction", {.lower = 0, .upper = 1});
   std::vector<std::string_view> broad_phases = {"auto"};
-  broad_phases.insert(broad_phases.end(), PairFinder::names().begin(), PairFinder::names().end());
+  broad_phases.insert(broad_phases.end(), pair_finder_names().begin(), pair_finder_names().end());
   options.broad_phase = settings.choice("broad_phase", broad_phases);
   options.response = settings.flag("response");
   options.end_after = static_cast<int>(settings.integer("end_after", 1, 1'000'000));

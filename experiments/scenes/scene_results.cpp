@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/scenes/scene.hpp>
+#include <thinwall_embedded.hpp>
 
 namespace thinwall {
 
@@ -278,16 +281,6 @@ Figure course_figure(const Playback& playback) {
           .panels = {std::move(top), std::move(bottom)}};
 }
 
-}  // namespace
-
-bool looks_at_all_motion(TimePolicy policy, double gate) { return sweeps(policy) && gate == 0; }
-
-bool claims_held(const Scene& scene, const Playback& playback) {
-  const StepRow sums = playback.sums();
-  const bool paired = sums.begins - sums.ends == playback.live;
-  return paired && (playback.all_missed == 0 || !looks_at_all_motion(scene.options.policy, scene.options.gate));
-}
-
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
   const StepRow sums = playback.sums();
   Outcome out;
@@ -305,6 +298,33 @@ Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& play
   out.sections = {{"Plan", to_text(plan)}};
   out.self_test_passed = claims_held(scene, playback);
   return out;
+}
+
+/// One unit: a step needs the one before it.
+std::unique_ptr<Run> configure_scene(const Settings& settings, const RunOptions& options) {
+  const auto scene = std::make_shared<const Scene>(read_scene(settings, options));
+  std::vector<Task<Playback>> tasks = {
+      {fmt::format("scene {}", scene->name), scene->steps, [scene] { return play(*scene); }}};
+  const auto finish = [scene](const Done<Playback>& done) {
+    Outcome out = scene_outcome(*scene, plan(scene->bodies, scene->options), done.results.front());
+    if (scene->trace) out.files.push_back({"trace.jsonl", trace_of(*scene)});
+    return out;
+  };
+  return make_run(finish, std::move(tasks));
+}
+
+}  // namespace
+
+bool looks_at_all_motion(TimePolicy policy, double gate) { return sweeps(policy) && gate == 0; }
+
+bool claims_held(const Scene& scene, const Playback& playback) {
+  const StepRow sums = playback.sums();
+  const bool paired = sums.begins - sums.ends == playback.live;
+  return paired && (playback.all_missed == 0 || !looks_at_all_motion(scene.options.policy, scene.options.gate));
+}
+
+Experiment scene_experiment() {
+  return {"scene", "What happens in this scene?", embedded_toml("scene"), configure_scene};
 }
 
 }  // namespace thinwall

@@ -4,8 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -17,6 +15,7 @@
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/validate/validate.hpp>
 #include <thinwall/swept/certified/turning_certified.hpp>
 
 namespace thinwall {
@@ -98,51 +97,13 @@ template <class A, class B> std::string header_text() {
   return text;
 }
 
-/// Lines of a file, and complaints that name them.
-class TurningFile {
- public:
-  explicit TurningFile(const fs::path& file) : shown_(one_line(file.string())), in_(file, std::ios::binary) {
-    if (!in_) throw UsageError(shown_ + ": cannot be read");
-  }
+double number_in(const QueryLines& file, std::string_view field, std::size_t column) {
+  const auto value = parsed<double>(field);
+  if (!value || !std::isfinite(*value)) file.complain(field, column, "is not a finite number");
+  return *value;
+}
 
-  [[noreturn]] void refuse(const std::string& reason) const {
-    throw UsageError(fmt::format("{}:{}: {}", shown_, std::max(line_, std::size_t{1}), reason));
-  }
-  bool next_line() {
-    if (!std::getline(in_, text_)) {
-      if (in_.bad()) throw UsageError(shown_ + ": cannot be read");
-      return false;
-    }
-    ++line_;
-    if (text_.ends_with('\r')) text_.pop_back();
-    return true;
-  }
-  const std::string& text() const { return text_; }
-  std::size_t line() const { return line_; }
-  const std::string& shown() const { return shown_; }
-
-  /// The line's fields; exactly so many.
-  std::vector<std::string_view> fields(std::size_t needed) const {
-    std::vector<std::string_view> made = split(text_, ',');
-    if (made.size() != needed) refuse(fmt::format("{} columns; {} are needed", made.size(), needed));
-    return made;
-  }
-  double number(std::string_view field, std::size_t column) const {
-    const auto value = parsed<double>(field);
-    if (!value || !std::isfinite(*value)) complain(field, column, "is not a finite number");
-    return *value;
-  }
-  [[noreturn]] void complain(std::string_view field, std::size_t column, std::string_view what) const {
-    refuse(fmt::format("column {}: '{}' {}", column + 1, one_line(clipped(field, 40)), what));
-  }
-
- private:
-  std::string shown_, text_;
-  std::ifstream in_;
-  std::size_t line_ = 0;
-};
-
-TurningTruth truth_of(const TurningFile& file, const std::vector<std::string_view>& fields) {
+TurningTruth truth_of(const QueryLines& file, const std::vector<std::string_view>& fields) {
   constexpr std::size_t verdict = 3, time = 4, clearance = 5;
   TurningTruth truth;
   truth.line = file.line();
@@ -165,7 +126,7 @@ TurningTruth truth_of(const TurningFile& file, const std::vector<std::string_vie
     if (!fields[clearance].empty()) file.complain(fields[clearance], clearance, "is too much: they touch");
   } else {
     if (!fields[time].empty()) file.complain(fields[time], time, "is too much: they stay apart");
-    truth.clearance = file.number(fields[clearance], clearance);
+    truth.clearance = number_in(file, fields[clearance], clearance);
     if (truth.clearance < 0) file.complain(fields[clearance], clearance, "is less than 0");
   }
   return truth;
@@ -292,8 +253,8 @@ class TurningJudge {
   }
 
   void judge_file(const fs::path& path) {
-    TurningFile file(path);
-    if (!file.next_line()) file.refuse("the file is empty; a header and a line a query");
+    QueryLines file(path);
+    if (!file.next()) file.refuse("the file is empty; a header and a line a query");
     using Ball = Sphere<double>;
     using Rod = Capsule<double>;
     using Box = Obb<double>;
@@ -312,17 +273,17 @@ class TurningJudge {
 
  private:
   /// False if the header is of another pair.
-  template <class A, class B> bool judge_pair(TurningFile& file) {
+  template <class A, class B> bool judge_pair(QueryLines& file) {
     if (file.text() != header_text<A, B>()) return false;
     TurningPairCounts pair{fmt::format("{}, {}", ShapeColumns<A>::shape, ShapeColumns<B>::shape), {}};
     pair.counts.resize(result_.methods.size());
     constexpr std::size_t count = body_columns<A> + body_columns<B>;
     bool any = false;
-    for (; file.next_line(); any = true) {
+    for (; file.next(); any = true) {
       const std::vector<std::string_view> fields = file.fields(answer_columns + count);
       const TurningTruth truth = truth_of(file, fields);
       std::array<double, count> x{};
-      for (std::size_t k = 0; k < count; ++k) x[k] = file.number(fields[answer_columns + k], answer_columns + k);
+      for (std::size_t k = 0; k < count; ++k) x[k] = number_in(file, fields[answer_columns + k], answer_columns + k);
       const std::span<const double> numbers(x);
       const auto a = body_from<A>(numbers.first(body_columns<A>));
       const auto b = body_from<B>(numbers.last(body_columns<B>));
@@ -337,7 +298,7 @@ class TurningJudge {
   }
 
   template <class A, class B>
-  void judge_query(const TurningFile& file, const TurningTruth& truth, const Turning<A>& a, const Turning<B>& b,
+  void judge_query(const QueryLines& file, const TurningTruth& truth, const Turning<A>& a, const Turning<B>& b,
                    std::vector<TurningCounts>& counts) {
     using Clock = std::chrono::steady_clock;
     std::size_t i = 0;

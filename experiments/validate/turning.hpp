@@ -1,7 +1,6 @@
 #pragma once
 /// Published queries of shapes that turn, with their exact times: every method that turns is asked and judged.
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>

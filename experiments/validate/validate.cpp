@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -110,8 +109,35 @@ std::string_view name(Primitives primitives) {
   return primitives == Primitives::vertex_face ? "vertex-face" : "edge-edge";
 }
 
-QueryFile::QueryFile(const fs::path& file) : shown_(shown(file)), in_(file, std::ios::binary) {
+QueryLines::QueryLines(const fs::path& file) : shown_(shown(file)), in_(file, std::ios::binary) {
   if (!in_) throw UsageError(shown_ + ": cannot be read");
+}
+
+bool QueryLines::next() {
+  if (!std::getline(in_, text_)) {
+    if (in_.bad()) throw UsageError(shown_ + ": cannot be read");
+    return false;
+  }
+  ++line_;
+  if (text_.ends_with('\r')) text_.pop_back();
+  return true;
+}
+
+std::vector<std::string_view> QueryLines::fields(std::size_t needed) const {
+  std::vector<std::string_view> made = split(text_, ',');
+  if (made.size() != needed) refuse(fmt::format("{} columns; {} are needed", made.size(), needed));
+  return made;
+}
+
+void QueryLines::refuse(const std::string& reason) const {
+  throw UsageError(fmt::format("{}:{}: {}", shown_, std::max(line_, std::size_t{1}), reason));
+}
+
+void QueryLines::complain(std::string_view field, std::size_t column, std::string_view what) const {
+  refuse(fmt::format("column {}: '{}' {}", column + 1, one_line(clipped(field, 40)), what));
+}
+
+QueryFile::QueryFile(const fs::path& file) : lines_(file) {
   bool found = false;
   for (const fs::path& part : fs::absolute(file)) {
     for (const Primitives primitives : {Primitives::vertex_face, Primitives::edge_edge}) {
@@ -120,37 +146,25 @@ QueryFile::QueryFile(const fs::path& file) : shown_(shown(file)), in_(file, std:
       found = true;
     }
   }
-  if (!found) throw UsageError(shown_ + ": is in no folder named vertex-face or edge-edge, so what meets is not known");
-}
-
-void QueryFile::refuse(const std::string& reason) const {
-  throw UsageError(fmt::format("{}:{}: {}", shown_, line_, reason));
+  if (!found)
+    throw UsageError(lines_.shown() + ": is in no folder named vertex-face or edge-edge, so what meets is not known");
 }
 
 bool QueryFile::next_row(RationalPoint& vertex, bool& answer) {
-  std::string row;
-  if (!std::getline(in_, row)) {
-    if (in_.bad()) throw UsageError(shown_ + ": cannot be read");
-    return false;
-  }
-  ++line_;
-  if (row.ends_with('\r')) row.pop_back();
-  const std::vector<std::string_view> fields = split(row, ',');
-  if (fields.size() != columns) refuse(fmt::format("{} columns; 7 are needed", fields.size()));
+  if (!lines_.next()) return false;
+  const std::vector<std::string_view> fields = lines_.fields(columns);
   for (std::size_t i = 0; i + 1 < columns; ++i) {
     const std::string_view field = fields[i];
-    if (field.size() > most_digits) refuse(fmt::format("column {}: more than {} digits", i + 1, most_digits));
-    if (!is_integer(field)) {
-      refuse(fmt::format("column {}: '{}' is not an integer", i + 1, one_line(clipped(field, 40))));
-    }
+    if (field.size() > most_digits) lines_.refuse(fmt::format("column {}: more than {} digits", i + 1, most_digits));
+    if (!is_integer(field)) lines_.complain(field, i, "is not an integer");
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const auto denominator = integer(fields[2 * i + 1]);
-    if (denominator == 0) refuse(fmt::format("column {}: a denominator of zero", 2 * i + 2));
+    if (denominator == 0) lines_.refuse(fmt::format("column {}: a denominator of zero", 2 * i + 2));
     vertex[i] = Rational(integer(fields[2 * i])) / Rational(denominator);  // whose sign may be either
   }
   const std::string_view last = fields[columns - 1];
-  if (last != "0" && last != "1") refuse(fmt::format("column 7: '{}'; 0 or 1", one_line(clipped(last, 40))));
+  if (last != "0" && last != "1") lines_.refuse(fmt::format("column 7: '{}'; 0 or 1", one_line(clipped(last, 40))));
   answer = last == "1";
   return true;
 }
@@ -161,12 +175,12 @@ std::optional<PublishedQuery> QueryFile::next() {
     RationalPoint& vertex = row < 4 ? query.at_start[row] : query.at_end[row - 4];
     bool answer = false;
     if (!next_row(vertex, answer)) {
-      if (row > 0) refuse(fmt::format("the file ends after {} of the 8 rows of a query", row));
-      if (line_ == 0) throw UsageError(shown_ + ":1: the file is empty; 8 rows a query");
+      if (row > 0) lines_.refuse(fmt::format("the file ends after {} of the 8 rows of a query", row));
+      if (lines_.line() == 0) lines_.refuse("the file is empty; 8 rows a query");
       return std::nullopt;
     }
-    if (row > 0 && answer != query.collides) refuse("column 7: differs within the 8 rows of a query");
-    if (row == 0) query.line = line_;
+    if (row > 0 && answer != query.collides) lines_.refuse("column 7: differs within the 8 rows of a query");
+    if (row == 0) query.line = lines_.line();
     query.collides = answer;
   }
   return query;

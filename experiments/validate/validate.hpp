@@ -34,6 +34,26 @@ struct PublishedQuery {
   std::size_t line = 0;                           ///< of its first row in the file, from 1
 };
 
+/// The lines of such a file, their fields, and complaints that name them.
+class QueryLines {
+ public:
+  explicit QueryLines(const std::filesystem::path& file);
+
+  bool next();  ///< false at the end
+  const std::string& text() const { return text_; }
+  std::size_t line() const { return line_; }           ///< from 1
+  const std::string& shown() const { return shown_; }  ///< the file's name, for complaints
+
+  std::vector<std::string_view> fields(std::size_t needed) const;  ///< exactly so many
+  [[noreturn]] void refuse(const std::string& reason) const;
+  [[noreturn]] void complain(std::string_view field, std::size_t column, std::string_view what) const;
+
+ private:
+  std::string shown_, text_;
+  std::ifstream in_;
+  std::size_t line_ = 0;
+};
+
 class QueryFile {
  public:
   explicit QueryFile(const std::filesystem::path& file);
@@ -44,12 +64,9 @@ class QueryFile {
 
  private:
   bool next_row(RationalPoint& vertex, bool& answer);
-  [[noreturn]] void refuse(const std::string& reason) const;
 
-  std::string shown_;  ///< the file's name, for complaints
-  std::ifstream in_;
+  QueryLines lines_;
   Primitives primitives_ = Primitives::vertex_face;
-  std::size_t line_ = 0;
 };
 
 /// Every CSV file below `folder`, by name. Throws UsageError if the folder is missing, unreadable or has none.

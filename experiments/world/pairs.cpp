@@ -19,11 +19,7 @@
 #include <boost/geometry/algorithms/equals.hpp>
 
 namespace thinwall {
-namespace {
-
 constexpr std::size_t searches_by_loop = 4;  // then a tree pays: it costs as much as a few dozen passes over the boxes
-
-}  // namespace
 
 struct Neighbors::Tree {
   boost::geometry::index::rtree<r_tree::Entry, boost::geometry::index::quadratic<16>> boxes;
@@ -131,7 +127,7 @@ std::size_t Neighbors::bytes() const {
 
 namespace {
 
-template <class BroadPhase> struct Named final : PairFinder::Method {
+template <class BroadPhase> struct Named final : PairFinder {
   BroadPhase options;
   typename BroadPhase::Memory memory;
   void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) override {
@@ -141,7 +137,7 @@ template <class BroadPhase> struct Named final : PairFinder::Method {
 
 }  // namespace
 
-const std::vector<std::string_view>& PairFinder::names() {
+const std::vector<std::string_view>& pair_finder_names() {
   static const std::vector<std::string_view> all = [] {
     std::vector<std::string_view> names;
     for_each_type(BroadPhases{}, [&]<class T>(TypeTag<T>) { names.push_back(T::name); });
@@ -150,18 +146,13 @@ const std::vector<std::string_view>& PairFinder::names() {
   return all;
 }
 
-PairFinder::PairFinder(std::string_view name) {
+std::unique_ptr<PairFinder> make_pair_finder(std::string_view name) {
+  std::unique_ptr<PairFinder> finder;
   for_each_type(BroadPhases{}, [&]<class T>(TypeTag<T>) {
-    if (T::name == name) method_ = std::make_unique<Named<T>>();
+    if (T::name == name) finder = std::make_unique<Named<T>>();
   });
-  if (!method_) throw std::invalid_argument("there is no broad phase '" + std::string(name) + "'");
-}
-PairFinder::~PairFinder() = default;
-PairFinder::PairFinder(PairFinder&&) noexcept = default;
-PairFinder& PairFinder::operator=(PairFinder&&) noexcept = default;
-
-void PairFinder::find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) {
-  method_->find(proxies, pairs, max_pairs);
+  if (!finder) throw std::invalid_argument("there is no broad phase '" + std::string(name) + "'");
+  return finder;
 }
 
 namespace {

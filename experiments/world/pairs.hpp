@@ -281,25 +281,15 @@ class Neighbors {
 
 class PairFinder {
  public:
-  static const std::vector<std::string_view>& names();  ///< of BroadPhases, in its order
-
-  explicit PairFinder(std::string_view name);  ///< one of names()
-  ~PairFinder();
-  PairFinder(PairFinder&&) noexcept;
-  PairFinder& operator=(PairFinder&&) noexcept;
-
-  void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs);
-
-  struct Method {
-    Method() = default;
-    Method(const Method&) = delete;
-    Method& operator=(const Method&) = delete;
-    virtual ~Method() = default;
-    virtual void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) = 0;
-  };
-
- private:
-  std::unique_ptr<Method> method_;
+  PairFinder() = default;
+  PairFinder(const PairFinder&) = delete;
+  PairFinder& operator=(const PairFinder&) = delete;
+  virtual ~PairFinder() = default;
+  virtual void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) = 0;
 };
+
+const std::vector<std::string_view>& pair_finder_names();  ///< of BroadPhases, in its order
+
+std::unique_ptr<PairFinder> make_pair_finder(std::string_view name);  ///< one of those
 
 }  // namespace thinwall

@@ -17,7 +17,10 @@ PhaseClock::PhaseClock(double& seconds) : seconds_(&seconds), start_(now()) {}
 PhaseClock::~PhaseClock() { *seconds_ += now() - start_; }
 
 Stepper::Stepper(const WorldOptions& options, const Plan& plan)
-    : options_(options), plan_(plan), finder_(plan.broad_phase), narrow_(make_narrow_phase(plan, options.threads)) {}
+    : options_(options),
+      plan_(plan),
+      finder_(make_pair_finder(plan.broad_phase)),
+      narrow_(make_narrow_phase(plan, options.threads)) {}
 
 void Stepper::run(std::span<const Body> bodies, double dt, bool changed_by_hand) {
   bodies_ = bodies;
@@ -122,7 +125,7 @@ void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)
     {
       const PhaseClock clock(counts_.seconds.broad);
       if (drops) mark_proxies(false);
-      finder_.find(proxies_, pairs_, options_.max_pairs);
+      finder_->find(proxies_, pairs_, options_.max_pairs);
       if (drops) mark_proxies(true);
     }
     counts_.pairs += pairs_.size();

@@ -50,7 +50,7 @@ class Stepper {
 
   WorldOptions options_;
   Plan plan_;
-  PairFinder finder_;
+  std::unique_ptr<PairFinder> finder_;
   std::unique_ptr<NarrowPhase> narrow_;
   Neighbors neighbors_;
   std::span<const Body> bodies_;

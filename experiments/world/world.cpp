@@ -76,7 +76,7 @@ void require_valid(const WorldOptions& options) {
   }
   if (options.broad_phase == "auto") return;
   std::string names = "auto";
-  for (const std::string_view name : PairFinder::names()) {
+  for (const std::string_view name : pair_finder_names()) {
     if (name == options.broad_phase) return;
     names += ", " + std::string(name);
   }

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/discrete/broad_phase.hpp>
-#include <thinwall/experiments/broad_phase/growth.hpp>
+#include <thinwall/experiments/broad_phase/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 
 #include "support/experiment_run.hpp"

@@ -6,7 +6,6 @@
 
 namespace thinwall {
 
-void bind_advice(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
 void bind_theory(pybind11::module_& module);
 void bind_world(pybind11::module_& module);

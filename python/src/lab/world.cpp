@@ -12,7 +12,7 @@
 #include <pybind11/stl.h>
 
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/scene.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 #include <thinwall/experiments/world/world.hpp>
 

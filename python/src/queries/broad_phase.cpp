@@ -1,7 +1,5 @@
 /// The pairs of boxes that touch.
 #include <algorithm>
-#include <bit>
-#include <span>
 
 #include <thinwall/discrete/broad_phase.hpp>
 

@@ -1,35 +1,108 @@
-/// Times of impact by every other method.
+/// Times of impact by every other method, by those for what turns, and certified ones.
+#include <thinwall/swept/certified.hpp>
+#include <thinwall/swept/certified/turning_certified.hpp>
 #include <thinwall/swept/compiled.hpp>
 #include <thinwall/swept/methods.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
+#include <thinwall/swept/turning/turning_impact.hpp>
 
-#include "method_list.hpp"
+#include "queries.hpp"
 
 namespace thinwall::python {
 
 namespace {
 
-template <class Method> struct AskedOf {
+/// A method with what `options` sets of what it has.
+template <class Method> Method with_options(const Options& options) {
+  Method method{};
+  const auto set = [](auto& option, const auto& value) {
+    if (value) option = static_cast<std::remove_reference_t<decltype(option)>>(*value);
+  };
+  set(method.min_separation, options.min_separation);
+  if constexpr (requires { method.tolerance; }) set(method.tolerance, options.tolerance);
+  if constexpr (requires { method.margin; }) set(method.margin, options.margin);
+  if constexpr (requires { method.n; }) set(method.n, options.n);
+  if constexpr (requires { method.max_evaluations; }) set(method.max_evaluations, options.max_evaluations);
+  return method;
+}
+
+/// The names of a list of methods, and of the options of each.
+template <class List> MethodOptions names_of(List list) {
+  MethodOptions names;
+  for_each_type(list, [&]<class Tag>(Tag) {
+    using Method = typename Tag::type;
+    std::vector<std::string> options;
+    if constexpr (requires(Method m) { m.tolerance; }) options.emplace_back("tolerance");
+    if constexpr (requires(Method m) { m.margin; }) options.emplace_back("margin");
+    if constexpr (requires(Method m) { m.n; }) options.emplace_back("n");
+    if constexpr (requires(Method m) { m.max_evaluations; }) options.emplace_back("max_evaluations");
+    options.emplace_back("min_separation");
+    names.emplace_back(Method::name, options);
+  });
+  return names;
+}
+
+// ---- Which pairs are served.
+
+template <class Method> struct By {
   template <class A, class B> struct Pair {
     static constexpr bool value = A::rank >= B::rank && serves<Method, A, B>;
   };
+  template <class A, class B> struct TurningPair {
+    static constexpr bool value = [] {
+      if constexpr (stays_along_the_axes<A> || stays_along_the_axes<B>) {
+        return false;
+      } else {
+        return A::rank >= B::rank && serves_turning<Method, A, B>;
+      }
+    }();
+  };
 };
 
-template <class Method, class S> bool ask_all(const Method& method, const Question& q) {
-  return for_the_shapes<S, AskedOf<Method>::template Pair>(q, [&]<class A, class B>() {
-    answer_rows<Toi<S>>(q, [&](std::size_t i) {
-      const auto a = row_of<Moving<A>, S>(q.a, i);
-      const auto b = row_of<Moving<B>, S>(q.b, i);
-      const Toi<S> toi = time_of_impact(method, a, b);
-      return q.swapped ? flipped(toi) : toi;
-    });
+template <class A, class B> struct Certified {
+  static constexpr bool value = A::rank >= B::rank && certifies<A, B>;
+};
+template <class A, class B> struct CertifiedTurning {
+  static constexpr bool value = [] {
+    if constexpr (stays_along_the_axes<A> || stays_along_the_axes<B>) {
+      return false;
+    } else {
+      return A::rank >= B::rank && ServedPair<A, B>;
+    }
+  }();
+};
+
+// ---- `answer(a, b)` of every row.
+
+template <class Row, class S, template <class, class> class Serves, class Answer>
+bool ask_moving(const Question& q, const Answer& answer) {
+  return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
+    answer_rows<Row>(q,
+                     [&](std::size_t i) { return answer(row_of<Moving<A>, S>(q.a, i), row_of<Moving<B>, S>(q.b, i)); });
   });
 }
 
-template <class S> bool ask_named(const std::string& name, const Question& q, const Options& options) {
+template <class Row, class S, template <class, class> class Serves, class Answer>
+bool ask_that_turn(const Question& q, const Answer& answer) {
+  return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
+    answer_rows<Row>(q, [&](std::size_t i) { return answer(turning_row<A, S>(q.a, i), turning_row<B, S>(q.b, i)); });
+  });
+}
+
+template <class S, bool turns, class List>
+bool ask_named(const std::string& name, List list, const Question& q, const Options& options) {
   bool asked = false;
-  for_the_method(name, Methods<S>{}, [&]<class Method>() {
-    if constexpr (!std::is_same_v<Method, ClosedForm<S>>) asked = ask_all<Method, S>(with_options<Method>(options), q);
+  for_each_type(list, [&]<class Method>(TypeTag<Method>) {
+    if (Method::name != name) return;
+    const auto answer = [&q, method = with_options<Method>(options)](const auto& a, const auto& b) {
+      const Toi<S> toi = time_of_impact(method, a, b);
+      return q.swapped ? flipped(toi) : toi;
+    };
+    if constexpr (turns) {
+      asked = ask_that_turn<Toi<S>, S, By<Method>::template TurningPair>(q, answer);
+    } else if constexpr (!std::is_same_v<Method, ClosedForm<S>>) {
+      asked = ask_moving<Toi<S>, S, By<Method>::template Pair>(q, answer);
+    }
   });
   return asked;
 }
@@ -37,9 +110,24 @@ template <class S> bool ask_named(const std::string& name, const Question& q, co
 }  // namespace
 
 MethodOptions methods() { return names_of(Methods<double>{}); }
+MethodOptions turning_methods() { return names_of(TurningMethods<double>{}); }
 
 bool ask_method(const std::string& method, const Question& q, const Options& options) {
-  return q.is_float ? ask_named<float>(method, q, options) : ask_named<double>(method, q, options);
+  return q.is_float ? ask_named<float, false>(method, Methods<float>{}, q, options)
+                    : ask_named<double, false>(method, Methods<double>{}, q, options);
+}
+
+bool ask_turning(const std::string& method, const Question& q, const Options& options) {
+  return q.is_float ? ask_named<float, true>(method, TurningMethods<float>{}, q, options)
+                    : ask_named<double, true>(method, TurningMethods<double>{}, q, options);
+}
+
+/// Of double alone: they are proven for the numbers as given.
+bool ask_certified(const Question& q) {
+  const auto answer = [](const auto& a, const auto& b) { return certified_time_of_impact(a, b); };
+  if (q.a.motion == Motion::turning || q.b.motion == Motion::turning)
+    return ask_that_turn<CertifiedToi, double, CertifiedTurning>(q, answer);
+  return ask_moving<CertifiedToi, double, Certified>(q, answer);
 }
 
 }  // namespace thinwall::python

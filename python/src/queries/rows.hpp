@@ -4,8 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include <pybind11/numpy.h>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <thinwall/experiments/scene.hpp>
+#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 
 namespace thinwall {
