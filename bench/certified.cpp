@@ -158,10 +158,10 @@ template <class I> CertifiedToi interval_ball(const Moving<Sphere<double>>& a, c
   const I approach = -(p[0] * v[0] + p[1] * v[1] + p[2] * v[2]);
   if (approach.upper() <= 0) return decided(ToiStatus::apart, 1, 1);
   const I q0 = p[1] * v[2] - p[2] * v[1], q1 = p[2] * v[0] - p[0] * v[2], q2 = p[0] * v[1] - p[1] * v[0];
-  const I D = (square(v[0]) + square(v[1]) + square(v[2])) * RR - (square(q0) + square(q1) + square(q2));
-  if (D.upper() < 0) return decided(ToiStatus::apart, 1, 1);
-  if (!(D.lower() > 0 && approach.lower() > 0)) return undecided;
-  const I time = c / (approach + sqrt(D));
+  const I discriminant = (square(v[0]) + square(v[1]) + square(v[2])) * RR - (square(q0) + square(q1) + square(q2));
+  if (discriminant.upper() < 0) return decided(ToiStatus::apart, 1, 1);
+  if (!(discriminant.lower() > 0 && approach.lower() > 0)) return undecided;
+  const I time = c / (approach + sqrt(discriminant));
   if (time.lower() > 1) return decided(ToiStatus::apart, 1, 1);
   return time.upper() <= 1 ? decided(ToiStatus::hit, time.lower(), time.upper()) : undecided;
 }
@@ -212,10 +212,6 @@ template <class Set> std::pair<double, double> widths_of(const Set& queries) {
   return tail_of(std::move(widths));
 }
 
-template <class Run> void add(const std::string& name, const Run& run) {
-  benchmark::RegisterBenchmark(name.c_str(), run);
-}
-
 /// One pair on one set. `least`: what a query cannot do without.
 template <class A, class B>
 void add_row(const std::string& row, const Operations& least, const Queries<A, B>& (*set)()) {
@@ -228,13 +224,13 @@ void add_row(const std::string& row, const Operations& least, const Queries<A, B
       return toi.status == ToiStatus::apart ? never : toi.time;
     });
   });
-  add(row + "/plain", [set, least, count](benchmark::State& state) {
+  add_benchmark(row + "/plain", [set, least, count](benchmark::State& state) {
     time_queries(state, set(), [](const Query& q) { return time_of_impact(q.a, q.b); });
     count(state);
     add_query_floor(state, set(), least);
   });
   const auto widths = std::make_shared<std::optional<std::pair<double, double>>>();
-  add(row + "/certified", [set, least, certified, widths](benchmark::State& state) {
+  add_benchmark(row + "/certified", [set, least, certified, widths](benchmark::State& state) {
     time_queries(state, set(), certified);
     if (!*widths) *widths = widths_of(set());
     state.counters["p99_width"] = (*widths)->first;
@@ -243,7 +239,7 @@ void add_row(const std::string& row, const Operations& least, const Queries<A, B
   });
   for (const DecidedBy stage : {DecidedBy::filter, DecidedBy::certificate, DecidedBy::exact}) {
     const std::string name = row + "/" + stages[static_cast<std::size_t>(stage)];
-    add(name, [set, stage, name, certified](benchmark::State& state) {
+    add_benchmark(name, [set, stage, name, certified](benchmark::State& state) {
       Queries<A, B> decided;
       for (std::size_t k = 0; k < set().size(); ++k) {
         if (proven(set())[k].decided_by == stage) decided.push_back(set()[k]);
@@ -257,15 +253,15 @@ void add_row(const std::string& row, const Operations& least, const Queries<A, B
       time_queries(state, decided, certified);
     });
   }
-  add(row + "/50_digits", [set](benchmark::State& state) {
+  add_benchmark(row + "/50_digits", [set](benchmark::State& state) {
     time_queries(state, set(),
                  [](const Query& q) { return time_of_impact(cast<Digits50>(q.a), cast<Digits50>(q.b)).time; });
   });
   if constexpr (std::is_same_v<A, Sphere<D>> && std::is_same_v<B, Sphere<D>>) {
-    add(row + "/interval", [set](benchmark::State& state) {
+    add_benchmark(row + "/interval", [set](benchmark::State& state) {
       time_queries(state, set(), [](const Query& q) { return interval_ball<Interval>(q.a, q.b); });
     });
-    add(row + "/interval_unprotected", [set](benchmark::State& state) {
+    add_benchmark(row + "/interval_unprotected", [set](benchmark::State& state) {
       const Interval::traits_type::rounding rounding;  // set once, not at every operation
       time_queries(state, set(), [](const Query& q) { return interval_ball<UnprotectedInterval>(q.a, q.b); });
     });

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -89,6 +90,22 @@ template <class Query> double reading_ns(const std::vector<Query>& queries) {
 template <class Query>
 void add_query_floor(benchmark::State& state, const std::vector<Query>& queries, const Operations& operations) {
   add_floor(state, std::max(reading_ns(queries), operations.floor_ns()));
+}
+
+template <class Run> void add_benchmark(const std::string& name, const Run& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run);
+}
+
+/// One way to answer a set of queries: `ask` is timed, `answer_of` gives its answer as the set's truth is given.
+template <class Query, class Ask, class AnswerOf>
+void add_timed(const std::string& name, const QuerySet<Query>& (*set)(), const Operations& least, Ask ask,
+               AnswerOf answer_of) {
+  const auto count = counted_once([set, answer_of] { return errors_of(set(), answer_of); });
+  add_benchmark(name, [set, least, ask, count](benchmark::State& state) {
+    time_queries(state, set().queries, ask);
+    count(state);
+    add_query_floor(state, set().queries, least);
+  });
 }
 
 /// Half of the queries hit, and the time of a hit is a quotient.

@@ -25,12 +25,7 @@ void add(const std::string& set_name, const Shots<A, B>& (*set)(), const Operati
         const Toi<double> toi = time_of_impact(Method{}, query.a, query.b);
         return toi.status == ToiStatus::apart ? never : toi.time;
       };
-      const auto count = counted_once([set, time_of] { return errors_of(set(), time_of); });
-      benchmark::RegisterBenchmark(name.c_str(), [set, least, time_of, count](benchmark::State& state) {
-        time_queries(state, set().queries, time_of);
-        count(state);
-        add_query_floor(state, set().queries, least);
-      });
+      add_timed(name, set, least, time_of, time_of);
     }
   });
 }

@@ -34,22 +34,6 @@ struct Row {
 };
 std::vector<Row> rows;
 
-template <class Run> void add(const std::string& name, const Run& run) {
-  benchmark::RegisterBenchmark(name.c_str(), run);
-}
-
-/// One way to answer a set of queries: `ask` is timed, `answer_of` gives its answer as the set's truth is given.
-template <class Query, class Ask, class AnswerOf>
-void add_timed(const std::string& name, const QuerySet<Query>& (*set)(), const Operations& least, Ask ask,
-               AnswerOf answer_of) {
-  const auto count = counted_once([set, answer_of] { return errors_of(set(), answer_of); });
-  add(name, [set, least, ask, count](benchmark::State& state) {
-    time_queries(state, set().queries, ask);
-    count(state);
-    add_query_floor(state, set().queries, least);
-  });
-}
-
 /// The share of a set's queries of which is_clear() says so.
 template <class Query, class IsClear>
 std::function<double()> share_of(const QuerySet<Query>& (*set)(), const IsClear& is_clear) {
@@ -79,7 +63,7 @@ template <class A, class B> void add_in_float(const std::string& name, const Sho
       return time_of(cast<D>(time_of_impact(a, b)));
     });
   });
-  add(name, [set, in_float, count](benchmark::State& state) {
+  add_benchmark(name, [set, in_float, count](benchmark::State& state) {
     std::vector<decltype(in_float(set().queries[0]))> queries;
     std::ranges::transform(set().queries, std::back_inserter(queries), in_float);
     time_queries(state, queries, [](const auto& q) { return time_of_impact(q.first, q.second); });
@@ -253,7 +237,7 @@ const bool added = [] {
   add_separation<O, O>("obb_obb");
 
   // What it costs to write a whole Toi where a time would do: the floor of every front door.
-  add("stream_toi", [](benchmark::State& state) {
+  add_benchmark("stream_toi", [](benchmark::State& state) {
     const auto& queries = any_shots<S, S>().queries;
     time_queries(state, queries, [](const auto& q) {
       return Toi<D>{ToiStatus::hit, 1, q.a.shape.radius, q.a.displacement, q.b.displacement};

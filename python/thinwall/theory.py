@@ -71,7 +71,7 @@ def tunneling_probability(
     >>> tw.theory.tunneling_probability(speed=300, radius=0.004, thickness=[0.002, 0.2, 20], fps=60)
     array([0.998 , 0.9584, 0.    ])
     """
-    return _at_wall(_lab.tunneling_probability, speed, radius, thickness, step, fps, angle_deg, poses)
+    return _at_wall(_lab.tunneling_probability, step, fps, speed, radius=radius, thickness=thickness, angle_deg=angle_deg, poses=poses)
 
 
 def through_probability(
@@ -88,7 +88,7 @@ def through_probability(
 
     Parameters and answer are those of `tunneling_probability`. Of the path in contact only the first half turns the ball back.
     """
-    return _at_wall(_lab.through_probability, speed, radius, thickness, step, fps, angle_deg, poses)
+    return _at_wall(_lab.through_probability, step, fps, speed, radius=radius, thickness=thickness, angle_deg=angle_deg, poses=poses)
 
 
 def miss_probability(chord: Numbers, spacing: Numbers) -> Answer:
@@ -193,16 +193,7 @@ def blade_miss_probability(window: Numbers, spin: Numbers) -> Answer:
     return _ask(_lab.blade_miss_probability, window=window, spin=spin)
 
 
-def _at_wall(
-    formula: Any,
-    speed: Numbers,
-    radius: Numbers,
-    thickness: Numbers,
-    step: Numbers | None,
-    fps: Numbers | None,
-    angle_deg: Numbers,
-    poses: Numbers,
-) -> Answer:
+def _at_wall(formula: Any, step: Numbers | None, fps: Numbers | None, speed: Numbers, **others: Numbers) -> Answer:
     if (step is None) == (fps is None):
         raise ValueError("step, fps: give one of them: how long a step is [s], or how many there are a second")
     if step is None:
@@ -210,7 +201,7 @@ def _at_wall(
         if not np.all((rate >= 1e-3) & (rate <= 1e12)):
             raise ValueError(f"fps: {fps!r} is not allowed; numbers >= 0.001 and <= 1e12 [1/s]")
         step = 1 / rate
-    return _ask(formula, speed=speed, step=step, radius=radius, thickness=thickness, angle_deg=angle_deg, poses=poses)
+    return _ask(formula, speed=speed, step=step, **others)
 
 
 def _ask(formula: Any, **arguments: Any) -> Answer:
