@@ -86,16 +86,6 @@ std::string wanted_words(const Wish& wish) {
   return text;
 }
 
-}  // namespace
-
-std::string rounded_down_text(double value, int digits) {
-  const double near = std::stod(rounded_text(value, digits));
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
-  return rounded_text(near <= value ? near : near - unit, digits);
-}
-
-namespace {
-
 std::string seen(const AdviceRow& row) {
   const double latest = row.theory.largest_lateness().value_or(-1);
   if (latest < 0) return "how late it is seen has no formula";
@@ -134,19 +124,6 @@ std::string simplest(const Advice& advice) {
   return fmt::format(" Testing only the end of each step would do from {} steps a second on.",
                      longest > 1e-12 ? grouped_text(std::llround(std::ceil(1 / longest))) : exact_text(1 / longest));
 }
-
-}  // namespace
-
-std::string advice_sentence(const Advice& advice) {
-  const AdviceRow* best = advice.advised();
-  if (best == nullptr) return "No method here meets the wish at this step.";
-  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
-                     tunnel_words(best->theory.probability.value_or(0)), seen(*best),
-                     rounded_text(best->cost.dearer().value, 3), how_cheap(advice), pushed_through(advice),
-                     simplest(advice));
-}
-
-namespace {
 
 constexpr const char* limits =
     "Holds for one infinite wall at rest, straight flight without rotation, and a first contact that is anywhere in its "
@@ -215,19 +192,6 @@ std::string formulas_text(const Advice& advice) {
   return text;
 }
 
-}  // namespace
-
-std::string advice_text(const Advice& advice) {
-  return question_words(advice.wish) + wrapped("Wanted: " + wanted_words(advice.wish) + ".") + "\n" +
-         wrapped(advice_sentence(advice)) + "\n" + table_text(advice) +
-         wrapped(
-             "A clear step ends before the wall, in the next is contact; a query of each, on this machine: the median and a "
-             "95 % interval. A method counts by the dearer of the two.") +
-         "\n" + formulas_text(advice) + "\n" + wrapped(advice.wish.rod ? rod_limits : limits);
-}
-
-namespace {
-
 using nlohmann::ordered_json;
 
 ordered_json optional_number(const std::optional<double>& number) {
@@ -254,29 +218,6 @@ ordered_json row_json(const AdviceRow& row, double step_length) {
           {"in_experiment", row.method.fired}};
 }
 
-}  // namespace
-
-ordered_json advice_json(const Advice& advice) {
-  const Cell& cell = advice.wish.cell;
-  ordered_json json = {
-      {"speed_m_s", cell.speed},       {"radius_m", cell.radius},  {"thickness_m", cell.thickness},
-      {"angle_deg", cell.angle_deg},   {"step_s", cell.step},      {"step_m", step_length(cell)},
-      {"contact_m", slab_chord(cell)}, {"miss", advice.wish.miss}, {"late_m", optional_number(advice.wish.late)}};
-  if (advice.wish.rod) {
-    json["contact_m"] = rod_contact(advice.wish).mean;
-    json["length_m"] = advice.wish.rod->length;
-    json["spin_deg_s"] = advice.wish.rod->spin;
-  }
-  const AdviceRow* best = advice.advised();
-  json["method"] = best == nullptr ? ordered_json() : ordered_json(best->method.name);
-  json["advice"] = advice_sentence(advice);
-  json["methods"] = ordered_json::array();
-  for (const AdviceRow& row : advice.rows) json["methods"].push_back(row_json(row, step_length(cell)));
-  return json;
-}
-
-namespace {
-
 /// Enough to see a chance as small as the wish's 100 times; 1e5 otherwise.
 std::int64_t shots_for(double miss) {
   constexpr double least = 1e5, most = 1e7;
@@ -297,6 +238,49 @@ std::string expectations(const Wish& wish, std::span<const Candidate> candidates
 }
 
 }  // namespace
+
+std::string rounded_down_text(double value, int digits) {
+  const double near = std::stod(rounded_text(value, digits));
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
+  return rounded_text(near <= value ? near : near - unit, digits);
+}
+
+std::string advice_sentence(const Advice& advice) {
+  const AdviceRow* best = advice.advised();
+  if (best == nullptr) return "No method here meets the wish at this step.";
+  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
+                     tunnel_words(best->theory.probability.value_or(0)), seen(*best),
+                     rounded_text(best->cost.dearer().value, 3), how_cheap(advice), pushed_through(advice),
+                     simplest(advice));
+}
+
+std::string advice_text(const Advice& advice) {
+  return question_words(advice.wish) + wrapped("Wanted: " + wanted_words(advice.wish) + ".") + "\n" +
+         wrapped(advice_sentence(advice)) + "\n" + table_text(advice) +
+         wrapped(
+             "A clear step ends before the wall, in the next is contact; a query of each, on this machine: the median and a "
+             "95 % interval. A method counts by the dearer of the two.") +
+         "\n" + formulas_text(advice) + "\n" + wrapped(advice.wish.rod ? rod_limits : limits);
+}
+
+ordered_json advice_json(const Advice& advice) {
+  const Cell& cell = advice.wish.cell;
+  ordered_json json = {
+      {"speed_m_s", cell.speed},       {"radius_m", cell.radius},  {"thickness_m", cell.thickness},
+      {"angle_deg", cell.angle_deg},   {"step_s", cell.step},      {"step_m", step_length(cell)},
+      {"contact_m", slab_chord(cell)}, {"miss", advice.wish.miss}, {"late_m", optional_number(advice.wish.late)}};
+  if (advice.wish.rod) {
+    json["contact_m"] = rod_contact(advice.wish).mean;
+    json["length_m"] = advice.wish.rod->length;
+    json["spin_deg_s"] = advice.wish.rod->spin;
+  }
+  const AdviceRow* best = advice.advised();
+  json["method"] = best == nullptr ? ordered_json() : ordered_json(best->method.name);
+  json["advice"] = advice_sentence(advice);
+  json["methods"] = ordered_json::array();
+  for (const AdviceRow& row : advice.rows) json["methods"].push_back(row_json(row, step_length(cell)));
+  return json;
+}
 
 std::string config_text(const Wish& wish, std::span<const Candidate> candidates) {
   const Cell& cell = wish.cell;

@@ -120,7 +120,7 @@ std::vector<Panel> panels_by_kind(const std::vector<SurveyRow>& rows, const std:
     for (const SurveyRow* row : kind) rising.push_back(*row);
     std::ranges::stable_sort(rising, {}, [](const SurveyRow& row) { return row.crowd.count; });
     const auto [placement, speed] = kind_of(*kind[0]);
-    panels.push_back(joined(plot(table("drawn", "", columns, findings_of(rising)))
+    panels.push_back(joined(plot(columns, findings_of(rising))
                                 .x("count", Axis::log, "balls")
                                 .y("y", Axis::log, fmt::format("{}; {}, {:g} m a step", quantity, placement, speed))
                                 .by("broad_phase")));

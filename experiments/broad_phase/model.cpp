@@ -47,20 +47,6 @@ template <class Method> class OwnFinder final : public Finder {
   std::vector<ProxyPair> pairs_;
 };
 
-}  // namespace
-
-std::unique_ptr<Finder> make_finder(std::string_view name) {
-  if (name == bullet_build_name) return make_bullet_finder(false);
-  if (name == bullet_step_name) return make_bullet_finder(true);
-  std::unique_ptr<Finder> finder;
-  for_each_type(BroadPhases{}, [&]<class Method>(TypeTag<Method>) {
-    if (name == Method::name) finder = std::make_unique<OwnFinder<Method>>();
-  });
-  return finder;
-}
-
-namespace {
-
 /// Both sorted.
 std::int64_t count_in_first_only(const std::vector<ProxyPair>& a, const std::vector<ProxyPair>& b) {
   std::int64_t count = 0;
@@ -108,6 +94,16 @@ void time_rounds(const Steps& steps, const SurveyOptions& options, std::vector<s
 }
 
 }  // namespace
+
+std::unique_ptr<Finder> make_finder(std::string_view name) {
+  if (name == bullet_build_name) return make_bullet_finder(false);
+  if (name == bullet_step_name) return make_bullet_finder(true);
+  std::unique_ptr<Finder> finder;
+  for_each_type(BroadPhases{}, [&]<class Method>(TypeTag<Method>) {
+    if (name == Method::name) finder = std::make_unique<OwnFinder<Method>>();
+  });
+  return finder;
+}
 
 const Factors<CrowdFactors>& crowd_factors() {
   static constexpr std::array<std::string_view, 2> placements = {"uniform", "clustered"};

@@ -1,20 +1,66 @@
+#include <thinwall/experiments/check/check.hpp>
+
 #include <algorithm>
+#include <limits>
+#include <locale>
+#include <memory>
 #include <set>
 #include <sstream>
 
+#include <expat.h>
 #include <fmt/format.h>
 #include <toml++/toml.h>
+#include <boost/algorithm/string.hpp>
 
-#include <thinwall/experiments/check/check.hpp>
-#include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view space = " \t\n\f\r";
+
+/// Moves `at` past the word that ends before one of `ends`, and returns it.
+std::string_view take_word(std::string_view page, std::size_t& at, const std::string& ends) {
+  const std::size_t begin = at;
+  at = std::min(page.find_first_of(ends, begin), page.size());
+  return page.substr(begin, at - begin);
+}
+
+void skip(std::string_view page, std::size_t& at, const std::string& letters) {
+  at = std::min(page.find_first_not_of(letters, at), page.size());
+}
+
+std::string_view take_value(std::string_view page, std::size_t& at) {
+  if (at < page.size() && (page[at] == '"' || page[at] == '\'')) {
+    const std::string quote(1, page[at++]);
+    return take_word(page, at, quote);
+  }
+  return take_word(page, at, std::string(space) + ">");
+}
+
+/// The tag whose name begins at `at`.
+HtmlTag tag_at(std::string_view page, std::size_t at) {
+  const std::string between(space);
+  HtmlTag tag{lower_case(take_word(page, at, between + "/>")), {}};
+  for (;;) {
+    skip(page, at, between + "/\"'");
+    if (at == page.size() || page[at] == '>') return tag;
+    const std::size_t begin = at++;  // a name may begin with =
+    take_word(page, at, between + "/>=");
+    auto& [name, value] = tag.attributes.emplace_back(lower_case(page.substr(begin, at - begin)), "");
+    skip(page, at, between);
+    if (at == page.size() || page[at] != '=') continue;
+    skip(page, ++at, between);
+    value = take_value(page, at);
+  }
+}
 
 void check_content(const KeptResult& result, const std::string& page, Faults& faults) {
   const auto require = [&](const std::string& html, const char* what) {
@@ -207,30 +253,6 @@ void check_stands_alone(const KeptResult& result, const std::string& page, Fault
   check.check_styles(lower_case(page));
 }
 
-}  // namespace
-
-void check_page(const KeptResult& result, Faults& faults) {
-  if (std::filesystem::is_directory(result.folder / page_file)) {
-    add_fault(faults, page_file, "is not a file");
-    return;
-  }
-  const std::string page = file_text(result.folder / page_file);
-  if (page.empty()) {
-    add_fault(faults, page_file, "missing or empty");
-    return;
-  }
-  if (!page.starts_with("<!DOCTYPE html>") || page.find("</html>") == std::string::npos)
-    add_fault(faults, page_file, "not a whole page");
-  check_content(result, page, faults);
-  check_page_figures(result, page, faults);
-  check_page_tables(result, page, faults);
-  check_stands_alone(result, page, faults);
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
 /// The string that follows `at`.
 std::string quoted_after(const std::string& script, std::size_t at) {
   return gnuplot_unquoted(std::string_view(script).substr(at));
@@ -265,33 +287,6 @@ void check_svg(const std::string& svg, const std::string& script, const std::str
     if (shown.find(word) == std::string::npos) add_fault(faults, file, "does not show '{}'", one_line(word));
   }
 }
-
-}  // namespace
-
-std::string title_of_script(const std::string& script) {
-  const auto at = script.find("\nset label 1 ");
-  return at == std::string::npos ? "" : quoted_after(script, at);
-}
-
-void check_figures(const fs::path& folder, Faults& faults) {
-  if (!fs::is_directory(folder / "plots")) return;
-  std::set<fs::path> scripts;
-  for (const auto& entry : fs::directory_iterator(folder / "plots")) {
-    if (entry.path().extension() == ".gp") scripts.insert(entry.path());
-  }
-  for (const fs::path& script : scripts) {
-    const std::string name = "plots/" + script.stem().string();
-    if (!fs::exists(folder / (name + ".dat"))) faults.push_back(one_line(name) + ".dat: missing; the script reads it");
-    if (!fs::exists(folder / (name + ".svg"))) {
-      faults.push_back(fmt::format("{}.svg: was not drawn; to draw it: cd plots && gnuplot {}.gp", one_line(name),
-                                   one_line(script.stem().string())));
-      continue;
-    }
-    check_svg(file_text(folder / (name + ".svg")), file_text(script), one_line(name) + ".svg", faults);
-  }
-}
-
-namespace {
 
 constexpr const char* toml_file = "resolved.toml";
 constexpr const char* bib_file = "cite.bib";
@@ -331,6 +326,86 @@ void check_bib(const KeptResult& result, Faults& faults) {
 }
 
 }  // namespace
+
+std::string xml_fault(std::string_view text) {
+  const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate("UTF-8"), XML_ParserFree);
+  XML_UseParserAsHandlerArg(parser.get());
+  // A document type may declare entities, elsewhere too, which a reader need not have: a name is all it may be.
+  XML_SetStartDoctypeDeclHandler(parser.get(), [](void* itself, const XML_Char*, const XML_Char* elsewhere,
+                                                  const XML_Char*, int has_declarations) {
+    if (elsewhere != nullptr || has_declarations != 0) XML_StopParser(static_cast<XML_Parser>(itself), XML_FALSE);
+  });
+  if (text.size() > std::size_t{std::numeric_limits<int>::max()}) return "too long to be read";
+  if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK) return {};
+  const XML_Error error = XML_GetErrorCode(parser.get());
+  return fmt::format("line {}, column {}: {}", XML_GetCurrentLineNumber(parser.get()),
+                     XML_GetCurrentColumnNumber(parser.get()) + 1,
+                     XML_ErrorString(error == XML_ERROR_ABORTED ? XML_ERROR_UNDEFINED_ENTITY : error));
+}
+
+std::vector<HtmlTag> tags_of(std::string_view page) {
+  std::vector<HtmlTag> out;
+  for (auto at = page.find('<'); at != std::string_view::npos; at = page.find('<', at + 1)) {
+    const std::string letter = lower_case(page.substr(at + 1, 1));
+    if (letter >= "a" && letter <= "z") out.push_back(tag_at(page, at + 1));
+  }
+  return out;
+}
+
+std::string lower_case(std::string_view text) {
+  return boost::to_lower_copy(std::string(text), std::locale::classic());
+}
+
+std::string html_unescaped(std::string_view text) {
+  std::string out(text);
+  for (const auto& [entity, letter] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&amp;", "&"}})
+    replace_all(out, entity, letter);
+  return out;
+}
+
+// ---- The page.
+
+void check_page(const KeptResult& result, Faults& faults) {
+  if (std::filesystem::is_directory(result.folder / page_file)) {
+    add_fault(faults, page_file, "is not a file");
+    return;
+  }
+  const std::string page = file_text(result.folder / page_file);
+  if (page.empty()) {
+    add_fault(faults, page_file, "missing or empty");
+    return;
+  }
+  if (!page.starts_with("<!DOCTYPE html>") || page.find("</html>") == std::string::npos)
+    add_fault(faults, page_file, "not a whole page");
+  check_content(result, page, faults);
+  check_page_figures(result, page, faults);
+  check_page_tables(result, page, faults);
+  check_stands_alone(result, page, faults);
+}
+
+std::string title_of_script(const std::string& script) {
+  const auto at = script.find("\nset label 1 ");
+  return at == std::string::npos ? "" : quoted_after(script, at);
+}
+
+void check_figures(const fs::path& folder, Faults& faults) {
+  if (!fs::is_directory(folder / "plots")) return;
+  std::set<fs::path> scripts;
+  for (const auto& entry : fs::directory_iterator(folder / "plots")) {
+    if (entry.path().extension() == ".gp") scripts.insert(entry.path());
+  }
+  for (const fs::path& script : scripts) {
+    const std::string name = "plots/" + script.stem().string();
+    if (!fs::exists(folder / (name + ".dat"))) faults.push_back(one_line(name) + ".dat: missing; the script reads it");
+    if (!fs::exists(folder / (name + ".svg"))) {
+      faults.push_back(fmt::format("{}.svg: was not drawn; to draw it: cd plots && gnuplot {}.gp", one_line(name),
+                                   one_line(script.stem().string())));
+      continue;
+    }
+    check_svg(file_text(folder / (name + ".svg")), file_text(script), one_line(name) + ".svg", faults);
+  }
+}
 
 void check_texts(const KeptResult& result, Faults& faults) {
   check_toml(result, faults);

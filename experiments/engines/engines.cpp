@@ -265,7 +265,7 @@ Figure time_figure(const Rows& rows) {
     std::stable_partition(some.begin(), some.end(),
                           looks_at_poses);  // in the other pictures' order, and so with their marks
     figure.panels.push_back(
-        plot(table("drawn", "", columns, some))
+        plot(columns, some)
             .x("through", Axis::linear, fmt::format("through at {} m a step, wall {} m wide [%]", path, wall))
             .y("time", Axis::log, "time a step [ns]")
             .by("label"));

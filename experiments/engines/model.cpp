@@ -14,57 +14,6 @@
 
 namespace thinwall {
 
-std::vector<Engine> engine_list() {
-#define THINWALL_MAKE_ENGINE(make) make(),
-  std::vector<Engine> engines = {THINWALL_ENGINES(THINWALL_MAKE_ENGINE)};
-#undef THINWALL_MAKE_ENGINE
-  const std::vector<Engine> others = npm_engines();
-  engines.insert(engines.end() - 1, others.begin(), others.end());  // ours is last
-  return engines;
-}
-
-EngineStage stage_of(const EngineScene& scene) {
-  const Vec3<double> half_extents = {scene.thickness / 2, scene.half_side, scene.half_side};
-  return {.step = scene.step,
-          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
-          .moving = {Sphere<double>{Vec3<double>::Zero(), scene.radius}}};
-}
-
-const Factors<EngineCell>& engine_factors() {
-  constexpr Range length = {.lower = 1e-9, .upper = 1e6, .unit = "m"};
-  using C = EngineCell;
-  static const Factors<C> all = factors<C>(
-      numbers("wall_size", &C::wall_size, length, "Side of the wall, a square."),
-      numbers("path", &C::path, length, "Path of the ball in a step."),
-      number("step", &C::step, {.lower = 1e-9, .upper = 1e3, .unit = "s"}, "Time step."),
-      number("radius", &C::radius, length, "Of the ball."), number("thickness", &C::thickness, length, "Of the wall."),
-      number("angle_deg", &C::angle_deg, {.lower = 0, .upper = 89.9, .unit = "deg"}, "Largest angle of incidence."),
-      count("steps", &C::steps, 4, 1000, "Steps that a shot is followed for."));
-  return all;
-}
-
-EngineShot engine_shot(const EngineCell& cell, const RandomStream& stream, std::uint64_t trial) {
-  const RandomWords words = random_words(stream, trial, 0);
-  const Target fired = target({.speed = cell.path / cell.step,
-                               .step = cell.step,
-                               .radius = cell.radius,
-                               .thickness = cell.thickness,
-                               .angle_deg = cell.angle_deg * uniform(words[1]),
-                               .wall = Wall::infinite,
-                               .wall_size = 0});
-  const Vec3<double> start = start_at_phase(fired, uniform(words[0]));
-  return {.scene = {.radius = fired.radius,
-                    .thickness = 2 * fired.half_extents[0],
-                    .half_side = cell.wall_size / 2,
-                    .step = cell.step},
-          .start = {start, fired.displacement / cell.step},
-          .contact = path_to_contact(fired, start) / fired.step_length};
-}
-
-RandomStream random_stream(const EngineCell& cell, std::uint64_t seed) {
-  return {seed, stream_of(std::array{cell.path, cell.step, cell.radius, cell.thickness, cell.angle_deg})};
-}
-
 namespace {
 
 /// The lines of flight before and after the bounce meet at some time: of a ball that turns in an instant, when it turned. Its
@@ -80,56 +29,6 @@ bool flew_straight(const EngineShot& shot, const BodyState& end, double steps) {
   const Vec3<double> straight = shot.start.position + steps * shot.scene.step * shot.start.velocity;
   return (end.position - straight).norm() <= shot.scene.radius / 100;
 }
-
-}  // namespace
-
-void judge(const EngineShot& shot, const std::vector<BodyState>& flight, EngineTally& tally) {
-  ++tally.shots;
-  const BodyState& end = flight.back();
-  const auto steps = static_cast<double>(flight.size());
-  const double half = shot.scene.thickness / 2;
-  if (!end.position.allFinite() || !end.velocity.allFinite()) {
-    ++tally.lost;
-  } else if (end.position[0] > half) {
-    ++tally.tunneled;
-    if (flew_straight(shot, end, steps)) ++tally.unseen;
-  } else if (end.position[0] >= -half) {
-    ++tally.stuck;
-  } else if (end.velocity[0] < 0) {
-    ++tally.turned;
-    const double lateness = lateness_of(shot, end, steps);
-    const double energy = std::min(1024.0, end.velocity.squaredNorm() / shot.start.velocity.squaredNorm());
-    tally.lateness.add(lateness);
-    tally.energy.add(energy);
-    tally.latest = std::max(tally.latest, lateness);
-    tally.earliest = std::min(tally.earliest, lateness);
-    tally.most_energy = std::max(tally.most_energy, energy);
-    tally.least_energy = std::min(tally.least_energy, energy);
-    for (const BodyState& at : flight) {
-      tally.deepest = std::max(tally.deepest, at.position[0] + shot.scene.radius + half);
-    }
-  }
-}
-
-/// The integral of 1 / cos from 0 is ln tan(pi/4 + a/2), and beyond the angle whose cosine is depth / spacing nothing is missed.
-double mean_miss_probability(double depth, double spacing, double angle_deg) {
-  const double share = depth / spacing;
-  if (share >= 1) return 0;
-  const double most = angle_deg * (std::numbers::pi / 180);
-  if (most < 1e-6) return miss_probability(depth, spacing);
-  const double a = std::min(most, std::acos(share));
-  return (a - share * std::log(std::tan(std::numbers::pi / 4 + a / 2))) / most;
-}
-
-double unseen_theory(const EngineCell& cell, int poses_per_step, double skin) {
-  return mean_miss_probability(cell.thickness + 2 * cell.radius + 2 * skin, cell.path / poses_per_step, cell.angle_deg);
-}
-
-double through_theory(const EngineCell& cell, int poses_per_step, double skin) {
-  return mean_miss_probability(cell.thickness / 2 + cell.radius + skin, cell.path / poses_per_step, cell.angle_deg);
-}
-
-namespace {
 
 /// Poses lie on a grid that float holds, as thin_wall's do: a path must not be longer than this many times what it crosses.
 constexpr double most_walls_a_path = 1e6;
@@ -208,6 +107,103 @@ void choose_cells(const Settings& settings, EnginePlan& plan) {
 }
 
 }  // namespace
+
+std::vector<Engine> engine_list() {
+#define THINWALL_MAKE_ENGINE(make) make(),
+  std::vector<Engine> engines = {THINWALL_ENGINES(THINWALL_MAKE_ENGINE)};
+#undef THINWALL_MAKE_ENGINE
+  const std::vector<Engine> others = npm_engines();
+  engines.insert(engines.end() - 1, others.begin(), others.end());  // ours is last
+  return engines;
+}
+
+EngineStage stage_of(const EngineScene& scene) {
+  const Vec3<double> half_extents = {scene.thickness / 2, scene.half_side, scene.half_side};
+  return {.step = scene.step,
+          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
+          .moving = {Sphere<double>{Vec3<double>::Zero(), scene.radius}}};
+}
+
+const Factors<EngineCell>& engine_factors() {
+  constexpr Range length = {.lower = 1e-9, .upper = 1e6, .unit = "m"};
+  using C = EngineCell;
+  static const Factors<C> all = factors<C>(
+      numbers("wall_size", &C::wall_size, length, "Side of the wall, a square."),
+      numbers("path", &C::path, length, "Path of the ball in a step."),
+      number("step", &C::step, {.lower = 1e-9, .upper = 1e3, .unit = "s"}, "Time step."),
+      number("radius", &C::radius, length, "Of the ball."), number("thickness", &C::thickness, length, "Of the wall."),
+      number("angle_deg", &C::angle_deg, {.lower = 0, .upper = 89.9, .unit = "deg"}, "Largest angle of incidence."),
+      count("steps", &C::steps, 4, 1000, "Steps that a shot is followed for."));
+  return all;
+}
+
+EngineShot engine_shot(const EngineCell& cell, const RandomStream& stream, std::uint64_t trial) {
+  const RandomWords words = random_words(stream, trial, 0);
+  const Target fired = target({.speed = cell.path / cell.step,
+                               .step = cell.step,
+                               .radius = cell.radius,
+                               .thickness = cell.thickness,
+                               .angle_deg = cell.angle_deg * uniform(words[1]),
+                               .wall = Wall::infinite,
+                               .wall_size = 0});
+  const Vec3<double> start = start_at_phase(fired, uniform(words[0]));
+  return {.scene = {.radius = fired.radius,
+                    .thickness = 2 * fired.half_extents[0],
+                    .half_side = cell.wall_size / 2,
+                    .step = cell.step},
+          .start = {start, fired.displacement / cell.step},
+          .contact = path_to_contact(fired, start) / fired.step_length};
+}
+
+RandomStream random_stream(const EngineCell& cell, std::uint64_t seed) {
+  return {seed, stream_of(std::array{cell.path, cell.step, cell.radius, cell.thickness, cell.angle_deg})};
+}
+
+void judge(const EngineShot& shot, const std::vector<BodyState>& flight, EngineTally& tally) {
+  ++tally.shots;
+  const BodyState& end = flight.back();
+  const auto steps = static_cast<double>(flight.size());
+  const double half = shot.scene.thickness / 2;
+  if (!end.position.allFinite() || !end.velocity.allFinite()) {
+    ++tally.lost;
+  } else if (end.position[0] > half) {
+    ++tally.tunneled;
+    if (flew_straight(shot, end, steps)) ++tally.unseen;
+  } else if (end.position[0] >= -half) {
+    ++tally.stuck;
+  } else if (end.velocity[0] < 0) {
+    ++tally.turned;
+    const double lateness = lateness_of(shot, end, steps);
+    const double energy = std::min(1024.0, end.velocity.squaredNorm() / shot.start.velocity.squaredNorm());
+    tally.lateness.add(lateness);
+    tally.energy.add(energy);
+    tally.latest = std::max(tally.latest, lateness);
+    tally.earliest = std::min(tally.earliest, lateness);
+    tally.most_energy = std::max(tally.most_energy, energy);
+    tally.least_energy = std::min(tally.least_energy, energy);
+    for (const BodyState& at : flight) {
+      tally.deepest = std::max(tally.deepest, at.position[0] + shot.scene.radius + half);
+    }
+  }
+}
+
+/// The integral of 1 / cos from 0 is ln tan(pi/4 + a/2), and beyond the angle whose cosine is depth / spacing nothing is missed.
+double mean_miss_probability(double depth, double spacing, double angle_deg) {
+  const double share = depth / spacing;
+  if (share >= 1) return 0;
+  const double most = angle_deg * (std::numbers::pi / 180);
+  if (most < 1e-6) return miss_probability(depth, spacing);
+  const double a = std::min(most, std::acos(share));
+  return (a - share * std::log(std::tan(std::numbers::pi / 4 + a / 2))) / most;
+}
+
+double unseen_theory(const EngineCell& cell, int poses_per_step, double skin) {
+  return mean_miss_probability(cell.thickness + 2 * cell.radius + 2 * skin, cell.path / poses_per_step, cell.angle_deg);
+}
+
+double through_theory(const EngineCell& cell, int poses_per_step, double skin) {
+  return mean_miss_probability(cell.thickness / 2 + cell.radius + skin, cell.path / poses_per_step, cell.angle_deg);
+}
 
 EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options) {
   EnginePlan plan;

@@ -19,7 +19,6 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/gnuplot.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 
@@ -28,6 +27,7 @@ namespace thinwall {
 namespace {
 
 using nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 constexpr std::array<std::pair<Mark, std::string_view>, 4> marks = {
     {{Mark::points, "points"}, {Mark::line, "line"}, {Mark::dashes, "dashes"}, {Mark::cells, "cells"}}};
@@ -111,16 +111,6 @@ Figure parse_figure(const std::string& text, const std::string& file) {
   return out;
 }
 
-}  // namespace
-
-std::string figure_json(const Figure& figure) {
-  ordered_json out = {{"name", figure.name}, {"title", figure.title}, {"panels", ordered_json::array()}};
-  for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
-  return json_line(out);
-}
-
-namespace {
-
 std::set<std::string> ids_in(const std::string& svg) {
   std::set<std::string> ids;
   for (auto at = svg.find(" id="); at != std::string::npos; at = svg.find(" id=", at)) {
@@ -138,7 +128,62 @@ bool ends_as_it_should(const std::filesystem::path& file) {
   return text.find(end, text.size() - std::min<std::size_t>(text.size(), 16)) != std::string::npos;
 }
 
+constexpr int no_such_program = 127;  // as a shell says it
+
+/// The child's part: only calls that are safe between fork and exec in a program with threads.
+[[noreturn]] void become(char* const* words, const char* folder, int output) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // if we are killed, it must not write into the folder of the next run
+  ::setpgid(0, 0);                     // Ctrl-C on the terminal is for us: we wait for the child
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+  if (::chdir(folder) == 0) ::execvp(words[0], words);
+  ::_exit(errno == ENOENT ? no_such_program : 126);
+}
+
+std::string read_all(int descriptor) {
+  std::string out;
+  std::array<char, 4096> buffer{};
+  while (true) {
+    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return out;
+    out.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+/// Of the figures that a manifest names.
+std::set<std::string> figure_names(const Manifest& manifest) {
+  std::set<std::string> out;
+  for (const fs::path file : manifest.files()) {
+    if (file.parent_path() == "plots" && file.extension() == ".gp") out.insert(file.stem().string());
+  }
+  return out;
+}
+
+/// Writes the script and the data of a figure into `workshop`, from what the folder says of it. Returns what went wrong.
+std::string prepare(const fs::path& folder, const std::string& name, const fs::path& workshop) try {
+  const std::string file = "plots/" + name + ".json";
+  if (!holds_file(folder, file)) return file + " is missing";
+  const Figure figure = parse_figure(file_text(folder / file), file);
+  if (figure.name != name) return file + " is of another figure";
+  write_file(workshop / (name + ".gp"), plot_script(figure));
+  write_file(workshop / (name + ".dat"), plot_data(figure));
+  return {};
+} catch (const std::logic_error& error) {
+  return error.what();
+} catch (const UsageError& error) {
+  return error.what();
+}
+
 }  // namespace
+
+std::string figure_json(const Figure& figure) {
+  ordered_json out = {{"name", figure.name}, {"title", figure.title}, {"panels", ordered_json::array()}};
+  for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
+  return json_line(out);
+}
 
 std::vector<std::string> drawn_files(const std::string& name, const std::string& format) {
   if (format == "tex") return {name + "-latex.tex", name + "-latex.pdf"};
@@ -169,35 +214,6 @@ std::string inline_svg(std::string svg, const std::string& name, const std::stri
   return svg.insert(svg.find("<svg") + 4, " role=\"img\" aria-label=\"" + html_escaped(label) + "\"");
 }
 
-namespace {
-
-constexpr int no_such_program = 127;  // as a shell says it
-
-/// The child's part: only calls that are safe between fork and exec in a program with threads.
-[[noreturn]] void become(char* const* words, const char* folder, int output) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // if we are killed, it must not write into the folder of the next run
-  ::setpgid(0, 0);                     // Ctrl-C on the terminal is for us: we wait for the child
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  ::dup2(nothing, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
-  if (::chdir(folder) == 0) ::execvp(words[0], words);
-  ::_exit(errno == ENOENT ? no_such_program : 126);
-}
-
-std::string read_all(int descriptor) {
-  std::string out;
-  std::array<char, 4096> buffer{};
-  while (true) {
-    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return out;
-    out.append(buffer.data(), static_cast<std::size_t>(count));
-  }
-}
-
-}  // namespace
-
 ProcessResult run_process(const std::vector<std::string>& words, const std::filesystem::path& folder) {
   std::vector<std::string> copies = words;
   std::vector<char*> pointers;
@@ -220,36 +236,6 @@ ProcessResult run_process(const std::vector<std::string>& words, const std::file
   out.found = out.status != no_such_program;
   return out;
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// Of the figures that a manifest names.
-std::set<std::string> figure_names(const Manifest& manifest) {
-  std::set<std::string> out;
-  for (const fs::path file : manifest.files()) {
-    if (file.parent_path() == "plots" && file.extension() == ".gp") out.insert(file.stem().string());
-  }
-  return out;
-}
-
-/// Writes the script and the data of a figure into `workshop`, from what the folder says of it. Returns what went wrong.
-std::string prepare(const fs::path& folder, const std::string& name, const fs::path& workshop) try {
-  const std::string file = "plots/" + name + ".json";
-  if (!holds_file(folder, file)) return file + " is missing";
-  const Figure figure = parse_figure(file_text(folder / file), file);
-  if (figure.name != name) return file + " is of another figure";
-  write_file(workshop / (name + ".gp"), plot_script(figure));
-  write_file(workshop / (name + ".dat"), plot_data(figure));
-  return {};
-} catch (const std::logic_error& error) {
-  return error.what();
-} catch (const UsageError& error) {
-  return error.what();
-}
-
-}  // namespace
 
 DrawnFigures draw_figures(const fs::path& folder, const std::vector<std::string>& formats) {
   DrawnFigures out;

@@ -1,10 +1,9 @@
 #include <thinwall/experiments/lab/escape.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 
 #include <fmt/format.h>
+#include <boost/locale/utf.hpp>
 
 #include <thinwall/experiments/lab/text.hpp>
 
@@ -13,33 +12,15 @@ namespace {
 
 bool is_control(char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; }
 
-/// What begins a letter in UTF-8: how many bytes it has, the bits of it there, and the least that needs so many bytes.
-struct Lead {
-  unsigned char from, to;
-  std::size_t bytes;
-  std::uint32_t mask, least;
-};
-constexpr std::array<Lead, 4> leads = {{{0x00, 0x7f, 1, 0x7f, 0},
-                                        {0xc0, 0xdf, 2, 0x1f, 0x80},
-                                        {0xe0, 0xef, 3, 0x0f, 0x800},
-                                        {0xf0, 0xf7, 4, 0x07, 0x10000}}};
-
-/// How many bytes the UTF-8 letter has that `text` begins with; 0 if there is none that can be shown: a control character, a
-/// surrogate, one that Unicode says is no character (U+FFFE, U+FFFF), or bytes that are not UTF-8.
+/// How many bytes the UTF-8 letter has that `text` begins with; 0 if there is none that can be shown: a control character, one
+/// that Unicode says is no character (U+FFFE, U+FFFF), or bytes that are not UTF-8.
 std::size_t letter_bytes(std::string_view text) {
-  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-  for (const Lead& lead : leads) {
-    if (text.size() < lead.bytes || byte(0) < lead.from || byte(0) > lead.to) continue;
-    std::uint32_t code = byte(0) & lead.mask;
-    for (std::size_t i = 1; i < lead.bytes; ++i) {
-      if ((byte(i) & 0xc0) != 0x80) return 0;
-      code = code << 6 | (byte(i) & 0x3fU);
-    }
-    const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0), surrogate = code >= 0xd800 && code < 0xe000;
-    const bool letter = !control && !surrogate && (code & 0xfffe) != 0xfffe && code >= lead.least && code <= 0x10ffff;
-    return letter ? lead.bytes : 0;
-  }
-  return 0;
+  namespace utf = boost::locale::utf;
+  const auto* at = text.begin();
+  const utf::code_point code = utf::utf_traits<char>::decode(at, text.end());
+  const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
+  const bool letter = code != utf::illegal && code != utf::incomplete && !control && (code & 0xfffe) != 0xfffe;
+  return letter ? static_cast<std::size_t>(at - text.begin()) : 0;
 }
 
 }  // namespace

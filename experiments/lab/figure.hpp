@@ -1,5 +1,5 @@
 #pragma once
-/// A figure as data: panels of series. lab/gnuplot.hpp turns it into a script and data, lab/draw.hpp those into an SVG.
+/// A figure as data: panels of series. lab/draw.hpp turns it into a script and data, and those into an SVG.
 
 #include <limits>
 #include <string>

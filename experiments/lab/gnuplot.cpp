@@ -1,4 +1,4 @@
-#include <thinwall/experiments/lab/gnuplot.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 
 #include <algorithm>
 #include <array>

@@ -52,51 +52,6 @@ std::string difference(const std::string& name, const json& theirs, const json& 
   return name + " = " + shown(theirs) + ", not " + shown(ours);
 }
 
-}  // namespace
-
-std::string identity_text(const RunIdentity& identity) { return to_json(identity).dump(); }
-
-RunIdentity read_identity(const JsonReader& object) {
-  const json& config = object.value("config");
-  if (!config.is_object() || !is_toml(config))
-    object.complain("config", "an object of what TOML can hold: no null, no whole number above 2^63 - 1");
-  constexpr std::uint64_t most_trials = std::numeric_limits<std::int64_t>::max();
-  const bool has_trials = !object.value("trials").is_null();
-  return {.experiment = object.text("experiment", is_name, "a name of a-z, 0-9 and _"),
-          .config = config.dump(),
-          .seed = object.whole("seed", 0, std::numeric_limits<std::uint64_t>::max()),
-          .trials = has_trials ? std::optional(static_cast<std::int64_t>(object.whole("trials", 1, most_trials)))
-                               : std::nullopt,
-          .program = {}};
-}
-
-std::optional<RunIdentity> parse_identity(std::string_view text) {
-  try {
-    const JsonReader object(text, "identity");
-    RunIdentity identity = read_identity(object);
-    identity.program = object.text("program");
-    if (object.has("shard")) identity.shard = object.text("shard");
-    return identity;
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
-}
-
-std::string identity_difference(const RunIdentity& theirs, const RunIdentity& ours) {
-  const json a = to_json(theirs), b = to_json(ours);
-  for (const char* name : {"experiment", "seed", "trials", "shard"}) {
-    const json left = a.value(name, json()), right = b.value(name, json());
-    if (left != right) return difference(name, left, right);
-  }
-  const json& config = a.at("config");
-  for (const auto& [key, value] : b.at("config").items()) {
-    if (config.value(key, json()) != value) return difference(key, config.value(key, json()), value);
-  }
-  return config == b.at("config") ? "" : "keys that are unknown here";
-}
-
-namespace {
-
 constexpr std::string_view family = "thinwall-journal-", magic = "thinwall-journal-2";
 
 /// `run`: the SHA-256 of the run's identity, so that a row of another run is none of ours; empty for the row that says it.
@@ -162,6 +117,47 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
 }
 
 }  // namespace
+
+std::string identity_text(const RunIdentity& identity) { return to_json(identity).dump(); }
+
+RunIdentity read_identity(const JsonReader& object) {
+  const json& config = object.value("config");
+  if (!config.is_object() || !is_toml(config))
+    object.complain("config", "an object of what TOML can hold: no null, no whole number above 2^63 - 1");
+  constexpr std::uint64_t most_trials = std::numeric_limits<std::int64_t>::max();
+  const bool has_trials = !object.value("trials").is_null();
+  return {.experiment = object.text("experiment", is_name, "a name of a-z, 0-9 and _"),
+          .config = config.dump(),
+          .seed = object.whole("seed", 0, std::numeric_limits<std::uint64_t>::max()),
+          .trials = has_trials ? std::optional(static_cast<std::int64_t>(object.whole("trials", 1, most_trials)))
+                               : std::nullopt,
+          .program = {}};
+}
+
+std::optional<RunIdentity> parse_identity(std::string_view text) {
+  try {
+    const JsonReader object(text, "identity");
+    RunIdentity identity = read_identity(object);
+    identity.program = object.text("program");
+    if (object.has("shard")) identity.shard = object.text("shard");
+    return identity;
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+std::string identity_difference(const RunIdentity& theirs, const RunIdentity& ours) {
+  const json a = to_json(theirs), b = to_json(ours);
+  for (const char* name : {"experiment", "seed", "trials", "shard"}) {
+    const json left = a.value(name, json()), right = b.value(name, json());
+    if (left != right) return difference(name, left, right);
+  }
+  const json& config = a.at("config");
+  for (const auto& [key, value] : b.at("config").items()) {
+    if (config.value(key, json()) != value) return difference(key, config.value(key, json()), value);
+  }
+  return config == b.at("config") ? "" : "keys that are unknown here";
+}
 
 bool Journal::is_one(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file))) return false;

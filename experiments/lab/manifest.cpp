@@ -25,6 +25,10 @@ namespace thinwall {
 
 namespace {
 
+using nlohmann::json;
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
@@ -34,30 +38,6 @@ std::string cpu_model() {
   }
   return "unknown";
 }
-
-}  // namespace
-
-BuildRecord this_build() {
-  BuildRecord out{.version = std::string(build_version),
-                  .release_date = std::string(build_release_date),
-                  .compiler = std::string(build_compiler),
-                  .flags = std::string(build_flags),
-                  .build_type = std::string(build_type),
-                  .commit = std::string(build_commit),
-                  .dirty = build_dirty,
-                  .libraries = {}};
-  for (const auto& [name, version] : build_libraries) out.libraries.emplace_back(name, version);
-  return out;
-}
-
-MachineRecord this_machine() {
-  MachineRecord out{
-      .cpu = cpu_model(), .system = "unknown", .cores = static_cast<int>(std::thread::hardware_concurrency())};
-  if (utsname name{}; uname(&name) == 0) out.system = fmt::format("{} {} {}", name.sysname, name.release, name.machine);
-  return out;
-}
-
-namespace {
 
 /// The file that this very code was loaded from: the program, or a module that another program loaded.
 std::string file_of_this_code() {
@@ -69,55 +49,10 @@ std::string file_of_this_code() {
   return name.empty() ? "/proc/self/exe" : name;
 }
 
-}  // namespace
-
-std::string this_program_sha256() {
-  static const std::string hash = sha256_of_file(file_of_this_code());
-  return hash;
-}
-
-std::string utc_text(std::chrono::system_clock::time_point time) {
-  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
-}
-
-std::string reproduce_line(const RunRecord& run) {
-  std::string line = "thinwall run ";
-  line += run.default_config ? run.experiment : "resolved.toml";
-  line += fmt::format(" --seed {}", run.seed);
-  if (run.trials) line += fmt::format(" --trials {}", *run.trials);
-  return line + (run.default_config ? " --out again" : " --out ../again");  // a result within a result is none of it
-}
-
-std::string run_id(const RunIdentity& run) {
-  const std::string trials = run.trials ? std::to_string(*run.trials) : "default";
-  return sha256(fmt::format("{}\n{}\n{}\n{}", run.experiment, run.config, run.seed, trials)).substr(0, 12);
-}
-
-namespace {
-
 std::string fact_of(const Manifest& manifest, const std::string& name) {
   const auto found = std::ranges::find(manifest.facts, name, &std::pair<std::string, std::string>::first);
   return found == manifest.facts.end() ? "none" : found->second;
 }
-
-}  // namespace
-
-std::vector<FactChange> changed_facts(const Manifest& recorded, const Manifest& rerun) {
-  std::vector<FactChange> out;
-  const auto add = [&](const std::string& name) {
-    const FactChange change{name, fact_of(recorded, name), fact_of(rerun, name)};
-    if (change.recorded != change.rerun) out.push_back(change);
-  };
-  for (const auto& [name, value] : recorded.facts) add(name);
-  for (const auto& [name, value] : rerun.facts) {
-    if (fact_of(recorded, name) == "none") add(name);
-  }
-  return out;
-}
-
-namespace {
-
-using nlohmann::json;
 
 std::string key_text(const std::string& key) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
@@ -137,23 +72,6 @@ std::string table_text(const json& table, const std::string& path) {
   }
   return values + tables;
 }
-
-}  // namespace
-
-std::string config_toml(const RunIdentity& run) {
-  json config = json::parse(run.config);
-  config.erase("experiment");
-  return fmt::format("experiment = {}\n{}", json_string(run.experiment), table_text(config, ""));
-}
-
-std::string resolved_toml(const RunRecord& run) {
-  return fmt::format("# To run it again from inside this folder:\n# {}\n{}", reproduce_line(run), config_toml(run));
-}
-
-namespace {
-
-using nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 constexpr int format_version = 1;
 
@@ -182,6 +100,58 @@ ordered_json program(const BuildRecord& build) {
 }
 
 }  // namespace
+
+MachineRecord this_machine() {
+  MachineRecord out{
+      .cpu = cpu_model(), .system = "unknown", .cores = static_cast<int>(std::thread::hardware_concurrency())};
+  if (utsname name{}; uname(&name) == 0) out.system = fmt::format("{} {} {}", name.sysname, name.release, name.machine);
+  return out;
+}
+
+std::string this_program_sha256() {
+  static const std::string hash = sha256_of_file(file_of_this_code());
+  return hash;
+}
+
+std::string utc_text(std::chrono::system_clock::time_point time) {
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
+std::string reproduce_line(const RunRecord& run) {
+  std::string line = "thinwall run ";
+  line += run.default_config ? run.experiment : "resolved.toml";
+  line += fmt::format(" --seed {}", run.seed);
+  if (run.trials) line += fmt::format(" --trials {}", *run.trials);
+  return line + (run.default_config ? " --out again" : " --out ../again");  // a result within a result is none of it
+}
+
+std::string run_id(const RunIdentity& run) {
+  const std::string trials = run.trials ? std::to_string(*run.trials) : "default";
+  return sha256(fmt::format("{}\n{}\n{}\n{}", run.experiment, run.config, run.seed, trials)).substr(0, 12);
+}
+
+std::vector<FactChange> changed_facts(const Manifest& recorded, const Manifest& rerun) {
+  std::vector<FactChange> out;
+  const auto add = [&](const std::string& name) {
+    const FactChange change{name, fact_of(recorded, name), fact_of(rerun, name)};
+    if (change.recorded != change.rerun) out.push_back(change);
+  };
+  for (const auto& [name, value] : recorded.facts) add(name);
+  for (const auto& [name, value] : rerun.facts) {
+    if (fact_of(recorded, name) == "none") add(name);
+  }
+  return out;
+}
+
+std::string config_toml(const RunIdentity& run) {
+  json config = json::parse(run.config);
+  config.erase("experiment");
+  return fmt::format("experiment = {}\n{}", json_string(run.experiment), table_text(config, ""));
+}
+
+std::string resolved_toml(const RunRecord& run) {
+  return fmt::format("# To run it again from inside this folder:\n# {}\n{}", reproduce_line(run), config_toml(run));
+}
 
 std::string manifest_text(const RunRecord& run, const Outcome& outcome,
                           const std::map<std::string, std::string>& hashes, const std::vector<std::string>& unhashed) {
@@ -280,14 +250,6 @@ Manifest parse_manifest(const std::string& text, const std::string& file) {
   out.facts.emplace_back("CPU", machine.text("cpu"));
   out.facts.emplace_back("system", machine.text("system"));
   return out;
-}
-
-SoftwareCitation this_software() {
-  return {.title = std::string(citation_title),
-          .authors = std::string(citation_authors),
-          .version = std::string(build_version),
-          .date = std::string(build_release_date),
-          .license = std::string(citation_license)};
 }
 
 ResultCitation citation_of(const RunRecord& run) {

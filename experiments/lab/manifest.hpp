@@ -18,7 +18,8 @@ namespace thinwall {
 
 /// The program, as it was built.
 struct BuildRecord {
-  std::string version, release_date, compiler, flags, build_type;
+  std::string version, release_date, compiler;
+  std::string flags, build_type;                               ///< the flags but for the warnings
   std::string commit;                                          ///< full git hash, or "unknown"
   bool dirty = false;                                          ///< tracked files differed from that commit
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version

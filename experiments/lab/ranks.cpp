@@ -1,4 +1,4 @@
-#include <thinwall/experiments/lab/ranks.hpp>
+#include <thinwall/experiments/lab/runner.hpp>
 
 #include <cstdlib>
 

@@ -19,7 +19,6 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/gnuplot.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/report.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -28,6 +27,7 @@
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,6 +51,60 @@ bool is_rank_journal(std::string_view name) {
   return name.starts_with(rank_journal_begin) && name.ends_with(rank_journal_end) &&
          parse_count(
              name.substr(rank_journal_begin.size(), name.size() - rank_journal_begin.size() - rank_journal_end.size()));
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
+  throw UsageError(fmt::format("{}: {}", one_line(folder.string()), why));
+}
+
+constexpr std::size_t room_for_a_figure = 1 << 20;  // [byte]
+
+void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
+  for (const Table& table : outcome.tables) {
+    folder.stage("data/" + table.name + ".csv", csv_text(table));
+    if (!table.in_report || table.is_timing) continue;  // only data/ may differ from run to run
+    folder.stage("tables/" + table.name + ".md", markdown_table(table));
+    folder.stage("tables/" + table.name + ".tex", latex_table(table));
+  }
+  std::string name = "thinwall-" + run.experiment;
+  for (char& letter : name) letter = letter == '_' ? '-' : letter;
+  // Its description holds no number: an answer may speak of run times, and this file is the same in every run.
+  const PackageInfo info{name, run.question, "The answer stands in report.html and manifest.json.", run.build.version};
+  folder.stage("datapackage.json", datapackage_text(info, outcome.tables));
+}
+
+/// The figures that could be drawn; `why_no_svg` says what was wrong with another.
+void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& parts) {
+  for (const Figure& figure : outcome.figures) {
+    folder.stage("plots/" + figure.name + ".gp", plot_script(figure));
+    folder.stage("plots/" + figure.name + ".dat", plot_data(figure));
+    folder.stage("plots/" + figure.name + ".json", figure_json(figure));
+    const std::string trouble = draw(folder.staging() / "plots", figure.name);
+    if (!trouble.empty()) {
+      parts.why_no_svg = trouble;
+      folder.stage("plots/" + figure.name + ".svg",
+                   std::string(room_for_a_figure, ' '));  // throws if that was the trouble
+      fs::remove(folder.staging() / "plots" / (figure.name + ".svg"));
+      continue;
+    }
+    parts.svgs[figure.name] = file_text(folder.staging() / "plots" / (figure.name + ".svg"));
+  }
+}
+
+/// Takes what differs from run to run out of `hashes`, and returns its paths.
+std::vector<std::string> take_timings(std::map<std::string, std::string>& hashes, const Outcome& outcome) {
+  std::vector<std::string> out;
+  const auto take = [&](const std::string& file) {
+    if (hashes.erase(file) > 0) out.push_back(file);
+  };
+  for (const Table& table : outcome.tables) {
+    if (table.is_timing) take("data/" + table.name + ".csv");
+  }
+  for (const Figure& figure : outcome.figures) {
+    if (!figure.is_timing) continue;
+    for (const char* kind : {".dat", ".gp", ".json", ".svg"}) take("plots/" + figure.name + kind);
+  }
+  return out;
 }
 
 }  // namespace
@@ -283,14 +337,6 @@ bool remove_result(const fs::path& folder) {
   return !fs::exists(folder);
 }
 
-namespace {
-
-[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
-  throw UsageError(fmt::format("{}: {}", one_line(folder.string()), why));
-}
-
-}  // namespace
-
 KeptResult kept_result(const fs::path& folder, const std::string& file) {
   KeptResult out;
   static_cast<Manifest&>(out) = parse_manifest(file_text(folder / manifest_name), file);
@@ -330,60 +376,6 @@ KeptResult read_result(const fs::path& folder) {
   if (!fs::is_regular_file(file, none)) refuse(folder, "its manifest.json is not a file");
   return kept_result(folder, file.string());
 }
-
-namespace {
-
-constexpr std::size_t room_for_a_figure = 1 << 20;  // [byte]
-
-void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
-  for (const Table& table : outcome.tables) {
-    folder.stage("data/" + table.name + ".csv", csv_text(table));
-    if (!table.in_report || table.is_timing) continue;  // only data/ may differ from run to run
-    folder.stage("tables/" + table.name + ".md", markdown_table(table));
-    folder.stage("tables/" + table.name + ".tex", latex_table(table));
-  }
-  std::string name = "thinwall-" + run.experiment;
-  for (char& letter : name) letter = letter == '_' ? '-' : letter;
-  // Its description holds no number: an answer may speak of run times, and this file is the same in every run.
-  const PackageInfo info{name, run.question, "The answer stands in report.html and manifest.json.", run.build.version};
-  folder.stage("datapackage.json", datapackage_text(info, outcome.tables));
-}
-
-/// The figures that could be drawn; `why_no_svg` says what was wrong with another.
-void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& parts) {
-  for (const Figure& figure : outcome.figures) {
-    folder.stage("plots/" + figure.name + ".gp", plot_script(figure));
-    folder.stage("plots/" + figure.name + ".dat", plot_data(figure));
-    folder.stage("plots/" + figure.name + ".json", figure_json(figure));
-    const std::string trouble = draw(folder.staging() / "plots", figure.name);
-    if (!trouble.empty()) {
-      parts.why_no_svg = trouble;
-      folder.stage("plots/" + figure.name + ".svg",
-                   std::string(room_for_a_figure, ' '));  // throws if that was the trouble
-      fs::remove(folder.staging() / "plots" / (figure.name + ".svg"));
-      continue;
-    }
-    parts.svgs[figure.name] = file_text(folder.staging() / "plots" / (figure.name + ".svg"));
-  }
-}
-
-/// Takes what differs from run to run out of `hashes`, and returns its paths.
-std::vector<std::string> take_timings(std::map<std::string, std::string>& hashes, const Outcome& outcome) {
-  std::vector<std::string> out;
-  const auto take = [&](const std::string& file) {
-    if (hashes.erase(file) > 0) out.push_back(file);
-  };
-  for (const Table& table : outcome.tables) {
-    if (table.is_timing) take("data/" + table.name + ".csv");
-  }
-  for (const Figure& figure : outcome.figures) {
-    if (!figure.is_timing) continue;
-    for (const char* kind : {".dat", ".gp", ".json", ".svg"}) take("plots/" + figure.name + kind);
-  }
-  return out;
-}
-
-}  // namespace
 
 std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
   ReportParts parts;

@@ -18,25 +18,10 @@
 
 namespace thinwall {
 
-Shard parse_shard(std::string_view text) {
-  constexpr std::int64_t most = 1'000'000;
-  const auto slash = text.find('/');
-  if (slash != std::string_view::npos) {
-    const auto index = parse_count(text.substr(0, slash)), count = parse_count(text.substr(slash + 1));
-    if (index && count && *index >= 1 && *index <= *count && *count <= most) {
-      return {static_cast<int>(*index), static_cast<int>(*count)};
-    }
-  }
-  throw UsageError(
-      fmt::format("--shard: '{}' is not allowed; i/N, the i-th of N shards: whole numbers with 1 <= i <= N <= {}",
-                  one_line(text), most));
-}
-
-std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
-
 namespace {
 
 using nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 constexpr int seal_version = 1;
 
@@ -52,61 +37,6 @@ std::vector<int> deal(std::size_t units, int shards) {
   }
   return owners;
 }
-
-}  // namespace
-
-std::vector<std::size_t> units_of(const Shard& shard, std::size_t units) {
-  const std::vector<int> owners = deal(units, shard.count);
-  std::vector<std::size_t> hand;
-  for (std::size_t i = 0; i < units; ++i) {
-    if (owners[i] == shard.index) hand.push_back(i);
-  }
-  return hand;
-}
-
-std::optional<ShardSeal> parse_seal(const std::string& text) {
-  try {
-    const JsonReader seal(text, seal_name), machine = seal.object("machine");
-    seal.whole("thinwall_shard", seal_version, seal_version);
-    const auto identity = parse_identity(seal.value("run").dump());
-    if (!identity) return std::nullopt;
-    return ShardSeal{.identity = *identity,
-                     .shard = parse_shard(identity->shard),
-                     .record = {.shard = identity->shard,
-                                .cpu = machine.text("cpu"),
-                                .system = machine.text("system"),
-                                .started = seal.text("started"),
-                                .finished = seal.text("finished")},
-                     .journal_sha256 = seal.text("journal")};
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
-}
-
-void seal_shard(ResultFolder& folder, const RunRecord& run) {
-  const ordered_json seal = {
-      {"thinwall_shard", seal_version},
-      {"run", ordered_json::parse(identity_text(run))},
-      {"units", run.units},
-      {"total_trials", run.total_trials},
-      {"argv", run.argv},
-      {"threads", run.threads},
-      {"started", utc_text(run.started)},
-      {"finished", utc_text(run.finished)},
-      {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
-      {"journal", sha256_of_file(folder.path() / journal_name)}};
-  folder.seal(seal.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-}
-
-bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {
-  const auto seal = parse_seal(file_text(folder.path() / seal_name));
-  return seal && identity_text(seal->identity) == identity_text(identity) &&
-         seal->journal_sha256 == sha256_of_file(folder.path() / journal_name);
-}
-
-namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* mend = "; run the shard again, it computes what is missing";
 
@@ -185,6 +115,71 @@ void check_missing(const std::vector<SealedFolder>& found) {
 }
 
 }  // namespace
+
+Shard parse_shard(std::string_view text) {
+  constexpr std::int64_t most = 1'000'000;
+  const auto slash = text.find('/');
+  if (slash != std::string_view::npos) {
+    const auto index = parse_count(text.substr(0, slash)), count = parse_count(text.substr(slash + 1));
+    if (index && count && *index >= 1 && *index <= *count && *count <= most) {
+      return {static_cast<int>(*index), static_cast<int>(*count)};
+    }
+  }
+  throw UsageError(
+      fmt::format("--shard: '{}' is not allowed; i/N, the i-th of N shards: whole numbers with 1 <= i <= N <= {}",
+                  one_line(text), most));
+}
+
+std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
+
+std::vector<std::size_t> units_of(const Shard& shard, std::size_t units) {
+  const std::vector<int> owners = deal(units, shard.count);
+  std::vector<std::size_t> hand;
+  for (std::size_t i = 0; i < units; ++i) {
+    if (owners[i] == shard.index) hand.push_back(i);
+  }
+  return hand;
+}
+
+std::optional<ShardSeal> parse_seal(const std::string& text) {
+  try {
+    const JsonReader seal(text, seal_name), machine = seal.object("machine");
+    seal.whole("thinwall_shard", seal_version, seal_version);
+    const auto identity = parse_identity(seal.value("run").dump());
+    if (!identity) return std::nullopt;
+    return ShardSeal{.identity = *identity,
+                     .shard = parse_shard(identity->shard),
+                     .record = {.shard = identity->shard,
+                                .cpu = machine.text("cpu"),
+                                .system = machine.text("system"),
+                                .started = seal.text("started"),
+                                .finished = seal.text("finished")},
+                     .journal_sha256 = seal.text("journal")};
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+void seal_shard(ResultFolder& folder, const RunRecord& run) {
+  const ordered_json seal = {
+      {"thinwall_shard", seal_version},
+      {"run", ordered_json::parse(identity_text(run))},
+      {"units", run.units},
+      {"total_trials", run.total_trials},
+      {"argv", run.argv},
+      {"threads", run.threads},
+      {"started", utc_text(run.started)},
+      {"finished", utc_text(run.finished)},
+      {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
+      {"journal", sha256_of_file(folder.path() / journal_name)}};
+  folder.seal(seal.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+}
+
+bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {
+  const auto seal = parse_seal(file_text(folder.path() / seal_name));
+  return seal && identity_text(seal->identity) == identity_text(identity) &&
+         seal->journal_sha256 == sha256_of_file(folder.path() / journal_name);
+}
 
 ShardSet read_shards(std::span<const std::string> folders, const std::string& program) {
   std::vector<SealedFolder> found;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
@@ -71,5 +72,59 @@ PlanRace race_plans(const PlanScene& scene, const PlanRaceOptions& options);
 
 /// True if all ways but the gate give the outcome of the plan, in every round, and the plan lets nothing through.
 bool is_right(const PlanRace& race);
+
+// ---- What the motion gate misses: balls shot at a thin wall and at a ball, each in a lane of its own, nobody stopped.
+//
+// A ball of radius r moves s r a step. Where s <= gate its pair is looked at only at the starts of steps: at poses s r
+// apart, their phase as likely as any. It misses a contact that takes a way of c < s r with chance 1 - c / (s r). For a wall of
+// thickness w, c = w + 2 r. For a ball of radius r hit at an offset that is uniform over the disk of radius 2 r, the chord c =
+// 4 r u has density 2 u in u: the chance is l^2 / 3 for l = s / 4 <= 1, else 1 - 2 / (3 l). Where s > gate: 0.
+
+enum class GateTarget { wall, ball };
+
+struct GateCell {
+  GateTarget target = GateTarget::wall;
+  double path = 1;         ///< [1] > 0: radii a step
+  double gate = 0.5;       ///< [1] > 0
+  std::int64_t shots = 1;  ///< >= 1
+};
+
+struct GateTally {
+  std::int64_t missed = 0, missed_swept = 0, early = 0;  ///< shots
+  double late = 0;                                       ///< [1] steps
+  std::int64_t sweeps = 0, gated = 0;
+  std::vector<double> milliseconds, swept_milliseconds;  ///< a step with the gate and without, one of each round
+
+  static constexpr auto fields() {
+    using T = GateTally;
+    return record(kept("missed", &T::missed, "1", "Shots never told to have met their target."),
+                  kept("early", &T::early, "1", "Shots that met it earlier than without the gate."),
+                  kept("late", &T::late, "1", "Steps from the true meeting to the one told: mean over the shots told."),
+                  kept("missed_without_gate", &T::missed_swept, "1", "Shots that are missed with no gate: none."),
+                  kept("sweeps", &T::sweeps, "1", "Pairs asked without the gate, over all steps."),
+                  kept("gated", &T::gated, "1", "Pairs that the gate did not sweep."),
+                  kept("milliseconds", &T::milliseconds), kept("swept_milliseconds", &T::swept_milliseconds));
+  }
+};
+
+/// A cell and what came of it.
+struct GateRow {
+  GateCell cell;
+  GateTally tally;
+};
+
+/// [1] The chance that a shot is never seen.
+double missed_by_gate(const GateCell& cell);
+
+/// Each of `rounds` >= 1 steps the shots with and without the gate, one cell at a time.
+GateTally shoot_at_gate(const GateCell& cell, std::int64_t rounds, std::uint64_t seed);
+
+std::string gate_target_name(GateTarget target);
+
+/// The shots against theory.
+std::vector<SelfTest> gate_self_test(const std::vector<GateRow>& rows);
+
+/// All of it: no shot is missed without the gate, none met early, and with it as many as theory says.
+bool gate_is_right(const std::vector<GateRow>& rows);
 
 }  // namespace thinwall

@@ -14,7 +14,6 @@
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/plan/gate.hpp>
 #include <thinwall/experiments/plan/model.hpp>
 #include <thinwall_embedded.hpp>
 
@@ -152,7 +151,7 @@ Figure savings_figure(const std::vector<PlanRace>& races) {
   };
   const auto columns =
       columns_of<WayRow>(way_fields({"way"}), value("scene", "", "", aside), measured("y", "", "", relative));
-  Panel panel = plot(table("drawn", "", columns, rows))
+  Panel panel = plot(columns, rows)
                     .x("scene")
                     .y("y", Axis::log, "time of a step over that of the plan [1]")
                     .by("way")
@@ -171,7 +170,7 @@ Figure savings_figure(const std::vector<PlanRace>& races) {
 Panel gate_panel(const std::vector<GateRow>& rows, GateTarget target) {
   const auto label = text("series", "", [](const GateRow& row) { return fmt::format("gate {:g}", row.cell.gate); });
   const std::string name = gate_target_name(target);
-  Plot points = plot(table("drawn", "", columns_of<GateRow>(gate_columns(), label), rows));
+  Plot points = plot(columns_of<GateRow>(gate_columns(), label), rows);
   points.where("target", name).x("path", Axis::log, "path of a step [radii]").by("series");
   const Panel theory = Plot(points).y("theory").mark(Mark::line);
   Panel panel = points.y("missed_share", Axis::linear, fmt::format("missed, of shots at a {} [1]", name));

@@ -17,7 +17,6 @@
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
-#include <thinwall/experiments/lab/ranks.hpp>
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -102,6 +101,38 @@ Action print(std::string text) {
   };
 }
 
+constexpr int most_threads = 4096;
+
+std::string list_json(std::span<const Experiment> experiments) {
+  auto out = nlohmann::ordered_json::array();
+  for (const Experiment& experiment : experiments)
+    out.push_back({{"name", experiment.name}, {"question", experiment.question}});
+  return json_line(out);
+}
+
+std::string list_text(std::span<const Experiment> experiments) {
+  std::size_t longest = 0;
+  for (const Experiment& experiment : experiments) longest = std::max(longest, experiment.name.size());
+  std::string out;
+  for (const Experiment& experiment : experiments) {
+    out += fmt::format("{:<{}}  {}\n", experiment.name, longest, experiment.question);
+  }
+  return out;
+}
+
+Action declare_list(CLI::App& self) {
+  const auto json = std::make_shared<bool>(false);
+  add_json(self, *json);
+  return [json](const Call& call) {
+    call.out << (*json ? list_json(call.experiments) : list_text(call.experiments));
+    return exit_done;
+  };
+}
+
+constexpr const char* list_examples = R"(  thinwall list
+  thinwall list --json
+)";
+
 }  // namespace
 
 Action parse_command_line(const std::vector<std::string>& argv) {
@@ -150,12 +181,6 @@ Action parse_command_line(const std::vector<std::string>& argv) {
   if (launch_of_this_process().rank > 0 && !commands()[index()].by_all_ranks) return print("");
   return actions[index()];
 }
-
-namespace {
-
-constexpr int most_threads = 4096;
-
-}  // namespace
 
 void add_flag(CLI::App& command, const std::string& name, bool& flag, const std::string& meaning) {
   command.add_flag(name, flag, meaning)->disable_flag_override();
@@ -279,40 +304,6 @@ std::span<const Command> commands() {
   };
   return all;
 }
-
-namespace {
-
-std::string list_json(std::span<const Experiment> experiments) {
-  auto out = nlohmann::ordered_json::array();
-  for (const Experiment& experiment : experiments)
-    out.push_back({{"name", experiment.name}, {"question", experiment.question}});
-  return json_line(out);
-}
-
-std::string list_text(std::span<const Experiment> experiments) {
-  std::size_t longest = 0;
-  for (const Experiment& experiment : experiments) longest = std::max(longest, experiment.name.size());
-  std::string out;
-  for (const Experiment& experiment : experiments) {
-    out += fmt::format("{:<{}}  {}\n", experiment.name, longest, experiment.question);
-  }
-  return out;
-}
-
-Action declare_list(CLI::App& self) {
-  const auto json = std::make_shared<bool>(false);
-  add_json(self, *json);
-  return [json](const Call& call) {
-    call.out << (*json ? list_json(call.experiments) : list_text(call.experiments));
-    return exit_done;
-  };
-}
-
-constexpr const char* list_examples = R"(  thinwall list
-  thinwall list --json
-)";
-
-}  // namespace
 
 Command list_command() { return {"list", "Print every experiment and its question", list_examples, declare_list}; }
 

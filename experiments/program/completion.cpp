@@ -164,31 +164,6 @@ std::string fish_script(std::span<const CompletedCommand> commands) {
   return out;
 }
 
-}  // namespace
-
-std::vector<CompletedCommand> completed_commands(std::span<const Experiment> experiments) {
-  std::vector<CompletedCommand> out;
-  for (const Command& command : commands()) {
-    CLI::App app;
-    app.set_help_flag("-h,--help", "Print this");
-    command.declare(app);
-    CompletedCommand completed{command.name, command.summary, {}, {}};
-    for (const CLI::Option* option : app.get_options()) {
-      const CompletedValue value = value_of_form(option->get_option_text(), experiments);
-      if (option->get_positional()) {
-        completed.target = value;
-      } else {
-        completed.options.push_back({"--" + option->get_lnames().front(), option->get_description(),
-                                     option->get_items_expected_max() > 0, value});
-      }
-    }
-    out.push_back(std::move(completed));
-  }
-  return out;
-}
-
-namespace {
-
 constexpr const char* completion_examples =
     R"(  source <(thinwall completion bash)      for this shell; in ~/.bashrc for every one
   source <(thinwall completion zsh)
@@ -223,6 +198,27 @@ Action declare_completion(CLI::App& self) {
 }
 
 }  // namespace
+
+std::vector<CompletedCommand> completed_commands(std::span<const Experiment> experiments) {
+  std::vector<CompletedCommand> out;
+  for (const Command& command : commands()) {
+    CLI::App app;
+    app.set_help_flag("-h,--help", "Print this");
+    command.declare(app);
+    CompletedCommand completed{command.name, command.summary, {}, {}};
+    for (const CLI::Option* option : app.get_options()) {
+      const CompletedValue value = value_of_form(option->get_option_text(), experiments);
+      if (option->get_positional()) {
+        completed.target = value;
+      } else {
+        completed.options.push_back({"--" + option->get_lnames().front(), option->get_description(),
+                                     option->get_items_expected_max() > 0, value});
+      }
+    }
+    out.push_back(std::move(completed));
+  }
+  return out;
+}
 
 Command completion_command() {
   return {"completion", "Print a script that completes commands, options and experiments in a shell",

@@ -13,7 +13,6 @@
 
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
-#include <thinwall/experiments/lab/ranks.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/shards.hpp>

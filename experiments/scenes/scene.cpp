@@ -178,24 +178,6 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   }
 }
 
-}  // namespace
-
-std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
-  std::vector<Body> bodies;
-  TakenIds taken;
-  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies, taken);
-  return bodies;
-}
-
-Aabb<double> box_of(const Body& body) {
-  const Aabb<double> none = {Vec3<double>::Zero(), Vec3<double>::Zero()};
-  return of_shape(body.shape, none, [](const auto& held) -> Aabb<double> { return {center(held), half_widths(held)}; });
-}
-
-Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
-
-namespace {
-
 constexpr std::array<std::string_view, 3> view_names = {"xy", "xz", "zy"};
 constexpr std::array<std::string_view, 2> plan_names = {"lean", "full"};
 constexpr std::string_view push_defaults = "time = 0\nbody = \"\"\nvelocity = [0, 0, 0]\n";
@@ -271,6 +253,20 @@ void check_trace(const Settings& settings, const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
+  std::vector<Body> bodies;
+  TakenIds taken;
+  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies, taken);
+  return bodies;
+}
+
+Aabb<double> box_of(const Body& body) {
+  const Aabb<double> none = {Vec3<double>::Zero(), Vec3<double>::Zero()};
+  return of_shape(body.shape, none, [](const auto& held) -> Aabb<double> { return {center(held), half_widths(held)}; });
+}
+
+Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
 
 TimePolicy policy_named(std::string_view name) {
   const auto found = std::ranges::find(policy_names, name);

@@ -38,6 +38,71 @@ std::optional<Rational> exact_contact(Primitives primitives, const std::array<Ra
   return first_contact(query);
 }
 
+namespace fs = std::filesystem;
+
+constexpr std::size_t columns = 7;
+constexpr std::size_t most_digits = 10'000;  // of an integer; the largest ratio a double needs has 324
+
+bool is_integer(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Boost takes a leading zero for octal.
+Integer integer(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  const std::size_t first = text.find_first_not_of("-0");
+  if (first == std::string_view::npos) return 0;
+  const Integer value(std::string(text.substr(first)));
+  return negative ? -value : value;
+}
+
+std::string shown(const fs::path& path) { return one_line(path.string()); }
+
+constexpr std::size_t most_wrongs = 20;
+constexpr int timed_calls = 32;
+
+std::string family_name(const fs::path& folder, const fs::path& file, Primitives primitives) {
+  fs::path family;
+  for (const fs::path& part : file.lexically_relative(folder).parent_path()) {
+    if (part != name(primitives)) family /= part;
+  }
+  return family.empty() ? "." : one_line(family.generic_string());
+}
+
+double nanoseconds_a_call(const RigidQuery& query) {
+  using Clock = std::chrono::steady_clock;
+  volatile double sink = 0;
+  const Clock::time_point start = Clock::now();
+  for (int call = 0; call < timed_calls; ++call) {
+    const Toi<double> toi = library_answer(query);
+    sink = sink + toi.time + toi.normal[0] + toi.point[0];
+  }
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / timed_calls;
+}
+
+/// Counts one answer and says what is wrong with it; nothing if all agree.
+std::string judge(ToiStatus status, bool exact, bool published, QueryCounts& counts) {
+  const bool hit = status == ToiStatus::hit || status == ToiStatus::overlapping;
+  counts.hits += exact;
+  std::string wrong;
+  if (exact != published) {
+    ++counts.file_differs;
+    wrong += fmt::format("the file says {}, exact arithmetic {}; ", published ? "hit" : "miss", exact ? "hit" : "miss");
+  }
+  if (status == ToiStatus::gave_up || status == ToiStatus::invalid) {
+    ++counts.undecided;
+    wrong += "the library gives no verdict; ";
+  } else if (!hit && (exact || published)) {
+    ++counts.false_negatives;
+    wrong += "false negative; ";
+  } else if (hit && !(exact && published)) {
+    ++counts.false_positives;
+    wrong += "false positive; ";
+  }
+  return wrong.substr(0, wrong.empty() ? 0 : wrong.size() - 2);
+}
+
 }  // namespace
 
 RigidReading read_rigid(Primitives primitives, const PublishedQuery& published) {
@@ -80,36 +145,11 @@ Toi<double> library_answer(const RigidQuery& query) {
                         Moving{Capsule<double>{at[2], at[3], 0}, query.displacement_b});
 }
 
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::size_t columns = 7;
-constexpr std::size_t most_digits = 10'000;  // of an integer; the largest ratio a double needs has 324
-
-bool is_integer(std::string_view text) {
-  if (text.starts_with('-')) text.remove_prefix(1);
-  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// Boost takes a leading zero for octal.
-Integer integer(std::string_view text) {
-  const bool negative = text.starts_with('-');
-  const std::size_t first = text.find_first_not_of("-0");
-  if (first == std::string_view::npos) return 0;
-  const Integer value(std::string(text.substr(first)));
-  return negative ? -value : value;
-}
-
-std::string shown(const fs::path& path) { return one_line(path.string()); }
-
-}  // namespace
-
 std::string_view name(Primitives primitives) {
   return primitives == Primitives::vertex_face ? "vertex-face" : "edge-edge";
 }
 
-QueryLines::QueryLines(const fs::path& file) : shown_(shown(file)), in_(file, std::ios::binary) {
+QueryLines::QueryLines(const fs::path& file) : shown_(one_line(file.string())), in_(file, std::ios::binary) {
   if (!in_) throw UsageError(shown_ + ": cannot be read");
 }
 
@@ -202,56 +242,6 @@ std::vector<fs::path> query_files(const fs::path& folder) {
   std::ranges::sort(files);
   return files;
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::size_t most_wrongs = 20;
-constexpr int timed_calls = 32;
-
-std::string family_name(const fs::path& folder, const fs::path& file, Primitives primitives) {
-  fs::path family;
-  for (const fs::path& part : file.lexically_relative(folder).parent_path()) {
-    if (part != name(primitives)) family /= part;
-  }
-  return family.empty() ? "." : one_line(family.generic_string());
-}
-
-double nanoseconds_a_call(const RigidQuery& query) {
-  using Clock = std::chrono::steady_clock;
-  volatile double sink = 0;
-  const Clock::time_point start = Clock::now();
-  for (int call = 0; call < timed_calls; ++call) {
-    const Toi<double> toi = library_answer(query);
-    sink = sink + toi.time + toi.normal[0] + toi.point[0];
-  }
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / timed_calls;
-}
-
-/// Counts one answer and says what is wrong with it; nothing if all agree.
-std::string judge(ToiStatus status, bool exact, bool published, QueryCounts& counts) {
-  const bool hit = status == ToiStatus::hit || status == ToiStatus::overlapping;
-  counts.hits += exact;
-  std::string wrong;
-  if (exact != published) {
-    ++counts.file_differs;
-    wrong += fmt::format("the file says {}, exact arithmetic {}; ", published ? "hit" : "miss", exact ? "hit" : "miss");
-  }
-  if (status == ToiStatus::gave_up || status == ToiStatus::invalid) {
-    ++counts.undecided;
-    wrong += "the library gives no verdict; ";
-  } else if (!hit && (exact || published)) {
-    ++counts.false_negatives;
-    wrong += "false negative; ";
-  } else if (hit && !(exact && published)) {
-    ++counts.false_positives;
-    wrong += "false positive; ";
-  }
-  return wrong.substr(0, wrong.empty() ? 0 : wrong.size() - 2);
-}
-
-}  // namespace
 
 QueryCounts& QueryCounts::operator+=(const QueryCounts& other) {
   read += other.read;

@@ -137,6 +137,7 @@ def test_equality_is_of_numbers():
     assert a == tw.Sphere(np.zeros((3, 3)), np.ones(3)) and a != tw.Sphere(np.ones((3, 3)), np.ones(3))
     assert a != tw.Aabb(np.zeros((3, 3)), np.zeros((3, 3))) and a != 3
     assert tw.Moving(a, [0, 0, 0]) == tw.at_rest(a) and tw.Moving(a, [0, 0, 1]) != tw.at_rest(a)
+    assert tw.at_rest(a) != a and tw.at_rest(a) != 3
     with pytest.raises(TypeError, match="unhashable"):
         hash(a)
 

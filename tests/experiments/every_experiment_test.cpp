@@ -10,7 +10,7 @@
 #include <toml++/toml.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/lab/gnuplot.hpp>
+#include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall_embedded.hpp>
 

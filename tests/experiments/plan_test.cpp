@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/plan/gate.hpp>
 #include <thinwall/experiments/plan/model.hpp>
 #include <thinwall/experiments/world.hpp>
 

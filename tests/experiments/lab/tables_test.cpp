@@ -14,13 +14,11 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/check/check.hpp>
-#include <thinwall/experiments/check/readers.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/gnuplot.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
