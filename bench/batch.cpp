@@ -72,12 +72,15 @@ template <class S> double stream_ns(std::size_t columns) {
   return floors().stream_row_ns / 64 * static_cast<double>((columns + 1) * sizeof(S) + sizeof(ToiStatus));
 }
 
-void count_rows(benchmark::State& state, std::size_t count, const BatchReport& report, double hits) {
+/// The counters of a benchmark of so many rows; what a row needs at least in the first cache, and to be streamed.
+void count_rows(benchmark::State& state, std::size_t count, const BatchReport& report, double hits,
+                const Operations& least, double streamed_ns) {
   const double rows = static_cast<double>(count);
   state.counters["ns_row"] =
       benchmark::Counter(1e-9 * rows, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["asked_again"] = static_cast<double>(report.asked_again) / rows;
   state.counters["hits"] = hits;
+  add_floor(state, rows * (count == few_rows ? least.floor_ns() : streamed_ns), rows);
 }
 
 enum class Way { scalar, one_to_many, row_by_row };
@@ -107,9 +110,7 @@ void time_batch(benchmark::State& state, Way way, std::size_t count, const std::
     benchmark::ClobberMemory();
   }
   use_vectors("");
-  count_rows(state, count, report, set.hits);
-  const double rows = static_cast<double>(count);
-  add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<S>(columns)), rows);
+  count_rows(state, count, report, set.hits, least, stream_ns<S>(columns));
 }
 
 /// The same of certified spheres.
@@ -131,10 +132,7 @@ void time_certified(benchmark::State& state, bool by_vectors, std::size_t count)
     }
     benchmark::ClobberMemory();
   }
-  count_rows(state, count, report, set.hits);
-  const Operations least{2, 2};
-  const double rows = static_cast<double>(count);
-  add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<double>(8)), rows);
+  count_rows(state, count, report, set.hits, {2, 2}, stream_ns<double>(8));
 }
 
 /// `columns`: how many arrays a row is read from, of B, and of A and B.
@@ -180,11 +178,8 @@ template <class S> void time_rays(benchmark::State& state, bool by_vectors, std:
     }
     benchmark::ClobberMemory();
   }
-  const double rows = static_cast<double>(count);
-  count_rows(state, count, report,
-             static_cast<double>(std::count(status.begin(), status.end(), ToiStatus::hit)) / rows);
-  const Operations least{3, 0};
-  add_floor(state, rows * (count == few_rows ? least.floor_ns() : stream_ns<S>(7)), rows);
+  const auto hits = static_cast<double>(std::count(status.begin(), status.end(), ToiStatus::hit));
+  count_rows(state, count, report, hits / static_cast<double>(count), {3, 0}, stream_ns<S>(7));
 }
 
 void add_rays_and_certified() {

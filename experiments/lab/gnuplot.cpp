@@ -41,41 +41,6 @@ std::string one_two_five(const DrawnAxis& axis) {
   return "(" + list + ")";
 }
 
-}  // namespace
-
-DrawnAxis axis_around(std::span<const double> values, bool log) {
-  constexpr double air = 0.04;            // [1] of the length of the axis
-  constexpr double least_drawn = 1e-300;  // gnuplot divides an axis, and must not come upon subnormal numbers
-  std::vector<double> shown;
-  for (const double value : values) {
-    const bool drawable = value == 0 || std::abs(value) >= least_drawn;
-    if (std::isfinite(value) && drawable && (!log || value > 0)) shown.push_back(log ? std::log10(value) : value);
-  }
-  double lower = 0, upper = 1;
-  if (!shown.empty()) {
-    const auto [least, most] = std::ranges::minmax(shown);
-    const double length = most - least;
-    const bool flat = rounded_text(least, axis_digits) == rounded_text(most, axis_digits);  // but for rounding
-    const double pad = !flat ? air * length : (log || least == 0 ? 0.5 : std::abs(least) / 2);
-    lower = least - pad;
-    upper = most + pad;
-  }
-  if (log) return {true, std::pow(10, lower), std::pow(10, upper)};
-  return {false, lower, upper};
-}
-
-std::string tics(const DrawnAxis& axis, double pixels, double spacing) {
-  const double most = std::max(2.0, pixels / spacing);
-  if (!axis.log) return rounded_text(round_step((axis.upper - axis.lower) / most), 3);
-  const double decades = std::log10(axis.upper / axis.lower);
-  if (decades < 2) return one_two_five(axis);
-  // Powers of ten. Without a start gnuplot counts from the end of the axis, and labels 4, 40 and 400.
-  const int first = static_cast<int>(std::floor(std::log10(axis.lower)));
-  return fmt::format("1e{}, 1e{}", first, std::max(1, static_cast<int>(std::ceil(decades / most))));
-}
-
-namespace {
-
 // Where the parts of a figure stand on its page, in pixels from the top left.
 
 struct PanelBox {
@@ -193,27 +158,6 @@ void set_look(std::vector<SeriesStyle>& styles) {
     if (!gray) ++colors;
   }
 }
-
-}  // namespace
-
-std::vector<SeriesStyle> series_styles(const Figure& figure) {
-  std::vector<SeriesStyle> styles;
-  for (const Panel& panel : figure.panels) {
-    for (const Series& series : panel.series) {
-      auto style = std::ranges::find(styles, series.label, &SeriesStyle::label);
-      if (style == styles.end())
-        style = styles.insert(styles.end(), SeriesStyle{.label = series.label, .color = series.color});
-      if (series.mark == Mark::points) style->has_points = true;
-      if (series.mark == Mark::line || series.mark == Mark::dashes) style->has_line = true;
-      if (series.mark == Mark::cells) style->has_cells = true;
-      if (series.mark == Mark::dashes) style->dash_type = 2;
-    }
-  }
-  set_look(styles);
-  return styles;
-}
-
-namespace {
 
 constexpr double print_width = 6.3;  // [inch] A4 with margins of an inch
 
@@ -387,6 +331,54 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
 }
 
 }  // namespace
+
+DrawnAxis axis_around(std::span<const double> values, bool log) {
+  constexpr double air = 0.04;            // [1] of the length of the axis
+  constexpr double least_drawn = 1e-300;  // gnuplot divides an axis, and must not come upon subnormal numbers
+  std::vector<double> shown;
+  for (const double value : values) {
+    const bool drawable = value == 0 || std::abs(value) >= least_drawn;
+    if (std::isfinite(value) && drawable && (!log || value > 0)) shown.push_back(log ? std::log10(value) : value);
+  }
+  double lower = 0, upper = 1;
+  if (!shown.empty()) {
+    const auto [least, most] = std::ranges::minmax(shown);
+    const double length = most - least;
+    const bool flat = rounded_text(least, axis_digits) == rounded_text(most, axis_digits);  // but for rounding
+    const double pad = !flat ? air * length : (log || least == 0 ? 0.5 : std::abs(least) / 2);
+    lower = least - pad;
+    upper = most + pad;
+  }
+  if (log) return {true, std::pow(10, lower), std::pow(10, upper)};
+  return {false, lower, upper};
+}
+
+std::string tics(const DrawnAxis& axis, double pixels, double spacing) {
+  const double most = std::max(2.0, pixels / spacing);
+  if (!axis.log) return rounded_text(round_step((axis.upper - axis.lower) / most), 3);
+  const double decades = std::log10(axis.upper / axis.lower);
+  if (decades < 2) return one_two_five(axis);
+  // Powers of ten. Without a start gnuplot counts from the end of the axis, and labels 4, 40 and 400.
+  const int first = static_cast<int>(std::floor(std::log10(axis.lower)));
+  return fmt::format("1e{}, 1e{}", first, std::max(1, static_cast<int>(std::ceil(decades / most))));
+}
+
+std::vector<SeriesStyle> series_styles(const Figure& figure) {
+  std::vector<SeriesStyle> styles;
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series) {
+      auto style = std::ranges::find(styles, series.label, &SeriesStyle::label);
+      if (style == styles.end())
+        style = styles.insert(styles.end(), SeriesStyle{.label = series.label, .color = series.color});
+      if (series.mark == Mark::points) style->has_points = true;
+      if (series.mark == Mark::line || series.mark == Mark::dashes) style->has_line = true;
+      if (series.mark == Mark::cells) style->has_cells = true;
+      if (series.mark == Mark::dashes) style->dash_type = 2;
+    }
+  }
+  set_look(styles);
+  return styles;
+}
 
 std::string plot_script(const Figure& figure) {
   require_drawable(figure);

@@ -46,41 +46,6 @@ void request_stop(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-}  // namespace
-
-void watch_for_stop() {
-  requested = 0;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
-}
-
-bool stop_requested() { return requested != 0; }
-
-StopGuard::StopGuard(std::chrono::milliseconds patience, std::function<void()> end)
-    : thread_([this, patience, end = std::move(end)] { watch(patience, end); }) {}
-
-StopGuard::~StopGuard() {
-  {
-    const std::scoped_lock lock(mutex_);
-    done_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
-}
-
-void StopGuard::watch(std::chrono::milliseconds patience, const std::function<void()>& end) {
-  constexpr std::chrono::milliseconds look(50);  // a signal handler may set a flag, but not wake a thread
-  std::unique_lock lock(mutex_);
-  const auto done = [this] { return done_; };
-  while (!changed_.wait_for(lock, look, done)) {
-    if (!stop_requested()) continue;
-    if (!changed_.wait_for(lock, patience, done)) end();
-    return;
-  }
-}
-
-namespace {
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -123,60 +88,6 @@ template <class Body> void parallel_for_each_index(std::size_t count, int thread
         tbb::simple_partitioner());
   });
 }
-
-}  // namespace
-
-int default_threads() {
-  const int ours = oneapi::tbb::info::default_concurrency(), neighbors = launch_of_this_process().neighbors;
-  if (neighbors <= 1) return ours;
-  const int fair =
-      static_cast<int>(std::thread::hardware_concurrency()) / neighbors;  // mpirun may bind ranks to cores or not
-  return std::max(1, std::min(ours, fair));
-}
-
-UnitResults compute_units(std::span<const Unit> units, Journal& journal, const RunnerOptions& options) {
-  require_unique_keys(units);
-  UnitResults out;
-  out.results.resize(units.size());
-  out.seconds.resize(units.size());
-  Progress progress{.units = units.size(), .trials = total_trials(units)};
-
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const auto known = journal.finished().find(units[i].key);
-    if (known == journal.finished().end()) {
-      open.push_back(i);
-      continue;
-    }
-    out.results[i] = known->second.result;
-    out.seconds[i] = known->second.seconds;
-    progress.trials_resumed += units[i].trials;
-  }
-  out.resumed = progress.units_done = units.size() - open.size();
-  progress.trials_done = progress.trials_resumed;
-
-  std::mutex mutex;
-  const auto report = [&] {
-    if (options.on_progress) options.on_progress(progress);
-  };
-  report();
-  parallel_for_each_index(open.size(), options.threads, [&](std::size_t k) {
-    if (options.stop && options.stop()) return;
-    const std::size_t i = open[k];
-    Journal::Row row = timed(units[i]);
-    journal.add(units[i].key, row);
-    const std::scoped_lock lock(mutex);
-    out.results[i] = std::move(row.result);
-    out.seconds[i] = row.seconds;
-    progress.units_done += 1;
-    progress.trials_done += units[i].trials;
-    report();
-  });
-  out.complete = progress.units_done == units.size();
-  return out;
-}
-
-namespace {
 
 using Tell = std::function<void(const RunEstimate&)>;
 
@@ -342,6 +253,87 @@ std::optional<RunEstimate> told_within(double seconds, const std::function<void(
 }
 
 }  // namespace
+
+void watch_for_stop() {
+  requested = 0;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+}
+
+bool stop_requested() { return requested != 0; }
+
+StopGuard::StopGuard(std::chrono::milliseconds patience, std::function<void()> end)
+    : thread_([this, patience, end = std::move(end)] { watch(patience, end); }) {}
+
+StopGuard::~StopGuard() {
+  {
+    const std::scoped_lock lock(mutex_);
+    done_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void StopGuard::watch(std::chrono::milliseconds patience, const std::function<void()>& end) {
+  constexpr std::chrono::milliseconds look(50);  // a signal handler may set a flag, but not wake a thread
+  std::unique_lock lock(mutex_);
+  const auto done = [this] { return done_; };
+  while (!changed_.wait_for(lock, look, done)) {
+    if (!stop_requested()) continue;
+    if (!changed_.wait_for(lock, patience, done)) end();
+    return;
+  }
+}
+
+int default_threads() {
+  const int ours = oneapi::tbb::info::default_concurrency(), neighbors = launch_of_this_process().neighbors;
+  if (neighbors <= 1) return ours;
+  const int fair =
+      static_cast<int>(std::thread::hardware_concurrency()) / neighbors;  // mpirun may bind ranks to cores or not
+  return std::max(1, std::min(ours, fair));
+}
+
+UnitResults compute_units(std::span<const Unit> units, Journal& journal, const RunnerOptions& options) {
+  require_unique_keys(units);
+  UnitResults out;
+  out.results.resize(units.size());
+  out.seconds.resize(units.size());
+  Progress progress{.units = units.size(), .trials = total_trials(units)};
+
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const auto known = journal.finished().find(units[i].key);
+    if (known == journal.finished().end()) {
+      open.push_back(i);
+      continue;
+    }
+    out.results[i] = known->second.result;
+    out.seconds[i] = known->second.seconds;
+    progress.trials_resumed += units[i].trials;
+  }
+  out.resumed = progress.units_done = units.size() - open.size();
+  progress.trials_done = progress.trials_resumed;
+
+  std::mutex mutex;
+  const auto report = [&] {
+    if (options.on_progress) options.on_progress(progress);
+  };
+  report();
+  parallel_for_each_index(open.size(), options.threads, [&](std::size_t k) {
+    if (options.stop && options.stop()) return;
+    const std::size_t i = open[k];
+    Journal::Row row = timed(units[i]);
+    journal.add(units[i].key, row);
+    const std::scoped_lock lock(mutex);
+    out.results[i] = std::move(row.result);
+    out.seconds[i] = row.seconds;
+    progress.units_done += 1;
+    progress.trials_done += units[i].trials;
+    report();
+  });
+  out.complete = progress.units_done == units.size();
+  return out;
+}
 
 std::string basis_text(const RunEstimate& e) {
   std::vector<std::string> parts;

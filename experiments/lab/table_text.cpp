@@ -16,19 +16,6 @@
 
 namespace thinwall {
 
-std::size_t place_of(const Table& table, std::string_view column) {
-  const auto found = std::ranges::find(table.columns, column, &Column::name);
-  if (found == table.columns.end())
-    throw std::logic_error(fmt::format("table '{}' has no column '{}'", table.name, column));
-  return static_cast<std::size_t>(found - table.columns.begin());
-}
-
-std::optional<double> finite_number(const Value& value) {
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
-  const auto* number = std::get_if<double>(&value);
-  return number != nullptr && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
-}
-
 namespace {
 
 std::string number_field(double value) {
@@ -78,33 +65,6 @@ void require_shape(const Table& table) {
   }
 }
 
-}  // namespace
-
-std::string exact_text(const Value& value) {
-  struct Visitor {
-    std::string operator()(std::monostate) const { return {}; }
-    std::string operator()(const std::string& text) const { return text; }
-    std::string operator()(std::int64_t number) const { return std::to_string(number); }
-    std::string operator()(double number) const { return number_field(number); }
-    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
-  };
-  return std::visit(Visitor{}, value);
-}
-
-std::string csv_text(const Table& table) {
-  require_shape(table);
-  std::string out;
-  for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j > 0 ? "," : "") + quoted(table.columns[j].name);
-  out += "\n";
-  for (const auto& row : table.rows) {
-    for (std::size_t j = 0; j < row.size(); ++j) out += (j > 0 ? "," : "") + field(row[j]);
-    out += "\n";
-  }
-  return out;
-}
-
-namespace {
-
 using nlohmann::ordered_json;
 
 const char* type_name(ColumnType type) {
@@ -145,18 +105,6 @@ ordered_json resource(const Table& table) {
   return out;
 }
 
-}  // namespace
-
-std::string datapackage_text(const PackageInfo& info, std::span<const Table> tables) {
-  ordered_json out = {
-      {"profile", "tabular-data-package"}, {"name", info.name},       {"title", info.title},
-      {"description", info.description},   {"version", info.version}, {"resources", ordered_json::array()}};
-  for (const Table& table : tables) out["resources"].push_back(resource(table));
-  return out.dump(2) + "\n";
-}
-
-namespace {
-
 /// The field that begins at `at`, which is moved to what ends it: a comma, a line's end, or the end of the text.
 std::string read_field(std::string_view text, std::size_t& at, std::size_t line) {
   if (at == text.size() || text[at] != '"') {
@@ -181,27 +129,6 @@ std::string read_field(std::string_view text, std::size_t& at, std::size_t line)
   }
   throw CsvError(line, "a quote is not closed");
 }
-
-}  // namespace
-
-std::vector<CsvRow> read_csv(std::string_view text) {
-  std::vector<CsvRow> rows;
-  std::size_t line = 1;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    CsvRow row{line, {}};
-    for (const std::size_t begin = at;; ++at) {
-      row.fields.push_back(read_field(text, at, line));
-      if (at < text.size() && text[at] == ',') continue;
-      line += static_cast<std::size_t>(std::ranges::count(text.substr(begin, at - begin), '\n')) + 1;
-      break;
-    }
-    if (at == text.size()) throw CsvError(row.line, "the last line has no end: the file was cut");
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-namespace {
 
 /// A column to show, by its place in the table; where it has an interval, the places of the ends.
 struct Choice {
@@ -285,48 +212,6 @@ std::string bracket_words(const Table& table, const std::vector<Choice>& shown_c
   return kinds.empty() ? "" : fmt::format(" Brackets hold {}.", fmt::join(kinds, ", or "));
 }
 
-}  // namespace
-
-std::string header_of(const Column& column) {
-  return has_unit(column) ? fmt::format("{} [{}]", title(column), column.unit) : title(column);
-}
-
-ShownTable shown(const Table& table) {
-  std::vector<Choice> kept;
-  std::string same;
-  for (const Choice& choice : choices(table)) {
-    const Column& column = table.columns[choice.at];
-    if (!is_same_in_every_row(table, choice)) {
-      kept.push_back(choice);
-      continue;
-    }
-    const ShownCell value = cell(table.rows[0], choice);
-    if (value.text == missing_text) continue;  // nothing in any row
-    same += fmt::format("{}{} {}{}{}{}", same.empty() ? " In every row: " : ", ", title(column), value.text,
-                        value.lower.empty() ? "" : fmt::format(" [{}, {}]", value.lower, value.upper),
-                        has_unit(column) ? " " : "", has_unit(column) ? column.unit : "");
-  }
-  if (kept.empty()) {  // every row is like every other
-    kept = choices(table);
-    same.clear();
-  }
-  if (!same.empty()) same += ".";
-  ShownTable out;
-  out.caption = table.description + same + bracket_words(table, kept);
-  for (const Choice& choice : kept) {
-    const Column& column = table.columns[choice.at];
-    const bool right = column.type == ColumnType::integer || column.type == ColumnType::number;
-    out.columns.push_back({header_of(column), column.description, right});
-  }
-  for (const auto& row : table.rows) {
-    out.rows.emplace_back();
-    for (const Choice& choice : kept) out.rows.back().push_back(cell(row, choice));
-  }
-  return out;
-}
-
-namespace {
-
 /// `number` with the minus sign of a format, and its exponent between that format's `raise` and `lower`.
 std::string typeset(const std::string& number, const std::string& minus, const char* raise, const char* lower) {
   if (number.starts_with('-')) return minus + typeset(number.substr(1), minus, raise, lower);
@@ -365,6 +250,105 @@ std::string header_html(const std::string& header) {
 }
 
 }  // namespace
+
+std::size_t place_of(const Table& table, std::string_view column) {
+  const auto found = std::ranges::find(table.columns, column, &Column::name);
+  if (found == table.columns.end())
+    throw std::logic_error(fmt::format("table '{}' has no column '{}'", table.name, column));
+  return static_cast<std::size_t>(found - table.columns.begin());
+}
+
+std::optional<double> finite_number(const Value& value) {
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+  const auto* number = std::get_if<double>(&value);
+  return number != nullptr && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
+}
+
+std::string exact_text(const Value& value) {
+  struct Visitor {
+    std::string operator()(std::monostate) const { return {}; }
+    std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(std::int64_t number) const { return std::to_string(number); }
+    std::string operator()(double number) const { return number_field(number); }
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+  };
+  return std::visit(Visitor{}, value);
+}
+
+std::string csv_text(const Table& table) {
+  require_shape(table);
+  std::string out;
+  for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j > 0 ? "," : "") + quoted(table.columns[j].name);
+  out += "\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t j = 0; j < row.size(); ++j) out += (j > 0 ? "," : "") + field(row[j]);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string datapackage_text(const PackageInfo& info, std::span<const Table> tables) {
+  ordered_json out = {
+      {"profile", "tabular-data-package"}, {"name", info.name},       {"title", info.title},
+      {"description", info.description},   {"version", info.version}, {"resources", ordered_json::array()}};
+  for (const Table& table : tables) out["resources"].push_back(resource(table));
+  return out.dump(2) + "\n";
+}
+
+std::vector<CsvRow> read_csv(std::string_view text) {
+  std::vector<CsvRow> rows;
+  std::size_t line = 1;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    CsvRow row{line, {}};
+    for (const std::size_t begin = at;; ++at) {
+      row.fields.push_back(read_field(text, at, line));
+      if (at < text.size() && text[at] == ',') continue;
+      line += static_cast<std::size_t>(std::ranges::count(text.substr(begin, at - begin), '\n')) + 1;
+      break;
+    }
+    if (at == text.size()) throw CsvError(row.line, "the last line has no end: the file was cut");
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string header_of(const Column& column) {
+  return has_unit(column) ? fmt::format("{} [{}]", title(column), column.unit) : title(column);
+}
+
+ShownTable shown(const Table& table) {
+  std::vector<Choice> kept;
+  std::string same;
+  for (const Choice& choice : choices(table)) {
+    const Column& column = table.columns[choice.at];
+    if (!is_same_in_every_row(table, choice)) {
+      kept.push_back(choice);
+      continue;
+    }
+    const ShownCell value = cell(table.rows[0], choice);
+    if (value.text == missing_text) continue;  // nothing in any row
+    same += fmt::format("{}{} {}{}{}{}", same.empty() ? " In every row: " : ", ", title(column), value.text,
+                        value.lower.empty() ? "" : fmt::format(" [{}, {}]", value.lower, value.upper),
+                        has_unit(column) ? " " : "", has_unit(column) ? column.unit : "");
+  }
+  if (kept.empty()) {  // every row is like every other
+    kept = choices(table);
+    same.clear();
+  }
+  if (!same.empty()) same += ".";
+  ShownTable out;
+  out.caption = table.description + same + bracket_words(table, kept);
+  for (const Choice& choice : kept) {
+    const Column& column = table.columns[choice.at];
+    const bool right = column.type == ColumnType::integer || column.type == ColumnType::number;
+    out.columns.push_back({header_of(column), column.description, right});
+  }
+  for (const auto& row : table.rows) {
+    out.rows.emplace_back();
+    for (const Choice& choice : kept) out.rows.back().push_back(cell(row, choice));
+  }
+  return out;
+}
 
 std::string markdown_table(const Table& whole) {
   const ShownTable table = shown(whole);

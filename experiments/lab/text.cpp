@@ -23,6 +23,42 @@ template <class... Format> std::string to_text(double value, Format... format) {
   return {buffer.data(), end};
 }
 
+int power_of_ten(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
+
+/// The power of ten of the last digit that an interval of that half-width supports.
+int last_place(double half_width) {
+  const int power = power_of_ten(half_width);
+  return half_width / std::pow(10, power) < 3 ? power - 1 : power;
+}
+
+std::string to_place(double value, int place, bool scientific) {
+  if (value == std::trunc(value) && std::abs(value) < 10) return exact_text(value);
+  const double unit = std::pow(10, place);
+  if (std::abs(value) < unit / 2) return "0";
+  if (scientific) return to_text(value, std::chars_format::scientific, std::max(0, power_of_ten(value) - place));
+  if (place < 0) return to_text(value, std::chars_format::fixed, -place);
+  return exact_text(std::round(value / unit) * unit);
+}
+
+char lower(char letter) { return static_cast<char>(std::tolower(static_cast<unsigned char>(letter))); }
+
+/// Where the string that begins at `from` ends: behind its last quote, or at the end of the line where it has none.
+std::size_t end_of_string(std::string_view text, std::size_t from) {
+  const char quote = text[from];
+  const std::string_view three = text.substr(from, 3);
+  const bool is_long = three == R"(""")" || three == "'''";
+  std::size_t at = from + (is_long ? 3 : 1);
+  for (; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (is_long ? text.substr(at, 3) == three : text[at] == quote || text[at] == '\n') {
+      break;
+    }
+  }
+  if (is_long) return std::min(text.find_first_not_of(quote, at), text.size());  // up to two quotes more are its own
+  return at < text.size() && text[at] == quote ? at + 1 : at;
+}
+
 }  // namespace
 
 std::string exact_text(double value) {
@@ -72,27 +108,6 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
-namespace {
-
-int power_of_ten(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
-
-/// The power of ten of the last digit that an interval of that half-width supports.
-int last_place(double half_width) {
-  const int power = power_of_ten(half_width);
-  return half_width / std::pow(10, power) < 3 ? power - 1 : power;
-}
-
-std::string to_place(double value, int place, bool scientific) {
-  if (value == std::trunc(value) && std::abs(value) < 10) return exact_text(value);
-  const double unit = std::pow(10, place);
-  if (std::abs(value) < unit / 2) return "0";
-  if (scientific) return to_text(value, std::chars_format::scientific, std::max(0, power_of_ten(value) - place));
-  if (place < 0) return to_text(value, std::chars_format::fixed, -place);
-  return exact_text(std::round(value / unit) * unit);
-}
-
-}  // namespace
-
 IntervalText interval_text(double value, double lower, double upper) {
   constexpr int digits = 4;
   if (!(upper > lower)) return {rounded_text(value, digits), rounded_text(lower, digits), rounded_text(upper, digits)};
@@ -121,12 +136,6 @@ std::string range_text(std::string_view kind, const Range& range) {
   if (!range.unit.empty() && range.unit != "1") text += fmt::format(" [{}]", range.unit);
   return text;
 }
-
-namespace {
-
-char lower(char letter) { return static_cast<char>(std::tolower(static_cast<unsigned char>(letter))); }
-
-}  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Row i holds the distances of a's first i letters to every beginning of b.
@@ -159,27 +168,6 @@ std::string spelling_hint(std::string_view word, std::span<const std::string_vie
   const std::string list = fmt::format("allowed: {}", fmt::join(candidates, ", "));
   return nearest.empty() ? list : fmt::format("did you mean '{}'? ({})", nearest, list);
 }
-
-namespace {
-
-/// Where the string that begins at `from` ends: behind its last quote, or at the end of the line where it has none.
-std::size_t end_of_string(std::string_view text, std::size_t from) {
-  const char quote = text[from];
-  const std::string_view three = text.substr(from, 3);
-  const bool is_long = three == R"(""")" || three == "'''";
-  std::size_t at = from + (is_long ? 3 : 1);
-  for (; at < text.size(); ++at) {
-    if (quote == '"' && text[at] == '\\') {
-      ++at;
-    } else if (is_long ? text.substr(at, 3) == three : text[at] == quote || text[at] == '\n') {
-      break;
-    }
-  }
-  if (is_long) return std::min(text.find_first_not_of(quote, at), text.size());  // up to two quotes more are its own
-  return at < text.size() && text[at] == quote ? at + 1 : at;
-}
-
-}  // namespace
 
 int line_of_deep_key(std::string_view text, int most) {
   constexpr std::string_view in_a_key = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_. \t\"'";

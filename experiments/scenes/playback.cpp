@@ -82,21 +82,6 @@ std::string frame(const World& world) {
   return fmt::format("{{\"time\":{},\"at\":[{}],{}\"events\":[{}]}}\n", exact_text(world.time()), at, turning, events);
 }
 
-}  // namespace
-
-std::string trace_of(const Scene& scene) {
-  std::string text;
-  std::int64_t step = 0;
-  play(scene, [&](const World& world) {
-    if (step == 0) text += header(scene, world);
-    if (step % scene.trace_every == 0 || step == scene.steps) text += frame(world);
-    ++step;
-  });
-  return text;
-}
-
-namespace {
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// [rad] How far a body that nothing touched turned in a step of dt [s].
@@ -138,44 +123,6 @@ Toi<double> impact_of_spinning(const Moving<AnyShape>& a, const Moving<AnyShape>
                           spinning(Moving<B>{y, b.displacement}, spin_b));
   });
 }
-
-}  // namespace
-
-std::vector<MissedContact> MissedContacts::after_step(const World& world, double dt) {
-  const std::vector<Body>& after = world.bodies();
-  std::vector<bool> touched(after.size());
-  const auto index_of = [&after](std::uint32_t id) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(after, id, {}, &Body::id) - after.begin());
-  };
-  for (const Hit& hit : world.hits()) {
-    for (const std::uint32_t id : {hit.first, hit.second}) {
-      const std::size_t i = index_of(id);
-      if (i < after.size() && can_move(after[i])) touched[i] = true;
-    }
-  }
-  proxies_.clear();
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    Proxy& proxy = proxies_.emplace_back(way_of(before_[i], after[i], dt));
-    proxy.skipped |= touched[i];
-  }
-  find_pairs(UniformGrid{}, proxies_, pairs_);
-  std::vector<MissedContact> missed;
-  const double start = world.time() - dt;
-  for (const ProxyPair& pair : pairs_) {
-    const Body &a = before_[pair.first], &b = before_[pair.second];
-    const auto way = [&](std::size_t i) { return Vec3<double>(box_of(after[i]).center - box_of(before_[i]).center); };
-    const Moving<AnyShape> first{a.shape, way(pair.first)}, second{b.shape, way(pair.second)};
-    const Vec3<double> spin_a = rotation_of(after[pair.first], dt), spin_b = rotation_of(after[pair.second], dt);
-    const bool turns = spin_a != Vec3<double>::Zero() || spin_b != Vec3<double>::Zero();
-    const Toi<double> toi = turns ? impact_of_spinning(first, second, spin_a, spin_b) : time_of_impact(first, second);
-    if (toi.status != ToiStatus::hit || overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
-    missed.push_back({a.id, b.id, start + toi.time * dt});
-  }
-  before_ = after;
-  return missed;
-}
-
-namespace {
 
 std::vector<Track> begin_tracks(const std::vector<Body>& bodies) {
   std::vector<std::uint32_t> ids;
@@ -220,6 +167,51 @@ StepRow row_of(const StepReport& report) {
 }
 
 }  // namespace
+
+std::string trace_of(const Scene& scene) {
+  std::string text;
+  std::int64_t step = 0;
+  play(scene, [&](const World& world) {
+    if (step == 0) text += header(scene, world);
+    if (step % scene.trace_every == 0 || step == scene.steps) text += frame(world);
+    ++step;
+  });
+  return text;
+}
+
+std::vector<MissedContact> MissedContacts::after_step(const World& world, double dt) {
+  const std::vector<Body>& after = world.bodies();
+  std::vector<bool> touched(after.size());
+  const auto index_of = [&after](std::uint32_t id) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(after, id, {}, &Body::id) - after.begin());
+  };
+  for (const Hit& hit : world.hits()) {
+    for (const std::uint32_t id : {hit.first, hit.second}) {
+      const std::size_t i = index_of(id);
+      if (i < after.size() && can_move(after[i])) touched[i] = true;
+    }
+  }
+  proxies_.clear();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    Proxy& proxy = proxies_.emplace_back(way_of(before_[i], after[i], dt));
+    proxy.skipped |= touched[i];
+  }
+  find_pairs(UniformGrid{}, proxies_, pairs_);
+  std::vector<MissedContact> missed;
+  const double start = world.time() - dt;
+  for (const ProxyPair& pair : pairs_) {
+    const Body &a = before_[pair.first], &b = before_[pair.second];
+    const auto way = [&](std::size_t i) { return Vec3<double>(box_of(after[i]).center - box_of(before_[i]).center); };
+    const Moving<AnyShape> first{a.shape, way(pair.first)}, second{b.shape, way(pair.second)};
+    const Vec3<double> spin_a = rotation_of(after[pair.first], dt), spin_b = rotation_of(after[pair.second], dt);
+    const bool turns = spin_a != Vec3<double>::Zero() || spin_b != Vec3<double>::Zero();
+    const Toi<double> toi = turns ? impact_of_spinning(first, second, spin_a, spin_b) : time_of_impact(first, second);
+    if (toi.status != ToiStatus::hit || overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
+    missed.push_back({a.id, b.id, start + toi.time * dt});
+  }
+  before_ = after;
+  return missed;
+}
 
 StepRow Playback::sums() const {
   StepRow sums;

@@ -165,8 +165,7 @@ Window window_of(const Scene& scene, const Playback& playback) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Window w{far, -far, far, -far};
   for (const Track& track : playback.tracks) {
-    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                   [&track](const Body& candidate) { return candidate.id == track.id; });
+    const auto body = std::ranges::find(scene.bodies, track.id, &Body::id);
     const Vec3<double> half = body == scene.bodies.end() ? Vec3<double>::Zero().eval() : box_of(*body).half_extents;
     for (std::size_t i = 0; i < track.x.size(); ++i) {
       w.left = std::min(w.left, track.x[i] - half[scene.across]);

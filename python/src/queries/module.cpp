@@ -29,12 +29,13 @@ class StructType {
   py::list names_, formats_, offsets_;
 };
 
-template <class S> py::dtype contact_type(const Contact<S>& c, const py::dtype& s) {
-  return StructType(c)
-      .add("local_a", c, c.local_a, s, 3)
-      .add("local_b", c, c.local_b, s, 3)
-      .add("normal", c, c.normal, s, 3)
-      .add("penetration", c, c.penetration, s)
+/// The fields of a contact in `row`.
+template <class T, class S>
+py::dtype with_contact(StructType type, const T& row, const Contact<S>& c, const py::dtype& s) {
+  return type.add("local_a", row, c.local_a, s, 3)
+      .add("local_b", row, c.local_b, s, 3)
+      .add("normal", row, c.normal, s, 3)
+      .add("penetration", row, c.penetration, s)
       .dtype();
 }
 
@@ -44,14 +45,7 @@ template <class S> py::dtype row_type(const std::string& query) {
   if (query == "overlaps" || query == "valid") return py::dtype::of<bool>();
   if (query == "contact") {
     const ContactRow<S> r;
-    const Contact<S>& c = r.contact;
-    return StructType(r)
-        .add("status", r, r.status, i)
-        .add("local_a", r, c.local_a, s, 3)
-        .add("local_b", r, c.local_b, s, 3)
-        .add("normal", r, c.normal, s, 3)
-        .add("penetration", r, c.penetration, s)
-        .dtype();
+    return with_contact(StructType(r).add("status", r, r.status, i), r, r.contact, s);
   }
   if (query == "separation") {
     const SeparationRow<S> r;
@@ -66,10 +60,11 @@ template <class S> py::dtype row_type(const std::string& query) {
   }
   if (query == "manifold") {
     const ManifoldRow<S> r;
+    const Contact<S>& first = r.manifold.contacts[0];
     return StructType(r)
         .add("status", r, r.status, i)
         .add("count", r, r.manifold.count, i)
-        .add("contacts", r, r.manifold.contacts, contact_type(r.manifold.contacts[0], s), 4)
+        .add("contacts", r, r.manifold.contacts, with_contact(StructType(first), first, first, s), 4)
         .dtype();
   }
   if (query == "raycast") {

@@ -77,7 +77,7 @@ std::string changed_outcome(const DrawnWorld& drawn, std::uint64_t seed) {
   const std::string kept(omissions[seed % omissions.size()]);
   if (is_asked) against(kept + " kept", drawn.bodies, [&](WorldOptions& o) { o.keep = {kept}; });
   against("another order", shuffled(drawn.bodies, seed), [](WorldOptions&) {});
-  const auto& names = PairFinder::names();
+  const auto& names = pair_finder_names();
   const std::string name(names[seed % names.size()]);
   against(name, drawn.bodies, [&](WorldOptions& o) { o.broad_phase = name; });
   if (seed % 8 == 0) {  // threads take long to start
