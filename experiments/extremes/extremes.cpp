@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -28,13 +29,15 @@ using Row = ExtremeRow;
 using Tally = ExtremeTally;
 
 std::string_view precision_name(std::size_t precision) { return all_precisions()[precision].name; }
+std::string_view side_name(const Arm& arm) { return arm.side > 0 ? "greater" : "lesser"; }
 std::string_view pairs_name(PairSet pairs) { return pairs == PairSet::rounded ? "with a ball" : "two boxes"; }
 
 /// "long double", "50 digits".
 std::string title_of(std::size_t precision) { return spaced(std::string(precision_name(precision))); }
 
-/// Of a row of whatever table, as a column reads it.
+// Of a row of whatever table, as a column reads it.
 constexpr auto its_precision = [](const auto& row) { return precision_name(row.precision); };
+constexpr auto its_pairs = [](const auto& row) { return pairs_name(row.pairs); };
 
 /// How far a method gets along each arm, on pairs with a ball or on two boxes.
 struct Rung : ExtremeContender {
@@ -86,8 +89,7 @@ template <class Text> void add_arms(Columns<Rung>& columns, const Text& text_of)
   for (std::size_t i = 0; i < all_arms().size(); ++i) {
     const Arm& arm = all_arms()[i];
     text(std::string(arm.name),
-         fmt::format("First break along {}, towards {} values.", info(arm.axis).title,
-                     arm.side > 0 ? "greater" : "lesser"),
+         fmt::format("First break along {}, towards {} values.", info(arm.axis).title, side_name(arm)),
          [i, text_of](const Rung& r) { return text_of(r.arms[i]); })
         .add_to(columns);
   }
@@ -97,8 +99,7 @@ Table ladder_table(const std::vector<Rung>& rungs) {
   auto columns =
       columns_of<Rung>(text("method", "Way to find the time of impact.", &Rung::method),
                        text("precision", "Floating-point type the kernels ran in.", its_precision),
-                       text("pairs", "With a ball, three pairs; or two boxes, which have no radius.",
-                            [](const Rung& r) { return pairs_name(r.pairs); }),
+                       text("pairs", "With a ball, three pairs; or two boxes, which have no radius.", its_pairs),
                        value("nanoseconds", "ns", "A query; median over pairs and places.", &Rung::nanoseconds));
   add_arms(columns, break_text);
   return in_report(timing(table(
@@ -127,37 +128,23 @@ Table ladder_test_table(const std::vector<LadderTest>& tests) {
             columns, tests));
 }
 
-Table breaks_table(const std::vector<Row>& rows, const std::vector<Rung>& rungs) {
-  struct Break {
-    const Arm* arm;
-    const Rung* rung;
-    Survival survival;
-  };
-  std::vector<Break> breaks;
-  for (std::size_t i = 0; i < all_arms().size(); ++i) {
-    for (const std::size_t p : precisions_of(rows)) {
-      for (const Rung& rung : rungs) {
-        const Survival& s = rung.arms[i];
-        if (rung.precision == p && s.is_asked()) breaks.push_back({&all_arms()[i], &rung, s});
-      }
-    }
-  }
-  const auto columns = columns_of<Break>(
-      text("axis", "What is extreme.", [](const Break& b) { return info(b.arm->axis).name; }),
-      text("side", "Towards greater or lesser values.",
-           [](const Break& b) { return b.arm->side > 0 ? "greater" : "lesser"; }),
-      text("precision", "Floating-point type.", [](const Break& b) { return precision_name(b.rung->precision); }),
-      text("method", "Way to find the time of impact; textbook is a foil.",
-           [](const Break& b) { return b.rung->method; }),
-      text("pairs", "With a ball, three pairs; or two boxes.",
-           [](const Break& b) { return pairs_name(b.rung->pairs); }),
-      value("survived", "1", "Last value before the first break; missing: none.",
-            [](const Break& b) { return b.survival.survived; }),
-      value("broken", "1", "First value at which it breaks; missing: none.",
-            [](const Break& b) { return b.survival.broken; }),
-      text("why", "A wrong verdict, an error, nan or gave_up.",
-           [](const Break& b) { return b.survival.broken ? name(b.survival.flaw) : ""; }),
-      text("pair", "On which shapes.", [](const Break& b) { return b.survival.pair; }));
+/// By arm and precision.
+Table breaks_table(const std::vector<Rung>& rungs) {
+  using S = Survival;
+  std::vector<S> breaks;
+  for (const Rung& rung : rungs) std::ranges::copy_if(rung.arms, std::back_inserter(breaks), &S::is_asked);
+  std::ranges::stable_sort(breaks, {}, [](const S& s) { return std::pair(s.arm, s.precision); });
+  const auto columns =
+      columns_of<S>(text("axis", "What is extreme.", [](const S& s) { return info(s.arm->axis).name; }),
+                    text("side", "Towards greater or lesser values.", [](const S& s) { return side_name(*s.arm); }),
+                    text("precision", "Floating-point type.", its_precision),
+                    text("method", "Way to find the time of impact; textbook is a foil.", &S::method),
+                    text("pairs", "With a ball, three pairs; or two boxes.", its_pairs),
+                    value("survived", "1", "Last value before the first break; missing: none.", &S::survived),
+                    value("broken", "1", "First value at which it breaks; missing: none.", &S::broken),
+                    text("why", "A wrong verdict, an error, nan or gave_up.",
+                         [](const S& s) { return s.broken ? name(s.flaw) : ""; }),
+                    text("pair", "On which shapes.", &S::pair));
   return table("breaks", "How far each method gets along each axis, on the pairs that every method is asked.", columns,
                breaks);
 }
@@ -201,11 +188,6 @@ struct HeatBin {
 struct Look {
   std::vector<HeatBin> bins;
   std::function<std::optional<std::size_t>(const Tally&)> bin_of;
-};
-
-struct HeatRow {
-  std::string label;
-  std::function<bool(const Row&)> has;
 };
 
 /// The first bin whose upper limit is not below x; the last has none.
@@ -257,10 +239,11 @@ std::string power_text(double x, std::string_view times, double least, double mo
   return fmt::format("{}{}{:.0f}", rounded_text(x / std::pow(10, power), 2), times, power);
 }
 
-/// The columns of an axis are one apart, and two from those of the next.
+/// A heat row for all rows that `label_of` calls alike. The columns of an axis are one apart, and two from those of the next.
 Panel heat_panel(const std::string& title, const std::vector<Place>& places, const std::vector<Row>& rows,
-                 const std::vector<HeatRow>& heat_rows, const Look& look, bool names_axes) {
+                 const auto& label_of, const Look& look, bool names_axes) {
   constexpr double row_height = 22.0 / 360;  // [1] of a panel of height 1
+  const std::vector<Group<Row>> heat_rows = group_by(rows, label_of);
   Panel panel = {.x_label = "value on the axis named above, all others as usual [1]",
                  .y_label = title,
                  .height = row_height * (static_cast<double>(heat_rows.size()) + 0.4)};
@@ -273,14 +256,12 @@ Panel heat_panel(const std::string& title, const std::vector<Place>& places, con
   }
   for (const HeatBin& bin : look.bins)
     panel.series.push_back({.label = bin.label, .mark = Mark::cells, .color = bin.color});
-  for (std::size_t i = 0; i < heat_rows.size(); ++i) {
-    const double y = static_cast<double>(heat_rows.size() - i);
-    panel.y_tics.push_back({y, heat_rows[i].label});
+  for (const Group<Row>& heat_row : heat_rows) {
+    const double y = static_cast<double>(heat_rows.size() - panel.y_tics.size());
+    panel.y_tics.push_back({y, label_of(*heat_row[0])});
     std::vector<Tally> sums(places.size());
-    for (const Row& row : rows) {
-      if (heat_rows[i].has(row))
-        sums[static_cast<std::size_t>(std::ranges::find(places, row.place) - places.begin())] += row.tally;
-    }
+    for (const Row* row : heat_row)
+      sums[static_cast<std::size_t>(std::ranges::find(places, row->place) - places.begin())] += row->tally;
     for (std::size_t j = 0; j < places.size(); ++j) {
       const std::optional<std::size_t> bin = look.bin_of(sums[j]);
       if (bin) panel.series[*bin].add(panel.x_tics[j].at, y);
@@ -289,82 +270,60 @@ Panel heat_panel(const std::string& title, const std::vector<Place>& places, con
   return panel;
 }
 
-/// A panel a precision, with those of the heat rows that are asked there.
-std::vector<Panel> heat_panels(const std::vector<Row>& rows, const Look& look, const std::vector<HeatRow>& heat_rows) {
+/// A panel a precision, of the rows that `is_its` and that were asked there.
+std::vector<Panel> heat_panels(const std::vector<Row>& rows, const Look& look, const auto& is_its,
+                               const auto& label_of) {
   std::vector<Panel> panels;
   for (const std::size_t p : precisions_of(rows)) {
-    const std::vector<Row> its = only(rows, [p](const Row& row) { return row.precision == p; });
-    const std::vector<HeatRow> asked =
-        only(heat_rows, [&](const HeatRow& row) { return std::ranges::any_of(its, row.has); });
-    if (!asked.empty()) panels.push_back(heat_panel(title_of(p), places_of(rows), its, asked, look, panels.empty()));
+    const std::vector<Row> asked =
+        only(rows, [&](const Row& row) { return row.precision == p && row.tally.queries > 0 && is_its(row); });
+    if (!asked.empty())
+      panels.push_back(heat_panel(title_of(p), places_of(rows), asked, label_of, look, panels.empty()));
   }
   return panels;
 }
 
-/// A row a method.
-std::vector<HeatRow> methods_on(PairSet pairs) {
-  std::vector<HeatRow> heat_rows;
-  for (const std::string_view method : extreme_method_names()) {
-    heat_rows.push_back({std::string(method) + (method == "textbook" ? " (foil)" : ""), [=](const Row& row) {
-                           return ExtremeContender{method, row.precision, pairs}.has(row);
-                         }});
-  }
-  return heat_rows;
-}
-
-/// A row a pair, for the closed form.
-std::vector<HeatRow> every_pair() {
-  std::vector<HeatRow> heat_rows;
-  for (const ExtremePair& pair : extreme_pairs()) {
-    heat_rows.push_back(
-        {std::string(pair.name), [&pair](const Row& row) {
-           return row.pair == &pair && ExtremeContender{"closed_form", row.precision, PairSet::all}.has(row);
-         }});
-  }
-  return heat_rows;
-}
-
 /// What rounding the input changes, whatever the method: a row a precision.
-Figure changed_by_rounding(const std::vector<Row>& rows) {
-  std::vector<HeatRow> heat_rows;
-  for (const std::size_t p : precisions_of(rows))
-    heat_rows.push_back({title_of(p), [p](const Row& row) { return row.precision == p; }});
+Figure changed_by_rounding(std::vector<Row> rows) {
+  const std::vector<Place> places = places_of(rows);
+  std::ranges::stable_sort(rows, {}, &Row::precision);
+  const auto label_of = [](const Row& row) { return title_of(row.precision); };
   return {
       "representation",
       "Verdicts that rounding the input alone changes",
       "Share of the queries, drawn in doubles, whose true answer is another one once they are rounded to the precision. "
       "No method is at fault: every method is judged by the answer to the rounded query.",
-      {heat_panel("precision", places_of(rows), rows, heat_rows, share_look(&Tally::changed), true)}};
+      {heat_panel("precision", places, rows, label_of, share_look(&Tally::changed), true)}};
 }
 
 /// The foil's loss between two balls, with u (d/R)^2 / 2.
 Figure loss_figure(const std::vector<Row>& rows) {
-  Panel panel = {
-      .x_label = "distance / R [1]", .y_label = "error along the normal / R [1]", .log_x = true, .log_y = true};
-  std::vector<Series> theory;
+  std::vector<Row> drawn;
   for (const std::size_t p : precisions_of(rows)) {
-    Series line = {.label = "theory", .mark = Mark::line};
     for (const std::string_view method : {"textbook", "closed_form"}) {
-      Series points = {.label = fmt::format("{} {}", method, title_of(p))};
-      for (const Row* row : two_balls(rows, method, p)) {
-        const double d = row->place.value, unit = all_precisions()[p].unit * d * d / 2;
-        if (d < 10 || row->tally.timed == 0) continue;
-        if (method == "textbook") line.add(d, unit);
-        if (row->tally.loss_rms != 0) points.add(d, row->tally.loss_rms * unit);
+      for (const Row& row : two_balls(rows, method, p)) {
+        if (row.place.value >= 10 && row.tally.timed > 0) drawn.push_back(row);
       }
-      if (!points.x.empty()) panel.series.push_back(points);
     }
-    theory.push_back(line);
   }
-  if (panel.series.empty()) return {};  // a figure without panels is left out
-  panel.series.insert(panel.series.end(), theory.begin(), theory.end());
+  const auto unit = [](const Row& r) { return all_precisions()[r.precision].unit * r.place.value * r.place.value / 2; };
+  const auto columns = columns_of<Row>(
+      text("who", "", [](const Row& r) { return fmt::format("{} {}", r.tally.method, title_of(r.precision)); }),
+      value("distance", "1", "", [](const Row& r) { return r.place.value; }),
+      where([](const Row& r) { return r.tally.loss_rms != 0; },
+            value("loss", "1", "", [=](const Row& r) { return r.tally.loss_rms * unit(r); })),
+      where([](const Row& r) { return r.tally.method == "textbook"; }, value("theory", "1", "", unit)));
   return {
       "textbook_loss",
       "What the textbook's quadratic loses between two balls",
       "Root mean square of the error of the place of contact along the normal, over the radius, where it finds one. The "
       "lines are u (d/R)^2 / 2, one a precision; points leave them where verdicts go wrong, at d/R = 1/sqrt(u). The "
       "closed form's stay at u d/R, whose slope is half.",
-      {panel}};
+      {plot(columns, drawn)
+           .x("distance", Axis::log, "distance / R [1]")
+           .y("loss", Axis::log, "error along the normal / R [1]")
+           .by("who")
+           .through("theory", "theory")}};
 }
 
 std::vector<Figure> figures_of(const std::vector<Row>& rows) {
@@ -375,29 +334,33 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows) {
                     boxes = " Two boxes, which have no radius to give them a normal where they touch." + columns;
   const std::string wrong = "Share of the queries whose verdict is wrong by more than 4 u of its input.",
                     contract = "The contract of the closed form is 4.", timed = " White, too: no hit to time.";
-  const Look verdict = share_look(&Tally::far_wrong), forward = error_look(&Tally::forward_max),
-             backward = error_look(&Tally::backward_max);
-  const auto with_a_ball = methods_on(PairSet::rounded), two_boxes = methods_on(PairSet::boxes);
+  const Look verdict = share_look(&Tally::far_wrong), forward = error_look(&Tally::forward_max);
+  const auto of_methods = [&](const Look& look, PairSet pairs) {
+    const auto is_its = [pairs](const Row& row) { return is_in(*row.pair, pairs); };
+    return heat_panels(rows, look, is_its, [](const Row& row) {
+      return row.tally.method + (row.tally.method == "textbook" ? " (foil)" : "");
+    });
+  };
+  const auto is_closed_form = [](const Row& row) { return row.tally.method == "closed_form"; };
   std::vector<Figure> figures = {
-      {"verdicts", "Wrong verdicts, by more than 4 u", wrong + balls, heat_panels(rows, verdict, with_a_ball)},
+      {"verdicts", "Wrong verdicts, by more than 4 u", wrong + balls, of_methods(verdict, PairSet::rounded)},
       {"forward", "Largest forward error of the time of a hit [u kappa t]", contract + balls + timed,
-       heat_panels(rows, forward, with_a_ball)},
+       of_methods(forward, PairSet::rounded)},
       {"backward", "Largest backward error of a hit [u]", contract + balls + timed,
-       heat_panels(rows, backward, with_a_ball)},
+       of_methods(error_look(&Tally::backward_max), PairSet::rounded)},
       {"no_answer", "NaN, invalid, and gave up", "Of all four pairs. Where both occur, the NaN is shown." + columns,
-       heat_panels(rows, silence_look, methods_on(PairSet::four))},
+       of_methods(silence_look, PairSet::four)},
       {"verdicts_boxes", "Two boxes: wrong verdicts, by more than 4 u", wrong + boxes,
-       heat_panels(rows, verdict, two_boxes)},
+       of_methods(verdict, PairSet::boxes)},
       {"forward_boxes", "Two boxes: largest forward error of the time of a hit [u kappa t]", contract + boxes + timed,
-       heat_panels(rows, forward, two_boxes)},
+       of_methods(forward, PairSet::boxes)},
       {"closed_form_pairs", "The closed form on every pair: largest forward error [u kappa t]",
        "A row is a pair of shapes. White: no hit to time, or a value that does not concern the pair, or that the "
        "precision cannot hold.",
-       heat_panels(rows, forward, every_pair())}};
+       heat_panels(rows, forward, is_closed_form, [](const Row& row) { return std::string(row.pair->name); })}};
   if (!rows.empty()) figures.push_back(changed_by_rounding(rows));
   figures.push_back(loss_figure(rows));
-  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
-  return figures;
+  return only_measured(std::move(figures));
 }
 
 // What it says.
@@ -444,12 +407,12 @@ std::string closed_form_answer(const std::vector<Row>& rows, const std::vector<L
 std::string foil_answer(const std::vector<Row>& rows) {
   std::vector<std::string> parts;
   for (const std::size_t p : precisions_of(rows)) {
-    const std::vector<const Row*> asked = two_balls(rows, "textbook", p);
+    const std::vector<Row> asked = two_balls(rows, "textbook", p);
     if (asked.empty()) continue;
-    const auto first = std::ranges::find_if(asked, [](const Row* row) { return row->tally.far_wrong > 0; });
+    const auto first = std::ranges::find_if(asked, [](const Row& row) { return row.tally.far_wrong > 0; });
     parts.push_back(first == asked.end()
                         ? "at no distance "
-                        : fmt::format("from {} R {}", spoken((*first)->place.value), parts.empty() ? "apart " : ""));
+                        : fmt::format("from {} R {}", spoken(first->place.value), parts.empty() ? "apart " : ""));
     parts.back() += in_precision(p);
   }
   return parts.empty() ? "" : fmt::format("The textbook's formula gets two balls wrong {}. ", listed(parts));
@@ -460,27 +423,23 @@ std::string others_answer(const std::vector<Row>& rows, const std::vector<Rung>&
   const std::vector<std::size_t> precisions = precisions_of(rows);
   if (precisions.empty()) return "";
   const std::size_t p = std::ranges::find(precisions, 1U) != precisions.end() ? 1 : precisions.back();
+  const auto others = only(rungs, [p](const Rung& r) {
+    return r.precision == p && r.pairs == PairSet::rounded && r.method != "closed_form";
+  });
   std::int64_t at_once = 0, ways = 0;
-  std::vector<std::string> others, clauses;
-  for (const Rung& rung : rungs) {
-    if (rung.precision != p || rung.pairs != PairSet::rounded || rung.method == "closed_form") continue;
+  std::vector<std::string> breaks;
+  for (const Rung& rung : others) {
     ways = std::max<std::int64_t>(ways, std::ranges::count_if(rung.arms, &Survival::is_asked));
     if (rung.breaks_at_once()) {
       ++at_once;
-      continue;
+    } else {
+      breaks.push_back(fmt::format("{} on {}", rung.method, std::ranges::count_if(rung.arms, &Survival::is_broken)));
     }
-    const auto broken = std::ranges::count_if(rung.arms, [](const Survival& s) { return s.broken.has_value(); });
-    others.push_back(fmt::format("{} {}on {}", rung.method, others.empty() ? "breaks " : "",
-                                 broken > 0 ? std::to_string(broken) : "none"));
   }
-  if (at_once > 0) {
-    clauses.push_back(fmt::format("{} {} where nothing is extreme", plural_text(at_once, "other method"),
-                                  at_once == 1 ? "breaks" : "break"));
-  }
-  if (!others.empty())
-    clauses.push_back(fmt::format("of {} {}", plural_text(ways, "way") + " outward", listed(others)));
-  if (clauses.empty()) return "";
-  return fmt::format("On pairs with a ball, {}, {}.", in_precision(p), fmt::join(clauses, "; "));
+  if (at_once > 0) breaks.push_back(plural_text(at_once, "method") + " at once");
+  if (breaks.empty()) return "";
+  return fmt::format("On pairs with a ball, {}, the others break on so many of {} outward: {}.", in_precision(p),
+                     plural_text(ways, "way"), listed(breaks));
 }
 
 std::string answer_of(const std::vector<Row>& rows, const std::vector<Rung>& rungs,
@@ -489,41 +448,19 @@ std::string answer_of(const std::vector<Row>& rows, const std::vector<Rung>& run
   return text.empty() ? "No query was asked: see the tables." : text;
 }
 
-/// A row a method that does not break at once, and the names of those that do.
+/// A row a method; the names of those that break at once stand above.
 std::string ladder_text(const std::vector<Rung>& rungs, std::size_t precision, PairSet pairs) {
-  std::vector<Rung> shown;
+  const auto its = only(rungs, [&](const Rung& r) { return r.precision == precision && r.pairs == pairs; });
+  if (its.empty()) return "";
   std::vector<std::string_view> at_once;
-  for (const Rung& rung : rungs) {
-    if (rung.precision != precision || rung.pairs != pairs) continue;
-    if (rung.breaks_at_once()) {
-      at_once.push_back(rung.method);
-    } else {
-      shown.push_back(rung);
-    }
-  }
+  for (const Rung& rung : only(its, &Rung::breaks_at_once)) at_once.push_back(rung.method);
   auto columns = columns_of<Rung>(text("method", "", &Rung::method),
                                   text("ns", "", [](const Rung& r) { return rounded_text(r.nanoseconds, 3); }));
   add_arms(columns, short_break_text);
-  std::string text;
-  if (!shown.empty())
-    text = terminal(table("ladder", fmt::format("{}, {}.", title_of(precision), pairs_name(pairs)), columns, shown));
-  if (!at_once.empty()) {
-    text += wrapped(fmt::format(
-        "{}: {}", shown.empty() ? fmt::format("{}, {}, at once", title_of(precision), pairs_name(pairs)) : "At once",
-        fmt::join(at_once, ", ")));
-  }
-  return text.empty() ? text : text + "\n";
-}
-
-std::string self_test_words(const std::vector<LadderTest>& tests) {
-  std::string failed;
-  for (const LadderTest& t : tests) {
-    if (!t.passed()) {
-      failed += fmt::format("FAILED: {}, {}: {:.3g}, allowed {:.3g} to {:.3g}, at {}.\n", t.what, title_of(t.precision),
-                            t.measured, t.least, t.most, t.where);
-    }
-  }
-  return fmt::format("{} of {} passed.\n{}", std::ranges::count_if(tests, &LadderTest::passed), tests.size(), failed);
+  const std::string title = fmt::format("{}, {}. At once: {}.", title_of(precision), pairs_name(pairs),
+                                        at_once.empty() ? "none" : fmt::format("{}", fmt::join(at_once, ", ")));
+  const auto shown = only(its, std::not_fn(&Rung::breaks_at_once));
+  return (shown.empty() ? wrapped(title) : terminal(table("ladder", title, columns, shown))) + "\n";
 }
 
 std::string summary_of(const std::vector<Row>& rows, const std::vector<Rung>& rungs,
@@ -541,7 +478,9 @@ std::string summary_of(const std::vector<Row>& rows, const std::vector<Rung>& ru
             "foil. At once: the methods that break at most first values; they claim less.") +
         "\n";
   }
-  return text + "Self-test: " + self_test_words(tests);
+  const auto failed = only(tests, std::not_fn(&LadderTest::passed));
+  return text + fmt::format("Self-test: {} of {} passed.\n", tests.size() - failed.size(), tests.size()) +
+         (failed.empty() ? "" : terminal(ladder_test_table(failed)));
 }
 
 Outcome outcome_of(const std::vector<Row>& rows) {
@@ -551,11 +490,11 @@ Outcome outcome_of(const std::vector<Row>& rows) {
   std::erase_if(asked, [](const Row& row) { return row.tally.queries == 0; });
   return {.answer = answer_of(rows, rungs, tests),
           .summary = summary_of(rows, rungs, tests),
-          .tables = {ladder_table(rungs), ladder_test_table(tests), breaks_table(rows, rungs), cells_table(asked),
+          .tables = {ladder_table(rungs), ladder_test_table(tests), breaks_table(rungs), cells_table(asked),
                      timings_table(asked)},
           .figures = figures_of(rows),
-          .sections = {{"Self-test", self_test_words(tests)}},
-          .self_test_passed = std::ranges::all_of(tests, &LadderTest::passed)};
+          .sections = {},
+          .self_test_passed = all_passed(tests)};
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {

@@ -19,11 +19,6 @@ constexpr auto axes = std::to_array<AxisInfo>({
     {"ratio", "size ratio", &Extreme::ratio, {.lower = 1e-15, .upper = 1}},
 });
 
-bool is_in(const ExtremePair& pair, PairSet pairs) {
-  if (pairs == PairSet::all) return true;
-  return pair.every_method() && (pairs == PairSet::four || pair.rounded == (pairs == PairSet::rounded));
-}
-
 }  // namespace
 
 const AxisInfo& info(ExtremeAxis axis) { return axes[static_cast<std::size_t>(axis)]; }
@@ -70,6 +65,11 @@ std::vector<double> values_along(const Arm& arm, const std::vector<Place>& place
   return values;
 }
 
+bool is_in(const ExtremePair& pair, PairSet pairs) {
+  if (pairs == PairSet::all) return true;
+  return pair.every_method() && (pairs == PairSet::four || pair.rounded == (pairs == PairSet::rounded));
+}
+
 bool ExtremeContender::has(const ExtremeRow& row) const {
   return row.precision == precision && row.tally.method == method && row.tally.queries > 0 && is_in(*row.pair, pairs);
 }
@@ -86,15 +86,11 @@ std::vector<Place> places_of(const std::vector<ExtremeRow>& rows) {
   return places;
 }
 
-std::vector<const ExtremeRow*> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method,
-                                         std::size_t precision) {
-  std::vector<const ExtremeRow*> found;
-  for (const ExtremeRow& row : rows) {
+std::vector<ExtremeRow> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method, std::size_t precision) {
+  return only(rows, [&](const ExtremeRow& row) {
     const bool is_it = row.pair->name == "sphere_sphere" && row.place.axis == ExtremeAxis::distance;
-    if (is_it && ExtremeContender{method, precision}.has(row)) found.push_back(&row);
-  }
-  std::ranges::sort(found, {}, [](const ExtremeRow* row) { return row->place; });
-  return found;
+    return is_it && ExtremeContender{method, precision}.has(row);
+  });
 }
 
 std::string_view name(Flaw flaw) {
@@ -111,7 +107,7 @@ std::optional<Flaw> flaw_of(const ExtremeTally& tally) {
 }
 
 Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const ExtremeContender& whose) {
-  Survival result;
+  Survival result = {whose, &arm};
   for (const double value : values_along(arm, places_of(rows))) {
     bool asked = false;
     for (const ExtremeRow& row : rows) {

@@ -140,6 +140,8 @@ enum class PairSet {
   all,      ///< those of the closed form and the foil alone, too
 };
 
+bool is_in(const ExtremePair& pair, PairSet pairs);
+
 /// A method in a precision, on some of the pairs.
 struct ExtremeContender {
   std::string_view method;
@@ -152,9 +154,8 @@ struct ExtremeContender {
 std::vector<std::size_t> precisions_of(const std::vector<ExtremeRow>& rows);  ///< that occur
 std::vector<Place> places_of(const std::vector<ExtremeRow>& rows);            ///< axis by axis, ascending
 
-/// What was asked of two balls along the distance, from near to far: there the textbook loses by theory.
-std::vector<const ExtremeRow*> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method,
-                                         std::size_t precision);
+/// What was asked of two balls along the distance: there the textbook loses by theory.
+std::vector<ExtremeRow> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method, std::size_t precision);
 
 /// Why a method is broken, the worst first.
 enum class Flaw {
@@ -169,15 +170,19 @@ inline constexpr double break_error = 100;  ///< [u kappa t] two decimals lost
 
 std::optional<Flaw> flaw_of(const ExtremeTally& tally);
 
-/// How far a method gets along an arm, on some pairs together.
-struct Survival {
-  std::optional<double> survived;  ///< the last value at which nothing was wrong, before the first where something was
-  std::optional<double> broken;    ///< that first value
+/// How far a method gets along an arm, on its pairs together.
+struct Survival : ExtremeContender {
+  const Arm* arm;
+  std::optional<double>
+      survived{};                  ///< the last value at which nothing was wrong, before the first where something was
+  std::optional<double> broken{};  ///< that first value
   Flaw flaw = Flaw::verdict;       ///< the worst there
   std::string_view pair{};         ///< whose
 
+  bool is_broken() const { return broken.has_value(); }
   bool is_asked() const { return survived || broken; }
 };
+/// `arm` is one of `all_arms`.
 Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const ExtremeContender& whose);
 
 }  // namespace thinwall

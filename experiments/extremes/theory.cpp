@@ -62,12 +62,12 @@ void add_loss(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& row
   LadderTest bound{.what = "textbook_loss", .precision = precision, .most = theory.most};
   LadderTest spread{.what = "textbook_loss_spread", .precision = precision, .least = 1, .most = theory.spread};
   double least = infinity;
-  for (const ExtremeRow* row : two_balls(rows, foil, precision)) {
-    const double d = row->place.value;
-    if (d < 10 || unit_of(precision) * d * d > 1e-3 || row->tally.timed < 4) continue;  // first order, and enough of it
-    const double scaled = std::pow(d, 2 - theory.exponent), rms = row->tally.loss_rms * scaled;
-    note(bound, *row, row->tally.loss_max * scaled);
-    note(spread, *row, rms);
+  for (const ExtremeRow& row : two_balls(rows, foil, precision)) {
+    const double d = row.place.value;
+    if (d < 10 || unit_of(precision) * d * d > 1e-3 || row.tally.timed < 4) continue;  // first order, and enough of it
+    const double scaled = std::pow(d, 2 - theory.exponent), rms = row.tally.loss_rms * scaled;
+    note(bound, row, row.tally.loss_max * scaled);
+    note(spread, row, rms);
     least = std::min(least, rms);
   }
   spread.measured /= least;
@@ -78,17 +78,17 @@ void add_loss(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& row
 /// The first distance at which one verdict in ten is wrong, over 1 / sqrt(u). Infinite where there is none.
 void add_threshold(std::vector<LadderTest>& tests, const std::vector<ExtremeRow>& rows, std::size_t precision) {
   const double threshold = 1 / std::sqrt(unit_of(precision));
-  const std::vector<const ExtremeRow*> along = two_balls(rows, foil, precision);
-  if (along.empty() || along.front()->place.value > threshold / 10) return;
-  if (std::ranges::any_of(along, [](const ExtremeRow* row) { return row->tally.queries < 5; })) return;
-  const bool reached = along.back()->place.value >= 10 * threshold;
+  const std::vector<ExtremeRow> along = two_balls(rows, foil, precision);  // from near to far
+  if (along.empty() || along.front().place.value > threshold / 10) return;
+  if (std::ranges::any_of(along, [](const ExtremeRow& row) { return row.tally.queries < 5; })) return;
+  const bool reached = along.back().place.value >= 10 * threshold;
   LadderTest test{.what = "textbook_verdicts", .precision = precision, .least = 0.1, .most = reached ? 10 : infinity};
-  const auto goes_wrong = [](const ExtremeRow* row) { return 10 * row->tally.far_wrong >= row->tally.queries; };
+  const auto goes_wrong = [](const ExtremeRow& row) { return 10 * row.tally.far_wrong >= row.tally.queries; };
   const auto first = std::ranges::find_if(along, goes_wrong);
   if (first == along.end()) {
     test.measured = infinity;
   } else {
-    note(test, **first, (*first)->place.value / threshold);
+    note(test, *first, first->place.value / threshold);
   }
   test.cells = static_cast<std::int64_t>(along.size());
   tests.push_back(test);

@@ -143,7 +143,9 @@ Plot::operator Panel() const {
 }
 
 std::vector<Figure> only_measured(std::vector<Figure> figures) {
-  const auto is_measured = [](const Series& series) { return series.mark == Mark::points && !series.y.empty(); };
+  const auto is_measured = [](const Series& series) {
+    return (series.mark == Mark::points || series.mark == Mark::cells) && !series.y.empty();
+  };
   for (Figure& figure : figures)
     std::erase_if(figure.panels, [&](const Panel& panel) { return std::ranges::none_of(panel.series, is_measured); });
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
