@@ -383,9 +383,6 @@ Outcome outcome_of(const Results& results, double long_step) {
             "step, as long as all last.",
             long_columns(), results.long_rows));
   const Table dropped = dropped_table(results.dropped);
-  std::string verdicts;
-  for (const BounceTest& test : results.tests)
-    verdicts += fmt::format("{}: {}.\n\n", test.policy.name, verdict_text(test.passed()));
   return {.answer = answer_of(results),
           .summary = summary_of(results, dropped),
           .tables = {means, scenarios_table(results.scenarios), runs, dropped, test_table(results.tests),
@@ -397,7 +394,7 @@ Outcome outcome_of(const Results& results, double long_step) {
                                timing_columns(), results.work)))},
           .figures = {energy_figure(results.lively, means), work_figure(results.work),
                       long_figure(results.long_rows, runs, long_step), heights_figure(results.rows)},
-          .sections = {{"Self-test", verdicts}},
+          .sections = {},
           .self_test_passed = all_passed(results.tests) && all_passed(results.scenarios)};
 }
 
