@@ -309,34 +309,24 @@ std::string known_answer(const Rows& rows) {
   return text.empty() ? text : text + ". ";
 }
 
-/// From when on the ray is no longer good, and what its lack of a radius costs: of the settings' cells, those of the thinnest and the
-/// thickest bullet.
+/// From when on the ray is no longer good: of the settings' cells, those of the thinnest bullet.
 std::string ray_answer(const Rows& rows) {
   const Rows rays =
       only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
   if (rays.empty()) return "";
-  const std::set<double> radii = radii_of(rays);
-  const double thin = *radii.begin(), thick = *radii.rbegin();
-  double good = 0, bad = std::numeric_limits<double>::infinity(), least = 1;
+  const double thin = *radii_of(rays).begin();
+  double good = 0, bad = std::numeric_limits<double>::infinity();
   for (const Row& row : rays) {
+    if (row.cell.radius != thin) continue;
     const double share = *missed_share(row);
-    if (row.cell.radius == thin && share < 0.05) good = std::max(good, flight_time(row.cell));
-    if (row.cell.radius == thin && share > 0.5) bad = std::min(bad, flight_time(row.cell));
-    if (row.cell.radius == thick) least = std::min(least, share);
+    if (share < 0.05) good = std::max(good, flight_time(row.cell));
+    if (share > 0.5) bad = std::min(bad, flight_time(row.cell));
   }
-  std::string text;
-  if (0 < good && good < bad) {
-    text += fmt::format(
-        "The flight time decides: of bullets of radius {:g} mm the ray misses less than 5 % in flights of up to {} s",
-        1e3 * thin, rounded_text(good, 2));
-    if (std::isfinite(bad)) text += fmt::format(" and more than half from {} s on", rounded_text(bad, 2));
-    text += ". ";
-  }
-  if (thick > 0) {
-    text += fmt::format("It has no radius: of the hits of a bullet of {:g} mm it misses {} and more. ", 1e3 * thick,
-                        percent_text(least));
-  }
-  return text;
+  if (!(0 < good && good < bad)) return "";
+  return fmt::format(
+      "The flight time decides: of bullets of radius {:g} mm the ray misses less than 5 % in flights of up to {} s{}. ",
+      1e3 * thin, rounded_text(good, 2),
+      std::isfinite(bad) ? fmt::format(" and more than half from {} s on", rounded_text(bad, 2)) : "");
 }
 
 std::string total_answer(const Total& t) {
