@@ -316,23 +316,17 @@ std::string cost_sentence(const std::vector<WorkRow>& work) {
 }
 
 std::string answer_of(const Results& results) {
-  std::vector<std::string> means, energies;
+  std::vector<std::string> means;
   for (const Row& row : last_of_each(results.lively)) {
     const double mean = std::abs(row.tally.mean) < 5e-3 ? 0 : row.tally.mean;
     means.push_back(fmt::format("{} {:+.2f}", row.policy.name, mean));
   }
-  for (const LongRow& last : last_of_each(results.long_rows))
-    energies.push_back(fmt::format("{} {:.3g} after {} bounces", last.policy.name, last.at.mean, last.at.bounces));
   const Cell& last = results.lively.back().cell;
   return fmt::format(
       "At random phase a bounce at restitution {:g} changes the energy by, in units of g h / V: {} ({:.3g} s steps; "
-      "theory {}). {}{}{} of {} crowds of impacts end as they must.",
+      "theory {}). {}{} of {} crowds of impacts end as they must.",
       last.restitution, fmt::join(means, ", "), last.step, all_passed(results.tests) ? "agrees" : "DISAGREES",
-      cost_sentence(results.work),
-      energies.empty()
-          ? ""
-          : fmt::format("Of its energy a ball that bounces on without loss keeps: {}. ", fmt::join(energies, ", ")),
-      results.scenarios_passed(), results.scenarios.size());
+      cost_sentence(results.work), results.scenarios_passed(), results.scenarios.size());
 }
 
 /// The last crowd of each kind, or the first that went wrong.
