@@ -418,34 +418,12 @@ std::string foil_answer(const std::vector<Row>& rows) {
   return parts.empty() ? "" : fmt::format("The textbook's formula gets two balls wrong {}. ", listed(parts));
 }
 
-/// Of the others on pairs with a ball, in double or the last precision there is: along how many arms each breaks.
-std::string others_answer(const std::vector<Row>& rows, const std::vector<Rung>& rungs) {
-  const std::vector<std::size_t> precisions = precisions_of(rows);
-  if (precisions.empty()) return "";
-  const std::size_t p = std::ranges::find(precisions, 1U) != precisions.end() ? 1 : precisions.back();
-  const auto others = only(rungs, [p](const Rung& r) {
-    return r.precision == p && r.pairs == PairSet::rounded && r.method != "closed_form";
-  });
-  std::int64_t at_once = 0, ways = 0;
-  std::vector<std::string> breaks;
-  for (const Rung& rung : others) {
-    ways = std::max<std::int64_t>(ways, std::ranges::count_if(rung.arms, &Survival::is_asked));
-    if (rung.breaks_at_once()) {
-      ++at_once;
-    } else {
-      breaks.push_back(fmt::format("{} on {}", rung.method, std::ranges::count_if(rung.arms, &Survival::is_broken)));
-    }
-  }
-  if (at_once > 0) breaks.push_back(plural_text(at_once, "method") + " at once");
-  if (breaks.empty()) return "";
-  return fmt::format("On pairs with a ball, {}, the others break on so many of {} outward: {}.", in_precision(p),
-                     plural_text(ways, "way"), listed(breaks));
-}
-
-std::string answer_of(const std::vector<Row>& rows, const std::vector<Rung>& rungs,
-                      const std::vector<LadderTest>& tests) {
-  const std::string text = closed_form_answer(rows, tests) + foil_answer(rows) + others_answer(rows, rungs);
-  return text.empty() ? "No query was asked: see the tables." : text;
+/// The others' breaks are the ladder's.
+std::string answer_of(const std::vector<Row>& rows, const std::vector<LadderTest>& tests) {
+  std::string text = closed_form_answer(rows, tests) + foil_answer(rows);
+  if (text.empty()) return "Neither the closed form nor the textbook's formula was asked: see the ladder.";
+  text.pop_back();  // the space between sentences
+  return text;
 }
 
 /// A row a method; the names of those that break at once stand above.
@@ -488,7 +466,7 @@ Outcome outcome_of(const std::vector<Row>& rows) {
   const std::vector<Rung> rungs = rungs_of(rows);
   std::vector<Row> asked = rows;
   std::erase_if(asked, [](const Row& row) { return row.tally.queries == 0; });
-  return {.answer = answer_of(rows, rungs, tests),
+  return {.answer = answer_of(rows, tests),
           .summary = summary_of(rows, rungs, tests),
           .tables = {ladder_table(rungs), ladder_test_table(tests), breaks_table(rungs), cells_table(asked),
                      timings_table(asked)},

@@ -179,7 +179,6 @@ struct Survival : ExtremeContender {
   Flaw flaw = Flaw::verdict;       ///< the worst there
   std::string_view pair{};         ///< whose
 
-  bool is_broken() const { return broken.has_value(); }
   bool is_asked() const { return survived || broken; }
 };
 /// `arm` is one of `all_arms`.
