@@ -1,6 +1,8 @@
 """What NumPy's side of the queries promises: broadcasting, strides, threads, room for answers, options, and errors that say what is allowed."""
 
+import functools
 import inspect
+import itertools
 import os
 import pathlib
 import re
@@ -181,6 +183,23 @@ def test_out_takes_the_answers(dtype, vectors):
     room = np.empty_like(expected)
     assert tw.time_of_impact(a, b, vectors=vectors, out=room) is room
     assert bits(room) == bits(expected)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("turns", [False, True])
+def test_times_alone_stay_in_their_room(turns, dtype):
+    """By every method: row for row those of the whole answer, and not a byte behind the last."""
+    rng = np.random.default_rng(8)
+    a, b = (turning if turns else moving)("Sphere", rng, ROWS, dtype), moving("Aabb", rng, ROWS, dtype)
+    for method, gap in itertools.product(tw.methods(turning=turns), (0.0, 0.01)):
+        ask = functools.partial(tw.time_of_impact, a, b, method, min_separation=gap, threads=2)
+        whole = ask()
+        room = np.empty(8 * ROWS, tw.time_of_impact(a[:0], b[:0], vectors=False).dtype)
+        room.view(np.uint8)[:] = 0xAB
+        times = ask(vectors=False, out=room[:ROWS])
+        assert np.all(room[ROWS:].view(np.uint8) == 0xAB), method
+        by_batch = method == "closed_form" and gap == 0
+        assert by_batch or bits(times) == bits(whole[["status", "evaluations", "time"]]), method
 
 
 def wrong_rooms(a, b):
@@ -376,7 +395,8 @@ def test_no_array_crashes_a_query(data, rows):
     method = data.draw(st.sampled_from([None, *tw.methods(), *tw.methods(turning=True)]))
     asks = [tw.overlaps, tw.contact, tw.separation, tw.manifold]
     asks = [lambda ask=ask: ask(a.shape, b.shape) for ask in asks]
-    asks += [lambda: tw.time_of_impact(a, b, method), lambda: tw.certified_time_of_impact(a, b), lambda: tw.valid(a)]
+    vectors = data.draw(st.booleans())
+    asks += [lambda: tw.time_of_impact(a, b, method, vectors=vectors), lambda: tw.certified_time_of_impact(a, b), lambda: tw.valid(a)]
     for ask in asks:
         try:
             answer = ask()

@@ -20,8 +20,7 @@ template <class A, class B> struct AskedForManifold {
 /// `Ask::of(a, b)` of every row, in the scalar of the arrays.
 template <class Ask, template <class, class> class Serves, class S> bool ask_all(const Question& q) {
   return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
-    using Row = decltype(Ask::of(std::declval<A>(), std::declval<B>()));
-    answer_rows<Row>(q, [&](std::size_t i) { return Ask::of(row_of<A, S>(q.a, i), row_of<B, S>(q.b, i)); });
+    answer_rows(q, [&](std::size_t i) { return Ask::of(row_of<A, S>(q.a, i), row_of<B, S>(q.b, i)); });
   });
 }
 template <class Ask, template <class, class> class Serves> bool ask_rows(const Question& q) {
@@ -56,7 +55,7 @@ template <class S> bool valid_rows(const Question& q) {
   for_each_type(Shapes<S>{}, [&]<class Tag>(Tag) {
     using A = typename Tag::type;
     if (A::rank != q.a.kind) return;
-    answer_rows<bool>(q, [&](std::size_t i) {
+    answer_rows(q, [&](std::size_t i) {
       RowReader<S> from(q.a, i);
       Moving<A> item{{}, Vec3<S>::Zero()};
       take(from, item.shape);
@@ -66,7 +65,7 @@ template <class S> bool valid_rows(const Question& q) {
     });
   });
   if (q.a.kind < Capsule<S>::rank + 1) return true;
-  answer_rows<bool>(q, [&](std::size_t i) { return valid(row_of<Ray<S>, S>(q.a, i)); });
+  answer_rows(q, [&](std::size_t i) { return valid(row_of<Ray<S>, S>(q.a, i)); });
   return true;
 }
 

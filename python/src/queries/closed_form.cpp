@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include <thinwall/swept/batch.hpp>
 #include <thinwall/swept/compiled.hpp>
@@ -50,27 +51,28 @@ template <class Item, class S> class Block {
   std::array<std::array<S, rows_of_kernel>, batch::most_columns> copied_;  // filled as far as it is read
 };
 
-/// Answers q's rows by the kernel of ItemA and ItemB. `set(row, a, b)` puts the scalar code's answer into a row, where the kernel is not
-/// sure and, if `vectors` are wanted, where there is contact; `quick(status, time)` is the row of the kernel's.
-template <class ItemA, class ItemB, class S, class Row, class Set, class Quick>
-void answer_by_kernel(const Question& q, bool vectors, Row* out, const Set& set, const Quick& quick) {
+/// Answers q's rows by the kernel of ItemA and ItemB. `ask(a, b)` is the scalar code's answer, where the kernel is not sure and, if
+/// vectors are wanted, where there is contact; `quick(status, time)` is the row of the kernel's, of the type that is wanted: to choose it
+/// row by row takes a third longer.
+template <class ItemA, class ItemB, class S, class Ask, class Quick>
+void answer_by_kernel(const Question& q, const Ask& ask, const Quick& quick) {
   batch::for_each_block(q.rows, rows_of_kernel, {q.threads}, [&](std::size_t begin, std::size_t end) {
     const std::size_t n = end - begin;
+    auto* const row = static_cast<std::invoke_result_t<Quick, ToiStatus, S>*>(q.out) + begin;
     const Block<ItemA, S> a(q.a, q.a.is_one, begin, n);
     const Block<ItemB, S> b(q.b, q.b.is_one && !q.a.is_one, begin, n);  // a kernel takes one shape on one side
     std::array<ToiStatus, rows_of_kernel> status;
     std::array<S, rows_of_kernel> time;
     const std::size_t unclear =
         batch::run<ItemA, ItemB>(a.rows(), b.rows(), n, batch::Answers<S>{status.data(), time.data()});
-    Row* const row = out + begin;
-    if (unclear == 0 && !vectors) {
+    if (unclear == 0 && !q.vectors) {
       for (std::size_t j = 0; j < n; ++j) row[j] = quick(status[j], time[j]);
       return;
     }
     for (std::size_t j = 0; j < n; ++j) {
       const bool in_contact = status[j] == ToiStatus::hit || status[j] == ToiStatus::overlapping;
-      if (status[j] == batch::not_clear || (vectors && in_contact)) {
-        set(row[j], a.item(j), b.item(j));
+      if (status[j] == batch::not_clear || (q.vectors && in_contact)) {
+        put(q, begin + j, ask(a.item(j), b.item(j)));
       } else {
         row[j] = quick(status[j], time[j]);
       }
@@ -96,48 +98,33 @@ template <Scalar S> inline constexpr bool has_kernel<Aabb<S>, Aabb<S>> = true;
 
 template <Scalar S> Toi<S> turned_round(const Toi<S>& toi, bool swapped) { return swapped ? flipped(toi) : toi; }
 
-template <class Row, Scalar S> Row row_with(const Toi<S>& toi) {
-  if constexpr (std::is_same_v<Row, Toi<S>>) {
-    return toi;
-  } else {
-    return {toi.status, toi.evaluations, toi.time};
-  }
-}
-
 /// The scalar code's answer. Compiled once a pair: all of the query is inlined here.
 template <class A, class B, class S>
 [[gnu::noinline]] Toi<S> ask_items(const ClosedForm<S>& method, bool swapped, const Moving<A>& a, const Moving<B>& b) {
   return turned_round(time_of_impact(method, a, b), swapped);
 }
 
-template <class A, class B, class Row> void ask_pair(const Question& q, typename A::Scalar min_separation) {
+template <class A, class B> void ask_pair(const Question& q, typename A::Scalar min_separation) {
   using S = typename A::Scalar;
-  const ClosedForm<S> method{min_separation};
-  const auto set = [&](Row& row, const Moving<A>& a, const Moving<B>& b) {
-    row = row_with<Row>(ask_items(method, q.swapped, a, b));
+  const auto ask = [&q, method = ClosedForm<S>{min_separation}](const Moving<A>& a, const Moving<B>& b) {
+    return ask_items(method, q.swapped, a, b);
   };
   if constexpr (has_kernel<A, B>) {
     if (min_separation == S(0)) {
-      answer_by_kernel<Moving<A>, Moving<B>, S>(q, std::is_same_v<Row, Toi<S>>, static_cast<Row*>(q.out), set,
-                                                [](ToiStatus status, S time) {
-                                                  return Row{status, 1, time};
-                                                });
+      const auto by_kernel = [&](const auto& quick) { answer_by_kernel<Moving<A>, Moving<B>, S>(q, ask, quick); };
+      if (q.vectors) {
+        by_kernel([](ToiStatus status, S time) { return Toi<S>{status, 1, time}; });
+      } else {
+        by_kernel([](ToiStatus status, S time) { return TimeRow<S>{status, 1, time}; });
+      }
       return;
     }
   }
-  answer_rows<Row>(q, [&](std::size_t i) {
-    return row_with<Row>(ask_items(method, q.swapped, row_of<Moving<A>, S>(q.a, i), row_of<Moving<B>, S>(q.b, i)));
-  });
+  answer_rows(q, [&](std::size_t i) { return ask(row_of<Moving<A>, S>(q.a, i), row_of<Moving<B>, S>(q.b, i)); });
 }
 
-template <class S> bool ask_all(const Question& q, S min_separation, bool vectors) {
-  return for_the_shapes<S, Asked>(q, [&]<class A, class B>() {
-    if (vectors) {
-      ask_pair<A, B, Toi<S>>(q, min_separation);
-    } else {
-      ask_pair<A, B, TimeRow<S>>(q, min_separation);
-    }
-  });
+template <class S> bool ask_all(const Question& q, S min_separation) {
+  return for_the_shapes<S, Asked>(q, [&]<class A, class B>() { ask_pair<A, B>(q, min_separation); });
 }
 
 // ---- Rays.
@@ -158,14 +145,12 @@ template <class S> bool cast_rays(const Question& q) {
     if constexpr (std::is_same_v<A, Aabb<S>>) {
       const Question boxes_first{q.b, q.a, q.rows, q.out, q.threads, q.is_float};
       answer_by_kernel<Aabb<S>, Ray<S>, S>(
-          boxes_first, true, static_cast<RayRow<S>*>(q.out),
-          [](RayRow<S>& row, const Aabb<S>& box, const Ray<S>& ray) { row = cast_row(ray, box); },
+          boxes_first, [](const Aabb<S>& box, const Ray<S>& ray) { return cast_row(ray, box); },
           [](ToiStatus status, S t) {
             return RayRow<S>{status, {t}};
           });
     } else {
-      answer_rows<RayRow<S>>(q,
-                             [&](std::size_t i) { return cast_row(row_of<Ray<S>, S>(q.a, i), row_of<A, S>(q.b, i)); });
+      answer_rows(q, [&](std::size_t i) { return cast_row(row_of<Ray<S>, S>(q.a, i), row_of<A, S>(q.b, i)); });
     }
   });
   return asked;
@@ -173,9 +158,9 @@ template <class S> bool cast_rays(const Question& q) {
 
 }  // namespace
 
-bool ask_closed_form(const Question& q, const Options& options, bool vectors) {
+bool ask_closed_form(const Question& q, const Options& options) {
   const double gap = options.min_separation.value_or(0);
-  return q.is_float ? ask_all<float>(q, static_cast<float>(gap), vectors) : ask_all<double>(q, gap, vectors);
+  return q.is_float ? ask_all<float>(q, static_cast<float>(gap)) : ask_all<double>(q, gap);
 }
 
 bool ask_raycast(const Question& q) { return q.is_float ? cast_rays<float>(q) : cast_rays<double>(q); }

@@ -74,18 +74,17 @@ template <class A, class B> struct CertifiedTurning {
 
 // ---- `answer(a, b)` of every row.
 
-template <class Row, class S, template <class, class> class Serves, class Answer>
+template <class S, template <class, class> class Serves, class Answer>
 bool ask_moving(const Question& q, const Answer& answer) {
   return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
-    answer_rows<Row>(q,
-                     [&](std::size_t i) { return answer(row_of<Moving<A>, S>(q.a, i), row_of<Moving<B>, S>(q.b, i)); });
+    answer_rows(q, [&](std::size_t i) { return answer(row_of<Moving<A>, S>(q.a, i), row_of<Moving<B>, S>(q.b, i)); });
   });
 }
 
-template <class Row, class S, template <class, class> class Serves, class Answer>
+template <class S, template <class, class> class Serves, class Answer>
 bool ask_that_turn(const Question& q, const Answer& answer) {
   return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
-    answer_rows<Row>(q, [&](std::size_t i) { return answer(turning_row<A, S>(q.a, i), turning_row<B, S>(q.b, i)); });
+    answer_rows(q, [&](std::size_t i) { return answer(turning_row<A, S>(q.a, i), turning_row<B, S>(q.b, i)); });
   });
 }
 
@@ -99,9 +98,9 @@ bool ask_named(const std::string& name, List list, const Question& q, const Opti
       return q.swapped ? flipped(toi) : toi;
     };
     if constexpr (turns) {
-      asked = ask_that_turn<Toi<S>, S, By<Method>::template TurningPair>(q, answer);
+      asked = ask_that_turn<S, By<Method>::template TurningPair>(q, answer);
     } else if constexpr (!std::is_same_v<Method, ClosedForm<S>>) {
-      asked = ask_moving<Toi<S>, S, By<Method>::template Pair>(q, answer);
+      asked = ask_moving<S, By<Method>::template Pair>(q, answer);
     }
   });
   return asked;
@@ -126,8 +125,8 @@ bool ask_turning(const std::string& method, const Question& q, const Options& op
 bool ask_certified(const Question& q) {
   const auto answer = [](const auto& a, const auto& b) { return certified_time_of_impact(a, b); };
   if (q.a.motion == Motion::turning || q.b.motion == Motion::turning)
-    return ask_that_turn<CertifiedToi, double, CertifiedTurning>(q, answer);
-  return ask_moving<CertifiedToi, double, Certified>(q, answer);
+    return ask_that_turn<double, CertifiedTurning>(q, answer);
+  return ask_moving<double, Certified>(q, answer);
 }
 
 }  // namespace thinwall::python

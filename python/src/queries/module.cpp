@@ -168,7 +168,7 @@ bool ask_in_order(const std::string& query, const Question& q, const std::string
   const bool turning = q.a.motion == Motion::turning || q.b.motion == Motion::turning;
   if (query == "certified_time_of_impact") return ask_certified(q);
   if (turning) return ask_turning(method, q, options);
-  return method == "closed_form" ? ask_closed_form(q, options, query != "time") : ask_method(method, q, options);
+  return method == "closed_form" ? ask_closed_form(q, options) : ask_method(method, q, options);
 }
 
 using Arrays = std::vector<py::array>;
@@ -192,7 +192,8 @@ bool ask(const std::string& query, const std::string& kind_a, const Arrays& arra
     }
   }
   const bool swapped = in_time && a.asked_as < b.asked_as;
-  const Question q{swapped ? b : a, swapped ? a : b, rows, out.mutable_data(), threads, is_float, swapped};
+  const Question q{swapped ? b : a, swapped ? a : b, rows,    out.mutable_data(),
+                   threads,         is_float,        swapped, query != "time"};
   const py::gil_scoped_release free;
   return ask_in_order(query, q, method, options);
 }

@@ -13,7 +13,8 @@
 
 namespace thinwall::python {
 
-// ---- The rows of the answers, which NumPy reads as they lie. That of a time of impact is a Toi, of a certified one a CertifiedToi.
+// ---- The rows of the answers, which NumPy reads as they lie. That of a time of impact is a Toi or a TimeRow, of a certified one
+// a CertifiedToi.
 
 template <Scalar S> struct ContactRow {
   ToiStatus status = ToiStatus::invalid;  ///< apart, overlapping or invalid
@@ -31,12 +32,6 @@ template <Scalar S> struct RayRow {
   ToiStatus status = ToiStatus::invalid;  ///< apart, hit, overlapping (a start inside) or invalid
   RayHit<S> hit;
 };
-/// A Toi without its vectors.
-template <Scalar S> struct TimeRow {
-  ToiStatus status = ToiStatus::invalid;
-  int evaluations = 0;
-  S time = 1;
-};
 
 /// The options of all methods. What is not set is the method's own default.
 struct Options {
@@ -53,7 +48,7 @@ bool ask_separation(const Question& q);
 bool ask_manifold(const Question& q);
 bool ask_valid(const Question& q);  ///< of side A alone
 bool ask_raycast(const Question& q);
-bool ask_closed_form(const Question& q, const Options& options, bool vectors);
+bool ask_closed_form(const Question& q, const Options& options);
 bool ask_method(const std::string& method, const Question& q, const Options& options);
 bool ask_turning(const std::string& method, const Question& q, const Options& options);
 bool ask_certified(const Question& q);

@@ -12,6 +12,7 @@
 #include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/shapes.hpp>
+#include <thinwall/swept/toi.hpp>
 #include <thinwall/swept/turning.hpp>
 
 namespace thinwall::python {
@@ -131,15 +132,33 @@ struct Question {
   int threads;
   bool is_float;
   bool swapped = false;  ///< A and B were passed the other way round, and the answer is to be flipped
+  bool vectors = true;   ///< false: the rows of a time of impact are TimeRows
 };
+
+/// A Toi without its vectors.
+template <Scalar S> struct TimeRow {
+  ToiStatus status = ToiStatus::invalid;
+  int evaluations = 0;
+  S time = 1;
+};
+
+/// Writes row i of the answers.
+template <class Row> void put(const Question& q, std::size_t i, const Row& row) { static_cast<Row*>(q.out)[i] = row; }
+/// With the vectors only where there is room for them.
+template <Scalar S> void put(const Question& q, std::size_t i, const Toi<S>& toi) {
+  if (q.vectors) {
+    static_cast<Toi<S>*>(q.out)[i] = toi;
+  } else {
+    static_cast<TimeRow<S>*>(q.out)[i] = {toi.status, toi.evaluations, toi.time};
+  }
+}
 
 inline constexpr std::size_t block_of_rows = 512;
 
 /// `answer(i)` of every row.
-template <class Row, class Answer> void answer_rows(const Question& q, const Answer& answer) {
-  Row* const out = static_cast<Row*>(q.out);
+template <class Answer> void answer_rows(const Question& q, const Answer& answer) {
   batch::for_each_block(q.rows, block_of_rows, {q.threads}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) out[i] = answer(i);
+    for (std::size_t i = begin; i < end; ++i) put(q, i, answer(i));
   });
 }
 
