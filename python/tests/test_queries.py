@@ -354,6 +354,23 @@ def test_the_interpreter_runs_meanwhile():
     assert turns > 3  # one, if the thread held the interpreter
 
 
+@pytest.mark.skipif("THINWALL_SANITIZED" in os.environ, reason="a sanitizer takes more of the stack")
+def test_a_thread_may_have_a_short_stack():
+    command = """
+import threading, numpy as np, thinwall as tw
+wall = tw.Aabb([3.0, 0, 0], [0.1, 5, 5])
+balls = tw.Moving(tw.Sphere(np.zeros((5000, 3)), 0.1), np.full((5000, 3), 4.0))
+def ask():
+    print((tw.time_of_impact(balls, tw.at_rest(wall))["status"] == 1).sum(), tw.raycast(tw.Ray(np.zeros((5, 3)), [1, 0, 0]), wall)["t"].sum())
+threading.stack_size(128 * 1024)
+thread = threading.Thread(target=ask)
+thread.start()
+thread.join()
+"""
+    done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, "5000 14.5\n"), done
+
+
 @pytest.mark.skipif("THINWALL_SANITIZED" in os.environ, reason="a sanitizer's runtime takes its time")
 def test_import_takes_no_time():
     command = "import time; t = time.process_time(); import thinwall; print(time.process_time() - t)"

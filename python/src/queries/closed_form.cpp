@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
 
 #include <thinwall/swept/batch.hpp>
@@ -20,10 +21,22 @@ namespace {
 /// As long as swept/batch.hpp's own: shorter ones begin each column's memory anew too often.
 constexpr std::size_t rows_of_kernel = 2048;
 
+/// Longer by a line of the cache than what they hold: at a power of two from each other they would share few lines of it, and take a
+/// third longer.
+template <class S> using Columns = std::array<std::array<S, rows_of_kernel + 64 / sizeof(S)>, batch::most_columns>;
+
+/// Where the two sides of a block are copied to. A thread of Python's may have a stack that is too short for it, and keeps what the heap
+/// gave: to find as much for every block takes time.
+template <class S> std::array<Columns<S>, 2>& room_for_sides() {
+  thread_local const auto room = std::make_unique_for_overwrite<std::array<Columns<S>, 2>>();
+  return *room;
+}
+
 /// A block of one side, as its kernel reads it.
 template <class Item, class S> class Block {
  public:
-  Block(const Side& side, bool is_one, std::size_t begin, std::size_t n) : rows_{{}, side.count, is_one} {
+  Block(const Side& side, bool is_one, std::size_t begin, std::size_t n, Columns<S>& room)
+      : rows_{{}, side.count, is_one}, copied_(room) {
     for (std::size_t k = 0; k < side.count; ++k) rows_.columns[k] = column(side, k, begin, is_one ? 1 : n);
   }
   Block(const Block&) = delete;
@@ -48,7 +61,7 @@ template <class Item, class S> class Block {
   }
 
   batch::Rows<S> rows_;
-  std::array<std::array<S, rows_of_kernel>, batch::most_columns> copied_;  // filled as far as it is read
+  Columns<S>& copied_;  // filled as far as it is read
 };
 
 /// Answers q's rows by the kernel of ItemA and ItemB. `ask(a, b)` is the scalar code's answer, where the kernel is not sure and, if
@@ -59,8 +72,10 @@ void answer_by_kernel(const Question& q, const Ask& ask, const Quick& quick) {
   batch::for_each_block(q.rows, rows_of_kernel, {q.threads}, [&](std::size_t begin, std::size_t end) {
     const std::size_t n = end - begin;
     auto* const row = static_cast<std::invoke_result_t<Quick, ToiStatus, S>*>(q.out) + begin;
-    const Block<ItemA, S> a(q.a, q.a.is_one, begin, n);
-    const Block<ItemB, S> b(q.b, q.b.is_one && !q.a.is_one, begin, n);  // a kernel takes one shape on one side
+    auto& [room_a, room_b] = room_for_sides<S>();
+    const bool b_is_one = q.b.is_one && !q.a.is_one;  // a kernel takes one shape on one side
+    const Block<ItemA, S> a(q.a, q.a.is_one, begin, n, room_a);
+    const Block<ItemB, S> b(q.b, b_is_one, begin, n, room_b);
     std::array<ToiStatus, rows_of_kernel> status;
     std::array<S, rows_of_kernel> time;
     const std::size_t unclear =
