@@ -137,7 +137,8 @@ def test_equality_is_of_numbers():
     assert a == tw.Sphere(np.zeros((3, 3)), np.ones(3)) and a != tw.Sphere(np.ones((3, 3)), np.ones(3))
     assert a != tw.Aabb(np.zeros((3, 3)), np.zeros((3, 3))) and a != 3
     assert tw.Moving(a, [0, 0, 0]) == tw.at_rest(a) and tw.Moving(a, [0, 0, 1]) != tw.at_rest(a)
-    assert tw.at_rest(a) != a and tw.at_rest(a) != 3
+    assert tw.at_rest(a) != tw.Turning(a, [0, 0, 0], [0, 0, 0]) != tw.at_rest(a)
+    assert all(tw.at_rest(a) != other and other != tw.at_rest(a) for other in (None, 3, a))
     with pytest.raises(TypeError, match="unhashable"):
         hash(a)
 

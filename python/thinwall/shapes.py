@@ -337,7 +337,7 @@ class _InMotion(_Rows):
 
     def __eq__(self, other: object) -> bool:
         """True if the shapes and all arrays are equal, row for row; NaN is unequal to itself."""
-        if not isinstance(other, type(self)):
+        if not isinstance(other, _InMotion) or type(self) is not type(other):
             return NotImplemented
         return super().__eq__(other) and self.shape == other.shape
 
