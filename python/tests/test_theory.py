@@ -143,6 +143,7 @@ def test_a_rod_that_spins() -> None:
         (lambda: theory.tunneling_probability(speed="1", radius=1, thickness=1, step=1), TypeError, "speed: '1' is not allowed"),
         (lambda: theory.tunneling_probability(speed=1j, radius=1, thickness=1, step=1), TypeError, "speed: 1j"),
         (lambda: theory.tunneling_probability(speed=True, radius=1, thickness=1, step=1), TypeError, "speed: True"),
+        (lambda: theory.miss_probability(np.ma.masked_less([-1.0, 1.0], 0), 2), TypeError, "chord: a masked array is not allowed"),
         (lambda: theory.tunneling_probability(speed=None, radius=1, thickness=1, step=1), TypeError, "speed: None"),
         (lambda: theory.tunneling_probability(speed=[[1], [1, 2]], radius=1, thickness=1, step=1), (TypeError, ValueError), "."),
         (lambda: theory.shadow([1, 1, 1], 0, [0, 0, 0]), ValueError, "direction: .0, 0, 0. is not allowed"),

@@ -455,6 +455,8 @@ def certified_time_of_impact(a, b, *, threads=1, out=None):
 def _corners(argument, value):
     if not isinstance(value, np.ndarray):
         raise TypeError(f"find_pairs: {argument} is {type(value).__name__}; allowed is an array")
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"find_pairs: {argument} is a masked array; allowed is one without a mask")
     if value.dtype not in (np.float64, np.float32):
         raise TypeError(f"find_pairs: {argument} is an array of {value.dtype}; allowed is float64 or float32")
     if value.ndim != 2 or value.shape[1] != 3:
@@ -465,8 +467,9 @@ def _corners(argument, value):
 def _per_body(argument, value, rows, dtype):
     if value is None:
         return None
-    if not isinstance(value, np.ndarray) or value.dtype != dtype:
-        got = f"an array of {value.dtype}" if isinstance(value, np.ndarray) else type(value).__name__
+    masked = isinstance(value, np.ma.MaskedArray)
+    if masked or not isinstance(value, np.ndarray) or value.dtype != dtype:
+        got = "a masked array" if masked else f"an array of {value.dtype}" if isinstance(value, np.ndarray) else type(value).__name__
         raise TypeError(f"find_pairs: {argument} is {got}; allowed is an array of {np.dtype(dtype)}")
     if value.shape != (rows,):
         raise ValueError(f"find_pairs: {argument} has shape {value.shape}; allowed is shape ({rows},), a number a box")
@@ -498,7 +501,7 @@ def find_pairs(lower, upper, method="uniform_grid", *, group=None, mask=None, st
     Raises
     ------
     TypeError
-        For what is no array of such numbers.
+        For what is no array of such numbers, or is masked, and where one holds float32 and the other float64.
     ValueError
         For other shapes, an unknown method, or a box that is NaN or has lower > upper, by its index.
     RuntimeError
@@ -509,6 +512,8 @@ def find_pairs(lower, upper, method="uniform_grid", *, group=None, mask=None, st
     Source: docs/broad_phase.md.
     """
     lower, upper = _corners("lower", lower), _corners("upper", upper)
+    if lower.dtype != upper.dtype:
+        raise TypeError(f"find_pairs: upper is an array of {upper.dtype}; allowed is {lower.dtype}, as lower is")
     if lower.shape != upper.shape:
         raise ValueError(f"find_pairs: upper has {len(upper)} rows; allowed is {len(lower)}, as lower has")
     known = _queries.broad_phases()

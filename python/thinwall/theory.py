@@ -225,6 +225,8 @@ def _ask(formula: Any, **arguments: Any) -> Answer:
 
 
 def _numbers(argument: str, value: Any) -> npt.NDArray[np.float64]:
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"{argument}: a masked array is not allowed; one without a mask")
     array = np.asarray(value)
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{argument}: {value!r} is not allowed; numbers, whole or floating")
