@@ -77,6 +77,7 @@ def test_copies(advice: Any) -> None:
     "change, error, said",
     [
         ({"speed": 0}, ValueError, "^speed: '0.*' is not allowed; a number > 0"),
+        ({"speed": 10**400}, ValueError, "^speed: 'inf' is not allowed"),
         ({"speed": math.nan}, ValueError, "^speed: 'nan'"),
         ({"radius": -1}, ValueError, "^radius: "),
         ({"angle_deg": 90}, ValueError, "^angle_deg: "),

@@ -81,6 +81,7 @@ def test_by_hand() -> None:
         (lambda: world.remove(99), "99"),
         (lambda: world.step(0), "dt"),
         (lambda: world.step(float("nan")), "dt"),
+        (lambda: world.step(10**400), "dt: inf is not allowed; a number > 0 and finite"),
         (lambda: world.step(steps=0), "steps: 0 is not allowed"),
     ]:
         with pytest.raises(ValueError, match=said):

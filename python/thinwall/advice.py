@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _lab, experiments, tables
+from .shapes import _as_float
 
 _COLUMNS = [
     tables.Column("method", "string", "", "As the experiment thin_wall calls it."),
@@ -162,7 +163,7 @@ def _said(error: ValueError) -> str:
 def _word(name: str, value: Any) -> str:
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f"{name + '_deg' if name in _IN_DEGREES else name}: {value!r} is not allowed; a number")
-    return repr(float(value))
+    return repr(_as_float(value))
 
 
 def _flat(row: dict[str, Any]) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from . import _queries
-from .shapes import Aabb, Capsule, Moving, Obb, Ray, Sphere, Triangle, Turning, _InMotion, _Rows
+from .shapes import Aabb, Capsule, Moving, Obb, Ray, Sphere, Triangle, Turning, _as_float, _InMotion, _Rows
 
 
 class ToiStatus(enum.IntEnum):
@@ -327,11 +327,12 @@ def _options(query, method, known, options, dtype):
         kinds = (int, np.integer) if kind is int else (int, float, np.integer, np.floating)
         if not isinstance(value, kinds) or isinstance(value, bool):
             raise TypeError(f"{query}: {name} is {type(value).__name__} {value!r:.60}; allowed is {words}")
+        value = int(value) if kind is int else _as_float(value)
         with np.errstate(over="ignore"):
-            as_held = kind(value) if kind is int else float(dtype.type(value))
+            as_held = value if kind is int else float(dtype.type(value))
         if not allows(as_held, epsilon):
             raise ValueError(f"{query}: {name} is {value!r}; allowed is {words}")
-        setattr(chosen, name, kind(value))
+        setattr(chosen, name, value)
     return chosen
 
 

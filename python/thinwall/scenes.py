@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _lab, experiments
 from .results import Result
+from .shapes import _as_float
 
 SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -271,7 +272,7 @@ class World:
 def _seconds(argument: str, value: float) -> float:
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f"{argument}: {value!r} is not allowed; a number")
-    number = float(value)
+    number = _as_float(value)
     if not 0 < number < math.inf:
         raise ValueError(f"{argument}: {number} is not allowed; a number > 0 and finite [s]")
     return number

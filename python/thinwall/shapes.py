@@ -36,6 +36,14 @@ def _is_literal(value: Any) -> bool:
     return type(value) in (float, int)
 
 
+def _as_float(value: Any) -> float:
+    """`value` as a float. What is too large for one is infinite, and so refused where that is."""
+    try:
+        return float(value)
+    except OverflowError:
+        return float("inf") if value > 0 else float("-inf")
+
+
 def _words(shape: tuple[Any, ...]) -> str:
     return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
 
