@@ -118,9 +118,6 @@ def _run(
 ) -> Result:
     if progress is not None and not callable(progress):
         raise TypeError(f"progress: {progress!r} is not allowed; a function of (done, total)")
-    folder = "" if out is None else os.fspath(out)
-    if out is not None and not folder:
-        raise ValueError("out: '' is not allowed; a folder")
     try:
         made, notes = _lab.run(
             target=target,
@@ -129,7 +126,7 @@ def _run(
             seed=whole("seed", seed, 0, 2**64 - 1),
             trials=None if trials is None else whole("trials", trials, 1, 2**63 - 1),
             threads=None if threads is None else whole("threads", threads, 1, 4096),
-            out=str(folder),
+            out="" if out is None else _folder(out),
             argv=[sys.executable, *sys.argv],
             progress=progress,
         )
@@ -141,6 +138,15 @@ def _run(
     if not result.self_test_passed:
         warnings.warn(f"{made}: the self-test failed: do not trust these numbers; the report says more", RuntimeWarning, stacklevel=3)
     return result
+
+
+def _folder(out: str | os.PathLike[str]) -> str:
+    folder = os.fspath(out) if isinstance(out, (str, os.PathLike)) else out
+    if not isinstance(folder, str):
+        raise TypeError(f"out: {out!r} is not allowed; a folder, as a str or a path")
+    if not folder or "\0" in folder or any("\ud800" <= c <= "\udfff" for c in folder):
+        raise ValueError(f"out: {folder!r} is not allowed; a folder, named by text that UTF-8 can hold and without a null")
+    return folder
 
 
 def _require_experiment(name: str) -> None:
