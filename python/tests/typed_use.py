@@ -19,4 +19,5 @@ result: tw.Result = tw.run("thin_wall", speed=[10, 40], seed=1, out="results/min
 cells = tw.read("results/mine")["cells"]
 advice = tw.advise(speed=300, radius=0.004, thickness=0.002, fps=60)
 world = tw.world({"body": [{"shape": "sphere", "radius": 0.1}]})
+world.move(np.uint32(1), [0.0, 0.0, 1.0])
 speeds = np.linalg.norm(world.velocities, axis=1)[world.step(0.01, steps=2)["first"]]

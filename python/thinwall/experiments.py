@@ -10,7 +10,7 @@ import re
 import sys
 import warnings
 from pathlib import Path
-from typing import Any, Callable, Mapping
+from typing import Any, Callable, Mapping, SupportsIndex
 
 import numpy as np
 
@@ -183,7 +183,7 @@ def _is_file(word: str) -> bool:
     return word.endswith(".toml") or "/" in word or os.sep in word or Path(word).is_file()
 
 
-def whole(argument: str, value: int, lower: int, upper: int) -> int:
+def whole(argument: str, value: SupportsIndex, lower: int, upper: int) -> int:
     """`value` as an int in the range, or an error that names the argument."""
     allowed = f"a whole number from {lower} to {upper}"
     if isinstance(value, (bool, np.bool_)):

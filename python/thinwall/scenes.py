@@ -16,6 +16,7 @@ from .results import Result
 from .shapes import _as_float
 
 SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+BodyLike = Union[int, "np.integer[Any]", str]  # an id, as of World.ids, or a name
 
 _EVENT = [("kind", "U5"), ("first", "u4"), ("second", "u4"), ("step", "i8"), ("time", "f8"), ("removed", "?")]
 _HIT = [("first", "u4"), ("second", "u4"), ("time", "f8"), ("at_start", "?"), ("normal", "f8", 3), ("point", "f8", 3)]
@@ -173,15 +174,15 @@ class World:
         self._world.step(length, experiments.whole("steps", steps, 1, 2**63 - 1))
         return self.events
 
-    def set_velocity(self, body: int | str, velocity: npt.ArrayLike) -> None:
+    def set_velocity(self, body: BodyLike, velocity: npt.ArrayLike) -> None:
         """Gives a body, by its id or name, another velocity, (3,) [m/s]."""
         self._world.set_velocity(self._id(body), _vector("velocity", velocity))
 
-    def move(self, body: int | str, by: npt.ArrayLike) -> None:
+    def move(self, body: BodyLike, by: npt.ArrayLike) -> None:
         """Moves a body, by its id or name, by (3,) [m]."""
         self._world.move(self._id(body), _vector("by", by))
 
-    def remove(self, body: int | str) -> None:
+    def remove(self, body: BodyLike) -> None:
         """Removes a body, by its id or name; its contacts end with the next step."""
         self._world.remove(self._id(body))
 
@@ -257,7 +258,7 @@ class World:
         texts = self._world.bodies[name]
         return np.array(texts, dtype=np.str_) if texts else np.empty(0, "U1")
 
-    def _id(self, body: int | str) -> int:
+    def _id(self, body: BodyLike) -> int:
         if not isinstance(body, str):
             return experiments.whole("body", body, 0, 2**32 - 1)
         found = np.flatnonzero(self.names == body)
