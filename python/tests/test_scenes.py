@@ -102,6 +102,18 @@ def test_what_leaves_the_world_changes_nothing() -> None:
     assert world.state_hash == before and world.time == 0
 
 
+def test_a_step_that_fails_has_pushed_nothing() -> None:
+    push = {"time": 0, "body": "ball"}
+    pushes = [{**push, "velocity": [0, 0, 7]}, {**push, "velocity": [0, 0, 8]}]
+    world = tw.world({"body": [PAIR["body"][0]], "push": pushes})
+    before = world.state_hash
+    with pytest.raises(RuntimeError):
+        world.step(1e308)
+    assert world.state_hash == before and world.velocities[0].tolist() == [4, 0, 0]
+    world.step()
+    assert world.velocities[0].tolist() == [0, 0, 8]
+
+
 @pytest.mark.parametrize("file", SCENES, ids=lambda file: file.stem)
 def test_every_scene_goes_as_the_program_has_it(file: Path, tmp_path: Path) -> None:
     steps = 4

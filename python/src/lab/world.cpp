@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <ranges>
 #include <string>
 #include <variant>
 #include <vector>
@@ -67,9 +68,7 @@ class SteppedScene {
     hits_.clear();
     auto looked = std::chrono::steady_clock::now();
     for (std::int64_t i = 0; i < steps; ++i) {
-      push(dt);
-      world_.step(dt);
-      ++steps_;
+      take_step(dt);
       const auto& events = world_.events().events();
       events_.insert(events_.end(), events.begin(), events.end());
       hits_.insert(hits_.end(), world_.hits().begin(), world_.hits().end());
@@ -103,15 +102,29 @@ class SteppedScene {
     return std::unique_lock(mutex_);
   }
 
-  /// What the scene's [[push]] say, before the first step that begins then or later: with the scene's own step at the times at which
-  /// the program pushes.
-  void push(double dt) {
-    uniform_ &= dt == scene_.dt;
-    const double time = uniform_ ? static_cast<double>(steps_) * dt : world_.time();
-    for (; pushed_ < scene_.pushes.size() && scene_.pushes[pushed_].time <= time; ++pushed_) {
-      const Push& push = scene_.pushes[pushed_];
-      if (world_.find(push.id)) world_.set_velocity(push.id, push.velocity);
+  /// With what the scene's [[push]] say, before the first step that begins then or later: with the scene's own step at the times at
+  /// which the program pushes. If it throws, nothing has changed.
+  void take_step(double dt) {
+    const bool uniform = uniform_ && dt == scene_.dt;
+    const double time = uniform ? static_cast<double>(steps_) * dt : world_.time();
+    std::size_t pushed = pushed_;
+    std::vector<Push> undo;
+    try {
+      for (; pushed < scene_.pushes.size() && scene_.pushes[pushed].time <= time; ++pushed) {
+        const Push& push = scene_.pushes[pushed];
+        const Body* const body = world_.find(push.id);
+        if (body == nullptr) continue;
+        undo.push_back({push.time, push.id, body->velocity});
+        world_.set_velocity(push.id, push.velocity);
+      }
+      world_.step(dt);
+    } catch (...) {
+      for (const Push& push : undo | std::views::reverse) world_.set_velocity(push.id, push.velocity);
+      throw;
     }
+    uniform_ = uniform;
+    pushed_ = pushed;
+    ++steps_;
   }
 
   Scene scene_;
