@@ -191,6 +191,29 @@ def test_threads_of_python_wait_for_each_other() -> None:
     assert world.time == pytest.approx(0.6)
 
 
+def test_a_signal_handler_may_read_and_step() -> None:
+    script = """
+        import signal
+        import thinwall as tw
+        ball = {"shape": "sphere", "radius": 0.5, "velocity": [4, 0, 0], "restitution": 1}
+        wall = {"shape": "box", "size": [1, 9, 9], "at": [1.000001, 0, 0], "motion": "static"}
+        world = tw.world({"body": [ball, wall]})
+        seen = []
+        def handle(*of):
+            seen.append((world.time, world.positions[0, 0], len(world.events), len(world.step(1e-6))))
+        signal.signal(signal.SIGALRM, handle)
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        events = world.step(1e-6, steps=300_000)
+        [(time, place, before, within)] = seen
+        assert 0 < time < 0.3 and place < 0 and (before, within) == (0, 0), seen
+        assert events["kind"].tolist() == ["begin", "end"] == world.events["kind"].tolist() and len(world.hits) == 1
+        assert abs(world.time - 0.300001) < 1e-9
+        print("whole")
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "whole\n", done
+
+
 def test_ctrl_c_ends_between_steps() -> None:
     script = """
         import os, signal, threading, time

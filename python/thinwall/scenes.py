@@ -151,6 +151,9 @@ class World:
     def step(self, dt: float | None = None, steps: int = 1) -> npt.NDArray[Any]:
         """Steps the world. Ctrl-C ends it between two steps.
 
+        A signal handler runs between two steps and finds the world whole: it may read it, change it, or step it, and what was under way
+        goes on from there. Other threads that wait for the world may come in at the same moments, a few times a second.
+
         Parameters
         ----------
         dt : float, optional
@@ -161,7 +164,7 @@ class World:
         Returns
         -------
         (M,) structured
-            `events`, of all these steps.
+            `events`, of all these steps and of no others.
 
         Raises
         ------
@@ -171,8 +174,7 @@ class World:
             A body left the representable world, or more pairs may touch than ``max_pairs``; the step that failed has changed nothing.
         """
         length = self.dt if dt is None else _seconds("dt", dt)
-        self._world.step(length, experiments.whole("steps", steps, 1, 2**63 - 1))
-        return self.events
+        return _events(self._world.step(length, experiments.whole("steps", steps, 1, 2**63 - 1)))
 
     def set_velocity(self, body: BodyLike, velocity: npt.ArrayLike) -> None:
         """Gives a body, by its id or name, another velocity, (3,) [m/s]."""
@@ -236,9 +238,7 @@ class World:
 
     @property
     def events(self) -> npt.NDArray[Any]:
-        columns = dict(self._world.events)
-        columns["kind"] = np.array(["begin", "stay", "end"])[columns["kind"]]
-        return _rows(_EVENT, columns)
+        return _events(self._world.events)
 
     @property
     def hits(self) -> npt.NDArray[Any]:
@@ -285,6 +285,10 @@ def _vector(argument: str, value: npt.ArrayLike) -> Sequence[float]:
         raise ValueError(f"{argument}: an array of shape {array.shape} and type {array.dtype} is not allowed; three numbers")
     numbers: Sequence[float] = array.astype(np.float64).tolist()
     return numbers
+
+
+def _events(columns: Mapping[str, Any]) -> npt.NDArray[Any]:
+    return _rows(_EVENT, {**columns, "kind": np.array(["begin", "stay", "end"])[columns["kind"]]})
 
 
 def _rows(fields: list[Any], columns: Mapping[str, Any]) -> npt.NDArray[Any]:

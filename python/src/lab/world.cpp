@@ -6,6 +6,7 @@
 #include <mutex>
 #include <ranges>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -54,30 +55,35 @@ template <class T, class Rows, class Get> py::array_t<T> column_of(const Rows& r
   return out;
 }
 
-/// A scene that is stepped as long as somebody asks for it. Calls from several threads wait for each other.
+/// What steps told.
+struct Told {
+  std::vector<CollisionEvent> events;
+  std::vector<Hit> hits;
+};
+
+/// A scene that is stepped as long as somebody asks for it. Calls from several threads wait for each other, for those of many steps
+/// until they look for signals.
 class SteppedScene {
  public:
   SteppedScene(const std::string& text, const std::string& file, std::uint64_t seed, int threads)
       : scene_(scene_of(text, file, seed, threads)), world_(scene_.bodies, scene_.options) {}
 
-  /// Looks for Ctrl-C between steps; then so many are done, and the world is whole. What was told is kept until the next call.
-  void step(double dt, std::int64_t steps) {
+  /// Looks for Ctrl-C between steps; then so many are done, and the world is whole. What was told is kept until another call ends.
+  std::vector<CollisionEvent> step(double dt, std::int64_t steps) {
     const py::gil_scoped_release others;
-    const std::scoped_lock lock(mutex_);
-    events_.clear();
-    hits_.clear();
-    auto looked = std::chrono::steady_clock::now();
-    for (std::int64_t i = 0; i < steps; ++i) {
-      take_step(dt);
-      const auto& events = world_.events().events();
-      events_.insert(events_.end(), events.begin(), events.end());
-      hits_.insert(hits_.end(), world_.hits().begin(), world_.hits().end());
-      const auto now = std::chrono::steady_clock::now();
-      if (now - looked < look) continue;
-      looked = now;
-      const py::gil_scoped_acquire ours;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    Told told;
+    const auto keep = [&] {
+      const std::scoped_lock lock(mutex_);
+      told_ = told;
+    };
+    try {
+      take_steps(dt, steps, told);
+    } catch (...) {
+      keep();
+      throw;
     }
+    keep();
+    return std::move(told.events);
   }
 
   template <class Read> auto read(Read get) const {
@@ -92,14 +98,33 @@ class SteppedScene {
 
   const Scene& scene() const { return scene_; }
   const World& world() const { return world_; }
-  const std::vector<CollisionEvent>& events() const { return events_; }
-  const std::vector<Hit>& hits() const { return hits_; }
+  const Told& told() const { return told_; }
 
  private:
   /// Waits without the GIL: a step that is under way may want it.
   std::unique_lock<std::mutex> hold() const {
     const py::gil_scoped_release others;
     return std::unique_lock(mutex_);
+  }
+
+  void take_steps(double dt, std::int64_t steps, Told& told) {
+    std::unique_lock lock(mutex_);
+    auto looked = std::chrono::steady_clock::now();
+    for (std::int64_t i = 0; i < steps; ++i) {
+      take_step(dt);
+      const auto& events = world_.events().events();
+      told.events.insert(told.events.end(), events.begin(), events.end());
+      told.hits.insert(told.hits.end(), world_.hits().begin(), world_.hits().end());
+      const auto now = std::chrono::steady_clock::now();
+      if (now - looked < look) continue;
+      looked = now;
+      lock.unlock();  // a handler, which runs on this thread, may read this world, or step it
+      {
+        const py::gil_scoped_acquire ours;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      }
+      lock.lock();
+    }
   }
 
   /// With what the scene's [[push]] say, before the first step that begins then or later: with the scene's own step at the times at
@@ -130,8 +155,7 @@ class SteppedScene {
   Scene scene_;
   World world_;
   mutable std::mutex mutex_;
-  std::vector<CollisionEvent> events_;
-  std::vector<Hit> hits_;
+  Told told_;
   std::size_t pushed_ = 0;
   std::int64_t steps_ = 0;
   bool uniform_ = true;  // every step was the scene's own
@@ -164,8 +188,7 @@ py::dict bodies_of(const SteppedScene& self) {
   return out;
 }
 
-py::dict events_of(const SteppedScene& self) {
-  const std::vector<CollisionEvent>& events = self.events();
+py::dict events_of(const std::vector<CollisionEvent>& events) {
   using Event = CollisionEvent;
   py::dict out;
   out["kind"] = column_of<std::int8_t>(events, [](const Event& e) { return static_cast<int>(e.kind); });
@@ -178,7 +201,7 @@ py::dict events_of(const SteppedScene& self) {
 }
 
 py::dict hits_of(const SteppedScene& self) {
-  const std::vector<Hit>& hits = self.hits();
+  const std::vector<Hit>& hits = self.told().hits;
   py::dict out;
   out["first"] = column_of<std::uint32_t>(hits, [](const Hit& h) { return h.first; });
   out["second"] = column_of<std::uint32_t>(hits, [](const Hit& h) { return h.second; });
@@ -203,7 +226,9 @@ void bind_world(py::module_& module) {
   py::class_<SteppedScene>(module, "SteppedScene")
       .def(py::init<const std::string&, const std::string&, std::uint64_t, int>(), py::arg("text"), py::arg("file"),
            py::arg("seed"), py::arg("threads"), py::call_guard<py::gil_scoped_release>())
-      .def("step", &SteppedScene::step, py::arg("dt"), py::arg("steps"))
+      .def(
+          "step", [](SteppedScene& self, double dt, std::int64_t steps) { return events_of(self.step(dt, steps)); },
+          py::arg("dt"), py::arg("steps"))
       .def("set_velocity",
            [](SteppedScene& self, std::uint32_t id, const Triple& velocity) {
              self.change([&](World& world) { world.set_velocity(id, vector(velocity)); });
@@ -227,7 +252,7 @@ void bind_world(py::module_& module) {
                                                  [](const Body& b) -> Vec3<double> { return b.velocity; });
                              }))
       .def_property_readonly("bodies", reader(bodies_of))
-      .def_property_readonly("events", reader(events_of))
+      .def_property_readonly("events", reader([](const SteppedScene& self) { return events_of(self.told().events); }))
       .def_property_readonly("hits", reader(hits_of));
 }
 
