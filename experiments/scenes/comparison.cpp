@@ -61,7 +61,11 @@ Scene scene_for(const Comparison& comparison, const Contender& contender) {
   scene.options.policy = contender.policy;
   scene.options.substeps = contender.substeps;
   scene.dt = contender.dt;
-  scene.steps = std::max<std::int64_t>(1, std::llround(comparison.scene.duration() / contender.dt));
+  const double duration = comparison.scene.duration(), steps = duration / contender.dt, whole = std::round(steps);
+  // At most five roundings, of 0.5 epsilon each, part a step that divides the duration from a whole number of steps.
+  const bool divides = std::abs(steps - whole) <= 2.5 * std::numeric_limits<double>::epsilon() * whole;
+  scene.steps = static_cast<std::int64_t>(divides ? whole : std::ceil(steps));
+  if (!divides) scene.last_dt = duration - static_cast<double>(scene.steps - 1) * contender.dt;
   return scene;
 }
 
@@ -94,7 +98,7 @@ Trial run_trial(const Scene& scene) {
   return trial;
 }
 
-Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration) {
+Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double last_step) {
   Contest out;
   out.contender = contender;
   out.trial = repeats.front();
@@ -106,7 +110,7 @@ Contest contest(const Contender& contender, const std::vector<Trial>& repeats, c
     if (const auto here = out.trial.met(first, second)) {
       ++out.met;
       out.errors.push_back(std::abs(*here - time));
-    } else if (time <= duration - contender.dt) {
+    } else if (time <= last_step) {
       ++out.unmet;
     }
   }
@@ -281,7 +285,9 @@ Outcome outcome_of(const Comparison& comparison, const std::vector<Trial>& trial
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<Trial> repeats;
     for (std::size_t at = i; at + 1 < trials.size(); at += count) repeats.push_back(trials[at]);
-    contests.push_back(contest(comparison.contenders[i], repeats, exact, comparison.scene.duration()));
+    const Scene stepped = scene_for(comparison, comparison.contenders[i]);
+    const double last_step = comparison.scene.duration() - stepped.length_of(stepped.steps);
+    contests.push_back(contest(comparison.contenders[i], repeats, exact, last_step));
   }
   return compare_outcome(comparison, exact, contests);
 }

@@ -48,7 +48,7 @@ CompareKeys read_compare_keys(const Settings& settings);
 /// Throws UsageError.
 Comparison read_comparison(const Settings& settings, const RunOptions& options);
 
-/// The scene, stepped that way.
+/// The scene, stepped that way for the same time: where steps of that length do not divide it, the last one is shorter.
 Scene scene_for(const Comparison& comparison, const Contender& contender);
 
 /// When a pair of bodies met first.
@@ -100,7 +100,8 @@ struct Contest {
   std::vector<double> errors;   ///< [s] between the two first meetings, sorted; of the pairs that met in both
 };
 
-Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double duration);
+/// `last_step` [s]: when its last step begins.
+Contest contest(const Contender& contender, const std::vector<Trial>& repeats, const Trial& exact, double last_step);
 
 // ---- What is said of a scene, alone and compared: tables, pictures and words.
 

@@ -230,9 +230,9 @@ Playback play(const Scene& scene, const Frame& on_frame) {
   if (on_frame) on_frame(world);
   const std::int64_t stride = (scene.steps + most_points - 1) / most_points;
   for (std::int64_t step = 1; step <= scene.steps; ++step) {
-    const double start = static_cast<double>(step - 1) * scene.dt;
+    const double start = static_cast<double>(step - 1) * scene.dt, dt = scene.length_of(step);
     for (; push != scene.pushes.end() && push->time <= start; ++push) world.set_velocity(push->id, push->velocity);
-    StepRow row = row_of(world.step(scene.dt));
+    StepRow row = row_of(world.step(dt));
     add(world.report().seconds, out);
     out.bytes = std::max(out.bytes, static_cast<std::int64_t>(world.report().bytes));
     for (const CollisionEvent& event : world.events().events()) {
@@ -244,7 +244,7 @@ Playback play(const Scene& scene, const Frame& on_frame) {
                               event.kind == CollisionEventKind::begin, event.first, event.second});
       }
     }
-    for (const MissedContact& missed : referee.after_step(world, scene.dt)) {
+    for (const MissedContact& missed : referee.after_step(world, dt)) {
       ++row.tunneled;
       ++out.all_missed;
       if (out.missed.size() < most_kept) out.missed.push_back(missed);

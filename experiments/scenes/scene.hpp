@@ -43,13 +43,15 @@ struct Scene {
   std::vector<Body> bodies;  ///< in the order of the file
   WorldOptions options;
   double dt = 0;             ///< [s] > 0
+  double last_dt = 0;        ///< [s] of the last step, where it is shorter than dt; 0: it is not
   std::int64_t steps = 0;    ///< >= 1
   std::vector<Push> pushes;  ///< in the order of time
   bool trace = false;
   std::int64_t trace_every = 1;  ///< [1] steps between two frames
   int across = 0, up = 1;        ///< the axes of the picture
 
-  double duration() const { return dt * static_cast<double>(steps); }  ///< [s]
+  double length_of(std::int64_t step) const { return step == steps && last_dt > 0 ? last_dt : dt; }  ///< [s]
+  double duration() const { return dt * static_cast<double>(steps) - (dt - length_of(steps)); }      ///< [s]
 };
 
 /// Throws UsageError: a key out of range, a body or an option that no world can hold.
