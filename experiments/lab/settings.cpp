@@ -47,7 +47,8 @@ std::string shown(const toml::node& node) {
 }
 
 std::optional<double> in_range(const toml::node& node, const Range& range) {
-  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  auto value = node.value_exact<double>();
+  if (const auto whole = node.value_exact<std::int64_t>()) value = static_cast<double>(*whole);
   return value && contains(range, *value) ? std::optional(*value + 0.0) : std::nullopt;  // -0 becomes 0
 }
 

@@ -64,7 +64,11 @@ std::size_t end_of_string(std::string_view text, std::size_t from) {
 std::string exact_text(double value) {
   if (value == 0) return "0";
   const bool whole = std::abs(value) < two_to_53 && value == std::trunc(value);
-  return whole ? std::to_string(static_cast<std::int64_t>(value)) : to_text(value);
+  if (whole) return std::to_string(static_cast<std::int64_t>(value));
+  std::string text = to_text(value);
+  // Digits alone would be read as an integer, which need not fit, and is another number than this one to JSON and TOML.
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text = to_text(value, std::chars_format::scientific);
+  return text;
 }
 
 std::string rounded_text(double value, int digits) {

@@ -15,7 +15,8 @@ namespace thinwall {
 
 // ---- Numbers as text: exactly for files, rounded for readers.
 
-/// The shortest text that reads back as the same bits. Whole numbers below 2^53 have no exponent: 1000000, not 1e+06.
+/// The shortest text that reads back as the same bits. Whole numbers below 2^53 have no exponent: 1000000, not 1e+06; all from there
+/// on have one.
 /// Zero has no sign. NaN is `nan`, infinities `inf` and `-inf`.
 std::string exact_text(double value);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
 
 #include <thinwall/experiments/lab/escape.hpp>
@@ -88,6 +89,18 @@ TEST(Settings, name_the_place_of_broken_toml) {
   EXPECT_TRUE(complaint("radius = 1\nradius = 2").starts_with("my.toml:2: not TOML, at column "));
   EXPECT_TRUE(complaint("x = [1,\n2").starts_with("my.toml:2: not TOML, at column "));
   EXPECT_TRUE(complaint("\xff").starts_with("my.toml:1: not TOML, at column "));
+}
+
+TEST(Settings, keep_whole_numbers_that_no_integer_holds) {
+  for (double number = 0x1p53; number <= 1e22; number = 1.37 * number + 2) {
+    const std::string text = exact_text(number);
+    const Settings settings("x = " + text, "my.toml", "x = 0");
+    EXPECT_EQ(settings.number("x", {}), number);
+    EXPECT_EQ(settings.resolved_json(), "{\"x\":" + text + "}");
+    EXPECT_TRUE(nlohmann::json::parse(text).is_number_float()) << text;
+    EXPECT_EQ(nlohmann::json::parse(text).get<double>(), number);
+  }
+  EXPECT_EQ(Settings("x = 100000000000000001", "my.toml", "x = 0").number("x", {}), 1e17);
 }
 
 TEST(Settings, let_the_user_override_the_defaults_one_by_one) {
