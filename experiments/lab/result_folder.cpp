@@ -360,21 +360,22 @@ std::string shard_in(const fs::path& folder) {
   return seal ? to_text(seal->shard) : "";
 }
 
-KeptResult read_result(const fs::path& folder) {
-  std::error_code none;
-  if (!fs::exists(folder, none)) refuse(folder, "there is no such folder; name the folder of a result");
-  if (!fs::is_directory(folder, none)) refuse(folder, "is not a folder; name the folder of a result");
+KeptResult read_result(const fs::path& folder) try {
+  if (!fs::exists(folder)) refuse(folder, "there is no such folder; name the folder of a result");
+  if (!fs::is_directory(folder)) refuse(folder, "is not a folder; name the folder of a result");
   const fs::path file = folder / manifest_name;
-  if (!fs::exists(file, none)) {
+  if (!fs::exists(file)) {
     if (const std::string shard = shard_in(folder); !shard.empty())
       refuse(folder, fmt::format("is shard {} of a run; thinwall merge makes a result of all of them", shard));
-    const bool unfinished = fs::exists(folder / journal_name, none);
+    const bool unfinished = fs::exists(folder / journal_name);
     refuse(folder, unfinished
                        ? "holds a run that is not finished: no manifest.json yet; the run's own command continues it"
                        : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
   }
-  if (!fs::is_regular_file(file, none)) refuse(folder, "its manifest.json is not a file");
+  if (!fs::is_regular_file(file)) refuse(folder, "its manifest.json is not a file");
   return kept_result(folder, file.string());
+} catch (const fs::filesystem_error& error) {
+  refuse(error.path1(), "cannot be read: " + error.code().message());
 }
 
 std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {

@@ -48,21 +48,22 @@ struct SealedFolder {
 
 [[noreturn]] void refuse(const std::string& folder, const std::string& why) { throw UsageError(folder + ": " + why); }
 
-SealedFolder read_seal(const std::string& folder) {
+SealedFolder read_seal(const std::string& folder) try {
   const fs::path path = folder;
   const std::string name = one_line(folder);
-  std::error_code none;
-  if (!fs::exists(path, none)) refuse(name, "there is no such folder");
-  if (!fs::is_directory(path, none)) refuse(name, "is not a folder; a finished shard is needed");
-  if (!fs::exists(path / seal_name, none)) {
+  if (!fs::exists(path)) refuse(name, "there is no such folder");
+  if (!fs::is_directory(path)) refuse(name, "is not a folder; a finished shard is needed");
+  if (!fs::exists(path / seal_name)) {
     const auto begun = parse_identity(read_journal(path / journal_name).identity);
     if (begun && !begun->shard.empty()) refuse(name, fmt::format("shard {} is unfinished{}", begun->shard, mend));
-    if (fs::exists(path / manifest_name, none)) refuse(name, "holds a whole result, not a shard");
+    if (fs::exists(path / manifest_name)) refuse(name, "holds a whole result, not a shard");
     refuse(name, "is not a shard of a run: it has no shard.json");
   }
   const auto seal = parse_seal(file_text(path / seal_name));
   if (!seal) refuse(name, std::string("its shard.json is damaged, or not ours") + mend);
   return {name, path, *seal};
+} catch (const fs::filesystem_error& error) {
+  refuse(one_line(error.path1().string()), "cannot be read: " + error.code().message());
 }
 
 Journal::Rows read_rows(const SealedFolder& folder) {

@@ -68,8 +68,12 @@ std::string result_text(const KeptResult& result) {
   return out + "report: " + one_line((result.folder / "report.html").string()) + "\n";
 }
 
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw UsageError(fmt::format("{}: {}", one_line(path.string()), why));
+}
+
 /// Checks a folder that may hold anything.
-int check(const ReportText& text, const Call& call) {
+int check(const ReportText& text, const Call& call) try {
   if (!fs::is_directory(text.target)) read_result(text.target);  // says why it cannot
   const std::vector<std::string> faults = check_result(text.target);
   const bool whole = faults.empty(), doubtful = whole && !read_result(text.target).self_test_passed;
@@ -86,6 +90,8 @@ int check(const ReportText& text, const Call& call) {
                                                  : fmt::format("{} faults", faults.size()));
   }
   return whole ? exit_done : exit_failed;
+} catch (const fs::filesystem_error& error) {
+  refuse(error.path1(), "cannot be read: " + error.code().message());
 }
 
 int report(const ReportText& text, const Call& call) {
@@ -261,15 +267,11 @@ struct Rerun {
   bool stays = false;                ///< the rerun is kept even if it is the same
 };
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  throw UsageError(fmt::format("{}: {}", one_line(path.string()), why));
-}
-
 Manifest manifest_in(const fs::path& folder) {
   return parse_manifest(file_text(folder / manifest_name), (folder / manifest_name).string());
 }
 
-Rerun prepare(const ReproduceText& text) {
+Rerun prepare(const ReproduceText& text) try {
   if (text.target.empty()) {
     throw UsageError("reproduce: the folder of a result is missing; see thinwall reproduce --help");
   }
@@ -298,6 +300,8 @@ Rerun prepare(const ReproduceText& text) {
     refuse(out.out, "is there already; delete it, or name another folder with --out");
   }
   return out;
+} catch (const fs::filesystem_error& error) {
+  refuse(error.path1(), "cannot be read: " + error.code().message());
 }
 
 /// Throws UsageError if this build cannot run it.

@@ -125,6 +125,7 @@ TEST_F(ReproduceTest, goes_on_after_an_interruption) {
 TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
   expect_refused({"reproduce"}, "reproduce: the folder of a result is missing");
   expect_refused({"reproduce", out}, out + ": there is no such folder");
+  expect_refused({"reproduce", out + std::string(300, 'x')}, "x: cannot be read: File name too long");
   fs::create_directory(out);
   expect_refused({"reproduce", out}, out + ": holds no manifest.json");
   write_text(out + "/manifest.json", "{}");

@@ -178,6 +178,7 @@ TEST_F(CiteTest, refuses_what_holds_no_result) {
     expect_refusal(call({"cite", target}), {target + ": " + why});
   };
   expect_refused(folder / "none", "there is no such folder");
+  expect_refused(folder / std::string(300, 'x'), "cannot be read: File name too long");
   expect_refused(folder.path().string(), "holds no manifest.json");
   write_text(folder / "journal.tsv", "");
   expect_refused(folder.path().string(), "holds a run that is not finished");
@@ -375,6 +376,8 @@ TEST_F(BadInputTest, experiments_and_their_files) {
   write_text(folder / "my.toml", "radius = [0.1]\n");
   expect_refused({"run", "my.toml", "--out", "out"}, {"my.toml:1: key 'experiment': missing"});
   expect_refused({"run", "none.toml", "--out", "out"}, {"none.toml: there is no such file"});
+  expect_refused({"run", std::string(300, 'x') + ".toml", "--out", "out"},
+                 {".toml: cannot be read: File name too long"});
   expect_refused({"run", ".", "--out", "out"}, {".: is not a file"});
 }
 

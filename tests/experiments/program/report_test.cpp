@@ -354,6 +354,8 @@ TEST_F(ReportTest, refuses_what_it_cannot_take) {
   expect_refusal(call({"report", out, "--figures", "png"}), {"--figures: 'png' is not allowed; allowed: pdf, tex"});
   expect_refusal(call({"report", out, "--figures", "pdf,"}), {"--figures: '' is not allowed"});
   expect_refusal(call({"report", out + "x", "--check"}), {out + "x: there is no such folder"});
+  const std::string far = out + std::string(300, 'x');
+  expect_refusal(call({"report", far, "--check"}), {far + ": cannot be read: File name too long"});
 }
 
 TEST(CsvReader, reads_what_rfc_4180_allows_and_names_the_line_of_what_it_does_not) {

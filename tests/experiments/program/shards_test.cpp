@@ -123,6 +123,7 @@ TEST_F(ShardProgram, refuses_what_is_no_shard) {
   const auto folders = run_shards(2);
   expect_refused({}, {"the folders of the shards are missing"});
   expect_refused({folders[0], folder / "none"}, {folder / "none: there is no such folder"});
+  expect_refused({folders[0], folder / std::string(300, 'x')}, {"x: cannot be read: File name too long"});
   write_text(folder / "file", "");
   expect_refused({folders[0], folder / "file"}, {folder / "file: is not a folder"});
   std::filesystem::create_directory(folder / "empty");
