@@ -295,6 +295,13 @@ TEST_F(KilledRunTest, heeds_an_interrupt_at_once_in_the_midst_of_a_long_unit) {
   EXPECT_TRUE(holds(notes(), "to continue:\n"));
 }
 
+TEST_F(RealRunTest, names_the_file_that_may_not_grow) {
+  const ProcessResult end =
+      run_process({"sh", "-c", "ulimit -f 4; '" THINWALL_PROGRAM "' run my.toml --out out; echo $?"}, folder.path());
+  EXPECT_TRUE(holds(end.output, "failed: out/journal.tsv: File too large; what was finished is kept")) << end.output;
+  EXPECT_TRUE(end.output.ends_with("\n1\n")) << end.output;
+}
+
 // ---- A disk that is full, and a folder that cannot be written: named, nothing lost, and the same command goes on.
 // The disk is a small tmpfs in a mount namespace of its own, which ends with the shell that made it.
 
