@@ -289,16 +289,15 @@ ProgressBar::~ProgressBar() {
   if (drawn_) erase();
 }
 
-int perform_run(const RunWish& given, const Call& call) try {
+int perform_run(RunWish wish, const Call& call) try {
   const ConfiguredRun chosen =
-      given.merged ? configure_again(given.merged->identity, given.request.options.threads, call.experiments)
-                   : configure_run(given.target, given.request, call.experiments);
+      wish.merged ? configure_again(wish.merged->identity, wish.request.options.threads, call.experiments)
+                  : configure_run(wish.target, wish.request, call.experiments);
   const std::vector<Unit> all = chosen.run->units();
-  const std::vector<Unit> part = given.shard ? units_of(*given.shard, given.launch, all) : std::vector<Unit>();
-  const std::vector<Unit>& units = given.shard ? part : all;
-  RunWish wish = given;
+  const std::vector<Unit> part = wish.shard ? units_of(*wish.shard, wish.launch, all) : std::vector<Unit>();
+  const std::vector<Unit>& units = wish.shard ? part : all;
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
-  RunRecord record = record_of(chosen, given, call, units);
+  RunRecord record = record_of(chosen, wish, call, units);
   if (wish.list_cells) return list_cells(wish, record, units, call.out);
   if (wish.dry_run) return dry_run(wish, record, all, call);
 
@@ -367,8 +366,11 @@ int perform_run(const RunWish& given, const Call& call) try {
   return reply(wish, record, outcome, call);
 } catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
   const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
-  throw std::runtime_error(fmt::format("{}; what was finished is kept: mend this, and the same command goes on",
-                                       file ? file->path1().string() + ": " + error.code().message() : error.what()));
+  const std::string why = file ? file->path1().string() + ": " + error.code().message() : error.what();
+  std::error_code none;  // somebody may have deleted the folder
+  const bool is_kept = std::filesystem::exists(std::filesystem::path(wish.out) / journal_name, none);
+  throw std::runtime_error(why +
+                           (is_kept ? "; what was finished is kept: mend this, and the same command goes on" : ""));
 }
 
 }  // namespace thinwall

@@ -124,6 +124,6 @@ struct RunWish {
 };
 
 /// Returns the exit code. Results go to `call.out`, all else to `call.err`. Throws UsageError for what the user must mend.
-int perform_run(const RunWish& given, const Call& call);
+int perform_run(RunWish wish, const Call& call);
 
 }  // namespace thinwall

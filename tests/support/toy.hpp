@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,7 @@ struct ToyControl {
   static inline std::atomic<int> interrupt_after = 0;  ///< > 0: that many units from now SIGINT is raised
   static inline std::atomic<int> fail_at = 0;          ///< > 0: the unit of that number throws
   static inline std::atomic<bool> pass = true;         ///< of its self-test
+  static inline std::string removes;                   ///< not empty: the folder that every unit removes
 };
 
 class ToyRun final : public Run {
@@ -38,6 +40,7 @@ class ToyRun final : public Run {
       out.push_back({"cell " + std::to_string(i), trials_, [i, seed = seed_] {
                        ++ToyControl::computed;
                        if (ToyControl::fail_at == i + 1) throw std::runtime_error("no luck");
+                       if (!ToyControl::removes.empty()) std::filesystem::remove_all(ToyControl::removes);
                        if (ToyControl::interrupt_after > 0 && --ToyControl::interrupt_after == 0) std::raise(SIGINT);
                        return std::to_string(static_cast<std::uint64_t>(i * i) + seed);
                      }});
@@ -103,6 +106,7 @@ struct ToyProgram : ::testing::Test {
   ToyProgram() {
     ToyControl::computed = ToyControl::interrupt_after = ToyControl::fail_at = 0;
     ToyControl::pass = true;
+    ToyControl::removes.clear();
   }
 
   static Reply call(const Words& words) { return call_program(words, {toy_experiment()}); }

@@ -101,6 +101,13 @@ TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
   EXPECT_TRUE(std::filesystem::exists(out + "/plots/squares.gp"));
 }
 
+TEST_F(ToyRunTest, does_not_say_that_a_folder_deleted_meanwhile_keeps_anything) {
+  ToyControl::removes = out;
+  const Reply reply = run({"--threads", "1"});
+  EXPECT_EQ(reply.status, 1);
+  EXPECT_TRUE(reply.err.ends_with(": No such file or directory\n")) << reply.err;
+}
+
 TEST_F(ToyRunTest, writes_nothing_on_a_dry_run) {
   const Reply reply = run({"--dry-run", "--threads", "1"});
   EXPECT_EQ(reply.status, 0);
