@@ -127,7 +127,7 @@ Toi<double> impact_of_spinning(const Moving<AnyShape>& a, const Moving<AnyShape>
 std::vector<Track> begin_tracks(const std::vector<Body>& bodies) {
   std::vector<std::uint32_t> ids;
   for (const Body& body : bodies) {
-    if (can_move(body) && !std::holds_alternative<std::monostate>(body.shape)) ids.push_back(body.id);
+    if (is_drawn(body)) ids.push_back(body.id);
   }
   const std::size_t count = std::min(ids.size(), most_tracks);
   std::vector<Track> tracks;
@@ -213,6 +213,8 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
   return missed;
 }
 
+bool is_drawn(const Body& body) { return can_move(body) && !std::holds_alternative<std::monostate>(body.shape); }
+
 StepRow Playback::sums() const {
   StepRow sums;
   for (const StepRow& row : rows) sums += row;
@@ -228,7 +230,7 @@ Playback play(const Scene& scene, const Frame& on_frame) {
   out.tracks = begin_tracks(world.bodies());
   extend(out.tracks, world, scene);
   if (on_frame) on_frame(world);
-  const std::int64_t stride = (scene.steps + most_points - 1) / most_points;
+  const std::int64_t stride = steps_a_point(scene);
   for (std::int64_t step = 1; step <= scene.steps; ++step) {
     const double start = static_cast<double>(step - 1) * scene.dt, dt = scene.length_of(step);
     for (; push != scene.pushes.end() && push->time <= start; ++push) world.set_velocity(push->id, push->velocity);

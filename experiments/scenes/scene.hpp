@@ -195,6 +195,12 @@ inline constexpr std::size_t most_kept = 10'000;   ///< of events and of missed 
 inline constexpr std::size_t most_tracks = 40;     ///< moving bodies in the picture
 inline constexpr std::int64_t most_points = 2000;  ///< of a track
 
+/// True if it may have a track: it moves, and has a shape.
+bool is_drawn(const Body& body);
+
+/// [1] Steps from one point of a track to the next; the last step has one too.
+inline std::int64_t steps_a_point(const Scene& scene) { return (scene.steps + most_points - 1) / most_points; }
+
 /// Called before the first step, and after each.
 using Frame = std::function<void(const World&)>;
 

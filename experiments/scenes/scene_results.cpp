@@ -33,15 +33,17 @@ std::string policy_text(const Scene& scene) {
 
 /// The first lines of the log: who met whom.
 std::string log_text(const Scene& scene, const Playback& playback) {
-  constexpr std::size_t most = 12;
+  const std::size_t shown = std::min<std::size_t>(12, playback.events.size());
   std::string text;
-  for (std::size_t i = 0; i < std::min(most, playback.events.size()); ++i) {
+  for (std::size_t i = 0; i < shown; ++i) {
     const LoggedEvent& e = playback.events[i];
     text += fmt::format("{:>10} s  {} {} {}\n", rounded_text(e.time, 6), name_in(scene, e.first),
                         e.begins ? "meets" : "leaves", name_in(scene, e.second));
   }
-  const auto more = playback.all_events - static_cast<std::int64_t>(std::min(most, playback.events.size()));
+  const auto more = static_cast<std::int64_t>(playback.events.size() - shown);
+  const std::int64_t lost = playback.all_events - std::ssize(playback.events);
   if (more > 0) text += fmt::format("{:>12}  {} more in data/events.csv\n", "", grouped_text(more));
+  if (lost > 0) text += fmt::format("{:>12}  {} after them in no file\n", "", grouped_text(lost));
   return text.empty() ? "nothing met anything\n" : text;
 }
 
@@ -248,11 +250,17 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
     series.x.insert(series.x.end(), track.x.begin(), track.x.end());
     series.y.insert(series.y.end(), track.y.begin(), track.y.end());
   }
+  const std::int64_t drawn = std::ssize(playback.tracks), all = std::ranges::count_if(scene.bodies, is_drawn);
+  const std::int64_t stride = steps_a_point(scene);
+  const std::string who = drawn < all
+                              ? fmt::format("{} of the {} bodies that move, evenly spread", drawn, grouped_text(all))
+                              : "each body that moves";
+  const std::string when =
+      stride == 1 ? "at the end of each step" : fmt::format("every {} steps", grouped_text(stride));
   return {.name = "tracks",
-          .title = "Where the bodies were at the end of each step",
-          .caption =
-              "The center of each body that moves, of the first 40, at the end of every step; what stays, as the "
-              "box that holds it, cut off at the edge.",
+          .title = "Where the bodies were " + when,
+          .caption = fmt::format("The center of {}, {}; what stays, as the box that holds it, cut off at the edge.",
+                                 who, when),
           .panels = {std::move(panel)}};
 }
 

@@ -347,6 +347,21 @@ TEST(SceneRun, hands_over_described_tables_and_a_verdict) {
   expect_readable(outcome);
 }
 
+/// 42 balls through 150 walls, in 2100 steps: more than is kept of bodies, of steps and of events.
+TEST(SceneRun, says_what_it_left_out) {
+  const Outcome outcome = outcome_of(
+      scene_experiment(),
+      "scene = 'many'\nsteps = 2100\nresponse = false\n[[body]]\nshape = 'sphere'\nradius = 0.02\nat = [-0.5, -21, 0]\n"
+      "velocity = [5, 0, 0]\ncopies = [1, 42, 1]\nevery = [0, 1, 0]\n[[body]]\nshape = 'box'\nmotion = 'static'\n"
+      "size = [0.1, 50, 1]\ncopies = [150, 1, 1]\nevery = [1, 0, 0]\n");
+  EXPECT_EQ(table_of(outcome, "events").rows.size(), 10'000U);
+  EXPECT_TRUE(holds(outcome.summary, " 9,988 more in data/events.csv\n"));
+  EXPECT_TRUE(holds(outcome.summary, " 2,600 after them in no file\n"));
+  EXPECT_EQ(outcome.figures[0].title, "Where the bodies were every 2 steps");
+  EXPECT_TRUE(outcome.figures[0].caption.starts_with(
+      "The center of 40 of the 42 bodies that move, evenly spread, every 2 steps; "));
+}
+
 /// A policy that claims to miss nothing, and did.
 TEST(SceneRun, a_broken_claim_fails_the_self_test) {
   const Scene scene = scene_from(bullet_text());
