@@ -40,7 +40,10 @@ struct AdviseText {
   bool json = false;
 };
 
-std::string next_step(const std::string& file) {
+/// A name alone may be that of an experiment, and what begins with - an option: a path is neither.
+std::string next_step(std::string file) {
+  const bool is_path = file.ends_with(".toml") || file.find('/') != std::string::npos;
+  if (!is_path || file.starts_with('-')) file.insert(0, "./");
   const std::string out = "results/" + std::filesystem::path(file).stem().string();
   return "to put it to the test: " + shell_line({"thinwall", "run", file, "--out", out}) + "\n";
 }

@@ -52,6 +52,15 @@ TEST_F(AdviseProgram, answers_in_json_and_writes_the_experiment) {
   EXPECT_EQ(files_in(folder.path()).size(), 1U);
 }
 
+TEST_F(AdviseProgram, names_the_experiment_as_a_path) {
+  for (const char* name : {"thin_wall", "-x.toml"}) {
+    const ProcessResult said = run_process({THINWALL_PROGRAM, "advise", "--speed", "10", "--radius", "0.02",
+                                            "--thickness", "0.01", "--fps", "60", std::string("--toml=") + name},
+                                           folder.path());
+    EXPECT_TRUE(holds(said.output, std::string("thinwall run ./") + name + " --out")) << said.output;
+  }
+}
+
 TEST_F(AdviseProgram, replaces_an_experiment_of_its_own_and_nothing_else) {
   const std::string file = folder / "check.toml";
   write_text(file, "# mine\n");
