@@ -131,10 +131,6 @@ std::optional<double> largest_error(const Contest& c) {
 /// [s] of stepping one second of the scene.
 double cost(const Contest& c, double duration) { return median(c.seconds) / duration; }
 
-std::string milliseconds(const std::optional<double>& seconds) {
-  return seconds ? rounded_text(1e3 * *seconds, 3) : "-";
-}
-
 /// The fastest that let nothing through, and if `all_met`, met every pair.
 const Contest* cheapest_clean(const std::vector<Contest>& contests, bool all_met) {
   const Contest* best = nullptr;
@@ -159,11 +155,13 @@ std::string answer_text(const Comparison& comparison, const Trial& exact, const 
   const Contest* const best = all_met ? all_met : cheapest_clean(contests, false);
   if (!best) return text + "None of the ways compared lets nothing through.";
   text += fmt::format("The fastest that lets nothing through{} is {} at {} ms: {} ms of run time a second of the scene",
-                      all_met ? " and meets every pair" : "", best->contender.label(),
+                      all_met && best->met > 0 ? " and meets every pair" : "", best->contender.label(),
                       rounded_text(1e3 * best->contender.dt, 4),
                       rounded_text(1e3 * cost(*best, comparison.scene.duration()), 3));
-  if (all_met) return text + fmt::format(", first meetings off by {} ms at most.", milliseconds(largest_error(*best)));
-  return text + ". No way meets every pair that the exact run does: after enough bounces any two runs part.";
+  if (!all_met)
+    return text + ". No way meets every pair that the exact run does: after enough bounces any two runs part.";
+  if (best->met == 0) return text + ".";
+  return text + fmt::format(", first meetings off by {} ms at most.", rounded_text(1e3 * best->errors.back(), 3));
 }
 
 Columns<Contest> key_columns() {

@@ -496,6 +496,12 @@ TEST(Comparison, tells_discrete_from_swept) {
   }
 }
 
+TEST(Comparison, has_no_error_to_tell_where_nothing_meets) {
+  const Outcome outcome = outcome_of(compare_experiment(), "scene = 'none'\nsteps = 6\n" + compared);
+  EXPECT_TRUE(outcome.answer.ends_with(" ms of run time a second of the scene.")) << outcome.answer;
+  EXPECT_FALSE(holds(outcome.answer, "every pair"));
+}
+
 /// Balls of 0.125 m in pairs, each on a line of its own: the exact run is held against a sheet of paper, not against a run.
 TEST(Comparison, holds_every_kind_of_pair_against_the_time_it_meets) {
   struct Pair {
