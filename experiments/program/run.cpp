@@ -39,10 +39,17 @@ const Experiment* find_experiment(std::span<const Experiment> experiments, std::
 
 bool is_scene(const Experiment& experiment) { return experiment.name == "scene" || experiment.name == "compare"; }
 
+std::vector<std::string_view> experiment_names(std::span<const Experiment> experiments) {
+  std::vector<std::string_view> names;
+  for (const Experiment& experiment : experiments) names.push_back(experiment.name);
+  return names;
+}
+
 /// What the file is: the value of its key `experiment`; without one, a scene if it has the key `scene`.
 std::string experiment_named_in(const std::string& text, const std::string& file,
-                                std::span<const std::string_view> names) {
+                                std::span<const Experiment> experiments) {
   constexpr std::string_view key = "experiment";
+  const std::vector<std::string_view> names = experiment_names(experiments);
   const Settings settings(text, file, "");
   if (settings.has(key)) return settings.choice(key, names);
   if (settings.has("scene")) return "scene";
@@ -128,9 +135,6 @@ ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::spa
 ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
                             std::span<const Experiment> experiments) {
   const std::vector<Experiment> all = with_scenes(experiments);
-  std::vector<std::string_view> names;
-  for (const Experiment& experiment : all) names.push_back(experiment.name);
-
   const Experiment* chosen = request.compare || request.text ? nullptr : find_experiment(experiments, target);
   std::string text, file = std::string(target) + " (built-in)";
   if (!chosen) {
@@ -139,11 +143,11 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
         request.text || target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target, none);
     if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
-                                   spelling_hint(target, std::span(names).first(experiments.size()))));
+                                   spelling_hint(target, experiment_names(experiments))));
     }
     file = target;
     text = request.text ? *request.text : read_config(file);
-    const std::string named = experiment_named_in(text, file, names);
+    const std::string named = experiment_named_in(text, file, all);
     chosen = find_experiment(all, request.compare && named == "scene" ? "compare" : named);
   }
   if (request.compare && chosen->name != "compare") throw not_a_scene(file, chosen->name);
@@ -296,10 +300,9 @@ int print_plan(const PlanText& text, const Call& call) {
   const std::string kind = parse_plan_kind(text.plan);
   const std::uint64_t seed = parse_seed(text.seed);
   const std::string config = read_config(text.target);
-  if (const Settings given(config, text.target, ""); given.has("experiment") && !given.has("scene")) {
-    const std::string named = given.text("experiment");
-    if (find_experiment(call.experiments, named) != nullptr) throw not_a_scene(text.target, named);
-  }
+  const std::vector<Experiment> all = with_scenes(call.experiments);
+  const Experiment& named = *find_experiment(all, experiment_named_in(config, text.target, all));
+  if (!is_scene(named)) throw not_a_scene(text.target, named.name);
   Settings settings(config, text.target, scene_experiment().default_toml);
   settings.reject_unknown_keys();
   settings.require("scene", "its name; without one the file is not a scene");

@@ -215,13 +215,17 @@ TEST_F(SceneProgram, refuses_what_is_no_scene_or_plan) {
   write_text(file, "experiment = 'toy'\n");
   expect_refused({"compare", file, "--out", out}, "not a scene");
   expect_refused({"plan", file}, "not a scene");
+  write_text(file, "experiment = 'toy'\nscene = 'a'\n");
+  expect_refused({"plan", file}, "not a scene");
+  write_text(file, "experiment = 3\nscene = 'a'\n");
+  expect_refused({"plan", file}, ":1: key 'experiment': 3 is not allowed");
   expect_refused({"run", "toy", "--out", out, "--trace"}, "--trace: only a scene has a trace");
   expect_refused({"run", "toy", "--out", out, "--plan", "full"}, "--plan: only a scene has a plan");
   expect_refused({"plan", folder / "none.toml"}, "there is no such file");
   expect_refused({"compare"}, "compare: the TOML file of a scene is missing");
   expect_refused({"plan"}, "plan: the TOML file of a scene is missing");
   write_text(file, "radius = 1\n");
-  expect_refused({"plan", file}, "key 'radius': unknown key");
+  expect_refused({"plan", file}, "key 'experiment': missing");
   expect_refused({"run", file, "--out", out}, "key 'experiment': missing");
 }
 
