@@ -32,8 +32,8 @@ std::string json_text(const toml::node& node) {
   if (const auto text = node.value_exact<std::string_view>()) return json_string(*text);
   if (const auto integer = node.value_exact<std::int64_t>()) return std::to_string(*integer);
   if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
-  if (const auto number = node.value_exact<double>(); number && std::isfinite(*number)) return exact_text(*number);
-  return "null";  // a date, NaN or infinity: no experiment takes one
+  if (const auto number = node.value_exact<double>()) return exact_text(*number);  // NaN and infinity for a complaint
+  return "null";                                                                   // a date: no experiment takes one
 }
 
 /// A value as a complaint shows it.

@@ -10,6 +10,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
+#include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
@@ -356,11 +357,13 @@ std::unique_ptr<Run> configure_speed(const Settings& settings, const RunOptions&
     settings.complain("filter", "a regular expression, or \"\" for every row");
   }
   if (std::ranges::none_of(programs, [&](const std::string& program) { return is_program(folder / program); })) {
-    settings.complain("benchmarks",
-                      fmt::format("a folder that holds at least one of the benchmark programs asked for; {} has none. "
-                                  "Build them: cmake --preset bench && cmake --build "
-                                  "--preset bench",
-                                  folder.string()));
+    const std::string allowed = fmt::format(
+        "a folder that holds at least one of the benchmark programs asked for; {} has none. "
+        "Build them: cmake --preset bench && cmake --build --preset bench",
+        one_line(folder.string()));
+    if (named.empty()) settings.complain("benchmarks", allowed);
+    // No file may name a folder: the command line did.
+    throw UsageError(fmt::format("--benchmarks: '{}' is not allowed; {}", one_line(named), allowed));
   }
   std::vector<Task<BenchOutput>> tasks;
   for (std::int64_t round = 1; round <= rounds; ++round) {

@@ -479,6 +479,8 @@ TEST_F(BenchmarksTest, are_started_only_if_the_command_line_names_their_folder) 
   EXPECT_FALSE(started());
   EXPECT_EQ(call({"reproduce", out, "--benchmarks", folder / "theirs"}).status, 0);
   EXPECT_TRUE(started());
+  EXPECT_TRUE(refusal(call({"run", "speed", "--benchmarks", "none"}))
+                  .starts_with("--benchmarks: 'none' is not allowed; a folder that holds at least one"));
   EXPECT_EQ(call({"run", "toy", "--benchmarks", folder / "theirs"}).err,
             "--benchmarks: only speed starts other programs\n");
 }
