@@ -311,15 +311,19 @@ void check_toml(const KeptResult& result, Faults& faults) {
   }
 }
 
-/// Braces open and close in turn (BibTeX counts escaped ones too), and there is an entry for the software and one for the result.
+/// Braces open and close in turn (BibTeX counts escaped ones too), those of a field at the end of its line, and there is an entry for the
+/// software and one for the result.
 void check_bib(const KeptResult& result, Faults& faults) {
   const std::string text = file_text(result.folder / bib_file);
   if (text.empty()) return;
   int depth = 0;
+  bool ends_early = false;
   for (std::size_t i = 0; i < text.size() && depth >= 0; ++i) {
     depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
+    const std::string_view rest = std::string_view(text).substr(i + 1);
+    ends_early |= text[i] == '}' && depth == 1 && !rest.starts_with('\n') && !rest.starts_with(",\n");
   }
-  if (depth != 0) add_fault(faults, bib_file, "its braces are not balanced");
+  if (depth != 0 || ends_early) add_fault(faults, bib_file, "its braces are not balanced");
   if (text.find("@software{thinwall,") == std::string::npos) add_fault(faults, bib_file, "does not cite the software");
   if (text.find(bibtex(result.citation)) == std::string::npos)
     add_fault(faults, bib_file, "does not cite the result as its manifest says");

@@ -99,6 +99,14 @@ ordered_json program(const BuildRecord& build) {
           {"build_type", build.build_type}, {"sha256", this_program_sha256()},    {"libraries", libraries}};
 }
 
+/// To BibTeX a brace counts also behind a backslash, so there is none alone.
+std::string bibtex_escaped(std::string_view text) {
+  std::string out = latex_escaped(text);
+  replace_all(out, "\\{", "{\\textbraceleft}");
+  replace_all(out, "\\}", "{\\textbraceright}");
+  return out;
+}
+
 }  // namespace
 
 MachineRecord this_machine() {
@@ -266,8 +274,8 @@ std::string bibtex(const SoftwareCitation& software) {
   return fmt::format(
       "@software{{thinwall,\n  author  = {{{}}},\n  title   = {{{}}},\n  version = {{{}}},\n  date    = {{{}}},\n"
       "  year    = {{{}}},\n  license = {{{}}}\n}}\n",
-      software.authors, latex_escaped(software.title), latex_escaped(software.version), latex_escaped(software.date),
-      latex_escaped(software.date.substr(0, 4)), latex_escaped(software.license));
+      software.authors, bibtex_escaped(software.title), bibtex_escaped(software.version), bibtex_escaped(software.date),
+      bibtex_escaped(software.date.substr(0, 4)), bibtex_escaped(software.license));
 }
 
 std::string bibtex(const ResultCitation& result) {
@@ -278,9 +286,9 @@ std::string bibtex(const ResultCitation& result) {
       "@misc{{{0},\n  author = {{{2}}},\n  title  = {{{3}}},\n"
       "  note   = {{Result of the thinwall experiment {4}, run {1}, seed {5}, commit {6}}},\n"
       "  date   = {{{7}}},\n  year   = {{{8}}}\n}}\n",
-      key, latex_escaped(result.run_id), this_software().authors, latex_escaped(result.question),
-      latex_escaped(result.experiment), result.seed, latex_escaped(commit), latex_escaped(result.date),
-      latex_escaped(result.date.substr(0, 4)));
+      key, bibtex_escaped(result.run_id), this_software().authors, bibtex_escaped(result.question),
+      bibtex_escaped(result.experiment), result.seed, bibtex_escaped(commit), bibtex_escaped(result.date),
+      bibtex_escaped(result.date.substr(0, 4)));
 }
 
 std::string bibtex(const SoftwareCitation& software, const ResultCitation& result) {

@@ -178,7 +178,8 @@ TEST_F(CiteTest, escapes_every_field) {
                                                   .commit = "a}, note={",
                                                   .dirty = false,
                                                   .date = "2031}%"});
-  for (const char* part : {"@misc{thinwall_a_b_1,", "100 \\%?", "run 1\\},", "commit a\\}, note=\\{}", "{2031\\}\\%}"})
+  for (const char* part : {"@misc{thinwall_a_b_1,", "100 \\%?", "run 1{\\textbraceright},",
+                           "{2031{\\textbraceright}\\%}", "commit a{\\textbraceright}, note={\\textbraceleft}}"})
     EXPECT_TRUE(holds(entry, part)) << part << " in\n" << entry;
 }
 

@@ -244,6 +244,8 @@ TEST_F(ReportTest, wants_figures_with_words_and_texts_that_can_be_read) {
   expect_fault("plots/squares.dat: missing; the script reads it");
   change("resolved.toml", "cells = 20", "cells = = 20");
   expect_fault("not TOML");
+  change("cite.bib", "What is a", "What} is {a");
+  expect_fault("cite.bib: its braces are not balanced");
   change("cite.bib", "@misc{", "@misc{{");
   expect_fault("cite.bib: its braces are not balanced");
   expect_fault("cite.bib: does not cite the result as its manifest says");
