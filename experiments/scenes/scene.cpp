@@ -274,7 +274,7 @@ TimePolicy policy_named(std::string_view name) {
   return static_cast<TimePolicy>(found - policy_names.begin());
 }
 
-constexpr std::int64_t most_steps = 10'000'000;
+constexpr std::int64_t most_steps = 1'000'000;  // a run holds 1.2 kB of each until its tables are written
 
 Scene read_scene(const Settings& settings, const RunOptions& options) {
   Scene scene;

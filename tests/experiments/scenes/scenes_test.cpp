@@ -277,6 +277,8 @@ TEST(SceneFile, pushes_name_a_body_that_moves) {
 
 TEST(SceneFile, steps_are_the_trials_of_the_command_line) {
   EXPECT_EQ(scene_from(ball, {.seed = 0, .trials = 7}).steps, 7);
+  EXPECT_EQ(error_of<UsageError>([] { scene_from(ball, {.seed = 0, .trials = 1'000'001}); }),
+            "--trials: 1000001 is not allowed; of a scene, its steps: a whole number from 1 to 1000000");
 }
 
 // ---- A scene, played: who goes through, who is told, and what is kept of it.
