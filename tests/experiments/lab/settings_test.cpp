@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
