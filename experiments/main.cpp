@@ -1,7 +1,7 @@
 #include <fcntl.h>
-#include <signal.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <iostream>
 
 #include <thinwall/experiments/experiment_list.hpp>
@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
     if (descriptor > 2) ::close(descriptor);
     if (descriptor < 0 || descriptor > 2) break;
   }
-  ::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow (ulimit -f) fails by its name, as on a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow (ulimit -f) fails by its name, as on a full disk
   return thinwall::run_program({argv, argv + argc}, thinwall::experiments(), std::cout, std::cerr);
 }

@@ -7,7 +7,7 @@ arrays beside them, and are float64 where there is none. Whatever else is an err
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -175,7 +175,10 @@ def _field(cls: type, index: int, name: str) -> None:
     setattr(cls, name, property(get, doc=f"The {name}, as given."))
 
 
-def _shape(cls: Any) -> Any:
+_Class = TypeVar("_Class", bound="type[_Rows]")
+
+
+def _shape(cls: _Class) -> _Class:
     for index, name in enumerate(cls._fields):
         _field(cls, index, name)
     return cls
