@@ -132,6 +132,10 @@ ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::spa
   return out;
 }
 
+bool looks_like_a_file(std::string_view target) {
+  return target.ends_with(".toml") || target.find('/') != std::string_view::npos;
+}
+
 ConfiguredRun configure_run(const std::string& target, const RunRequest& request,
                             std::span<const Experiment> experiments) {
   const std::vector<Experiment> all = with_scenes(experiments);
@@ -139,8 +143,7 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
   std::string text, file = std::string(target) + " (built-in)";
   if (!chosen) {
     std::error_code none;
-    const bool is_path =
-        request.text || target.ends_with(".toml") || target.find('/') != std::string::npos || fs::exists(target, none);
+    const bool is_path = request.text || looks_like_a_file(target) || fs::exists(target, none);
     if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
                                    spelling_hint(target, experiment_names(experiments))));

@@ -44,6 +44,9 @@ struct ConfiguredRun {
 /// The run that has this identity, on `threads` threads. Throws UsageError if no experiment here has it.
 ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::span<const Experiment> experiments);
 
+/// True for what `run` takes for a file whether or not it is there: no experiment's name looks like it.
+bool looks_like_a_file(std::string_view target);
+
 /// `target` is an experiment's name, or a TOML file: its key `experiment` names one, or its key `scene` says that it is a
 /// scene. Throws UsageError.
 ConfiguredRun configure_run(const std::string& target, const RunRequest& request,

@@ -15,6 +15,7 @@
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/program/run.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -42,8 +43,7 @@ struct AdviseText {
 
 /// A name alone may be that of an experiment, and what begins with - an option: a path is neither.
 std::string next_step(std::string file) {
-  const bool is_path = file.ends_with(".toml") || file.find('/') != std::string::npos;
-  if (!is_path || file.starts_with('-')) file.insert(0, "./");
+  if (!looks_like_a_file(file) || file.starts_with('-')) file.insert(0, "./");
   const std::string out = "results/" + std::filesystem::path(file).stem().string();
   return "to put it to the test: " + shell_line({"thinwall", "run", file, "--out", out}) + "\n";
 }
