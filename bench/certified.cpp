@@ -21,6 +21,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <boost/numeric/interval.hpp>
+#include <thinwall/experiments/models/oracle.hpp>
 #include <thinwall/swept/certified.hpp>
 
 #include "errors.hpp"
@@ -30,7 +31,6 @@ namespace {
 using namespace thinwall;
 using namespace thinwall::bench;
 using D = double;
-using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
 // ---- Three sets of queries for the certified time of impact, from what a scene asks to what was made to be hard:
 //   random       any_shots() of query_sets.hpp: hits and misses of like number, none of them close

@@ -25,9 +25,9 @@ if(NOT (THINWALL_WASM_CXX AND THINWALL_WASM_LD AND THINWALL_GZIP AND THINWALL_BA
 endif()
 
 # Without exceptions and threads; the sources of a part are one file, so that the headers are read once.
-set(explorer_sources explorer/explorer thin_wall/methods thin_wall/model tunneling_theory advise/advice
+set(explorer_sources explorer/explorer models/shot_methods models/shots models/tunneling_theory advise/advice
   advise/advice_text lab/statistics lab/text)
-set(rod_sources explorer/rod spinning_rod/methods spinning_rod/model lab/record)
+set(rod_sources explorer/rod models/rod_methods models/rods lab/record)
 set(folder "${PROJECT_BINARY_DIR}/explorer")
 file(MAKE_DIRECTORY "${folder}/include")
 foreach(part IN ITEMS explorer rod)

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <thinwall/experiments/models/oracle.hpp>
+#include <thinwall/experiments/models/queries.hpp>
+
 namespace thinwall {
 
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a verdict is held against, and at which precision.
+/// The pairs whose accuracy is measured, the ways to ask, and what a block of queries adds up to.
 
 #include <array>
 #include <cstddef>
@@ -8,36 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <thinwall/experiments/accuracy/draw.hpp>
-#include <thinwall/experiments/accuracy/oracle.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 
 namespace thinwall {
-
-using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
-
-inline bool agree(ToiStatus status, oracle::Verdict verdict) {
-  switch (status) {
-    case ToiStatus::apart: return verdict == oracle::Verdict::apart;
-    case ToiStatus::hit: return verdict == oracle::Verdict::hit;
-    case ToiStatus::overlapping: return verdict == oracle::Verdict::overlapping;
-    default: return false;
-  }
-}
-
-/// A method's kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
-template <class Method, Shape A, Shape B>
-Toi<typename A::Scalar> kernel_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
-  if constexpr (A::rank < B::rank) {
-    return flipped(impact(method, b, a));
-  } else {
-    return impact(method, a, b);
-  }
-}
-
-// ---- The pairs whose accuracy is measured, the ways to ask, and what a block of queries adds up to.
 
 /// Errors by size: 64 bins a factor of two, from 2^-16 to 2^16 units.
 class ErrorHistogram {

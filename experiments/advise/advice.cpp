@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include <thinwall/experiments/lab/race.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 #include <thinwall/swept/certified.hpp>
 
 namespace thinwall {

@@ -11,8 +11,8 @@
 
 #include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/thin_wall/methods.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/models/shot_methods.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 #include <thinwall/swept/turning.hpp>
 
 namespace thinwall {
@@ -44,7 +44,7 @@ struct WishWords {
 Wish read_wish(const WishWords& words);
 
 // ---- Whom the advice chooses from: every method of the method list, as the thin wall fires it in double, and the certified
-// answers. A method added to the list is here by itself; without a theory in thin_wall/methods.cpp it is never
+// answers. A method added to the list is here by itself; without a theory in models/shot_methods.cpp it is never
 // advised.
 
 /// A rod's step.

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 
 namespace thinwall {
 

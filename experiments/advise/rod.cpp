@@ -7,7 +7,7 @@
 
 #include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/lab/race.hpp>
-#include <thinwall/experiments/spinning_rod/model.hpp>
+#include <thinwall/experiments/models/rods.hpp>
 #include <thinwall/swept/certified/turning_certified.hpp>
 
 namespace thinwall {

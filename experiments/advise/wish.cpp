@@ -7,8 +7,7 @@
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
-#include <thinwall/experiments/thin_wall/results.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 
 namespace thinwall {
 
@@ -85,7 +84,7 @@ std::string check_config(const Wish& wish, std::span<const Candidate> candidates
   std::string text = config_text(wish, candidates);
   const Experiment thin_wall = thin_wall_experiment();
   try {
-    make_plan(Settings(text, "config", thin_wall.default_toml), {});
+    (void)thin_wall.configure(Settings(text, "config", thin_wall.default_toml), {});
   } catch (const UsageError& refusal) {
     const std::string why = refusal.what();
     throw UsageError("--toml: the experiment cannot fire this; " + why.substr(why.find("key ")));

@@ -9,8 +9,8 @@
 
 #include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/shots.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 
 namespace thinwall {
 

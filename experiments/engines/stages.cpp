@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 
 namespace thinwall {
 

@@ -17,7 +17,7 @@
 #include <thinwall/experiments/advise/advice.hpp>
 #include <thinwall/experiments/lab/method_looks.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
-#include <thinwall/experiments/thin_wall/methods.hpp>
+#include <thinwall/experiments/models/shot_methods.hpp>
 #include <thinwall/swept/certified.hpp>
 
 namespace thinwall {

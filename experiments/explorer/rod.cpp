@@ -14,8 +14,8 @@
 
 #include <thinwall/experiments/lab/method_looks.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
-#include <thinwall/experiments/spinning_rod/methods.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/models/rod_methods.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 
 namespace thinwall {
 

@@ -15,7 +15,7 @@
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/spinning_rod/methods.hpp>
+#include <thinwall/experiments/models/rod_methods.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {

@@ -7,7 +7,7 @@
 
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
-#include <thinwall/experiments/thin_wall/methods.hpp>
+#include <thinwall/experiments/models/shot_methods.hpp>
 
 namespace thinwall {
 

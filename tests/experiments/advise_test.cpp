@@ -14,8 +14,8 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
-#include <thinwall/experiments/spinning_rod/methods.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/models/rod_methods.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 #include <thinwall/swept/certified.hpp>
 #include <thinwall/swept/turning/turning_impact.hpp>

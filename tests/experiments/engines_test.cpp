@@ -22,7 +22,7 @@
 #include <thinwall/experiments/engines/stages.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/random.hpp>
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 
 #include "support/experiment_run.hpp"
 #include "support/program.hpp"

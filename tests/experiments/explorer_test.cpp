@@ -12,7 +12,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/explorer/explorer.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/thin_wall/methods.hpp>
+#include <thinwall/experiments/models/shot_methods.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 
 namespace thinwall {

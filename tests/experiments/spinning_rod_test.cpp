@@ -11,7 +11,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
-#include <thinwall/experiments/spinning_rod/methods.hpp>
+#include <thinwall/experiments/models/rod_methods.hpp>
 
 #include "support/experiment_run.hpp"
 

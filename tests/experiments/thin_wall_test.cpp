@@ -14,8 +14,8 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
-#include <thinwall/experiments/tunneling_theory.hpp>
 
 #include "support/experiment_run.hpp"
 

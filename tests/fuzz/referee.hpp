@@ -3,14 +3,10 @@
 
 #include <limits>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <thinwall/experiments/accuracy/oracle.hpp>
+#include <thinwall/experiments/models/oracle.hpp>
 #include "fuzz/judge.hpp"
 
 namespace thinwall::fuzz {
-
-using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
 template <class R> class Referee {
  public:

@@ -1,5 +1,6 @@
 # Reads the includes of the tree under ROOT and names, as file:line, each that breaks the rules of the house:
-# discrete <- capsule <- swept <- experiments; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers, and
+# discrete <- capsule <- swept <- experiments, where lab, models and world stand below the experiments, none of which includes another, and
+# what the command line is made of above; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers, and
 # Boost.Multiprecision in swept/certified alone, which nothing but swept/certified.hpp may include; Highway and oneTBB in the
 # sources of swept/batch alone, which nothing but swept/batch.hpp may include.
 # What tests or benchmarks share among themselves they include by its path under tests/ or bench/, in quotes; the parts of python/ what
@@ -13,6 +14,17 @@ set(below_experiments discrete capsule swept experiments)
 set(below_tests ${below_experiments})
 set(below_bench ${below_experiments})
 set(below_python ${below_experiments})
+# Under experiments/: what a room may include beside itself. A room that is not named is an experiment.
+set(below_experiment lab models world scenes)
+set(below_lab "")
+set(below_models lab)
+set(below_world lab)
+set(below_scenes lab world)
+set(below_check lab)
+set(below_validate lab)
+set(below_advise lab models)
+set(below_explorer lab models advise)
+set(below_program lab models world scenes check validate advise explorer)
 set(libraries_discrete "^(Eigen|boost/geometry)/")  # Boost.Geometry: the R-tree of the broad phase
 set(libraries_capsule "^Eigen/")
 set(libraries_swept "^Eigen/")
@@ -54,6 +66,16 @@ foreach(folder IN ITEMS discrete capsule swept experiments tests bench python)
         if(NOT CMAKE_MATCH_1 IN_LIST below_${folder})
           list(JOIN below_${folder} ", " allowed)
           set(fault "${folder} may include only ${allowed}")
+        elseif("${file};${path}" MATCHES "^experiments/([a-z_]+)/[^;]*;thinwall/experiments/([a-z_]+)/")
+          set(room "${CMAKE_MATCH_1}")
+          set(other "${CMAKE_MATCH_2}")
+          set(below ${below_experiment})
+          if(DEFINED below_${room})
+            set(below ${below_${room}})
+          endif()
+          if(NOT other STREQUAL room AND NOT other IN_LIST below)
+            set(fault "what two experiments share lies in models/; ${room} may include of experiments only: ${below}")
+          endif()
         elseif(path MATCHES "^thinwall/swept/certified[./]" AND folder STREQUAL "swept" AND NOT certified)
           set(fault "swept is for everyone to link: what is certified needs Boost, and stands above it")
         elseif(path MATCHES "^thinwall/swept/batch[./]" AND folder STREQUAL "swept" AND NOT batch)

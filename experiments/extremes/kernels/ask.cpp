@@ -12,11 +12,11 @@
 #include <limits>
 #include <span>
 
-#include <thinwall/experiments/accuracy/draw.hpp>
 #include <thinwall/experiments/extremes/kernels/textbook.hpp>
 #include <thinwall/experiments/extremes/kernels/truth.hpp>
 #include <thinwall/experiments/extremes/model.hpp>
 #include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/models/queries.hpp>
 #include <thinwall/swept/methods.hpp>
 
 namespace thinwall {

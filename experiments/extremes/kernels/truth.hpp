@@ -9,8 +9,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 
-#include <thinwall/experiments/accuracy/model.hpp>
-#include <thinwall/experiments/accuracy/oracle.hpp>
+#include <thinwall/experiments/models/oracle.hpp>
 
 namespace thinwall {
 

@@ -11,7 +11,8 @@
 #include <type_traits>
 #include <utility>
 
-#include <thinwall/experiments/accuracy/model.hpp>
+#include <thinwall/experiments/models/oracle.hpp>
+#include <thinwall/experiments/models/queries.hpp>
 #include <thinwall/experiments/work_precision/model.hpp>
 #include <thinwall/experiments/work_precision/sets/turning_truth.hpp>
 #include <thinwall/swept/turning/turning_impact.hpp>

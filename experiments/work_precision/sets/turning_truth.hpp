@@ -12,7 +12,7 @@
 #include <concepts>
 #include <cstddef>
 
-#include <thinwall/experiments/accuracy/oracle.hpp>
+#include <thinwall/experiments/models/oracle.hpp>
 #include <thinwall/swept/turning.hpp>
 
 namespace thinwall::oracle {

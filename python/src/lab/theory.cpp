@@ -10,10 +10,10 @@
 
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/spinning_rod/model.hpp>
-#include <thinwall/experiments/thin_wall/methods.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/rods.hpp>
+#include <thinwall/experiments/models/shot_methods.hpp>
+#include <thinwall/experiments/models/shots.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 
 namespace thinwall {
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <thinwall/experiments/accuracy/oracle.hpp>
+#include <thinwall/experiments/models/oracle.hpp>
 
 #include "support/certified.hpp"
 #include "support/thorough.hpp"

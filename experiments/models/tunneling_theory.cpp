@@ -1,4 +1,4 @@
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 /// Every method of the method list, at every scalar, behind one interface: fire a shot at it, and ask what theory expects of it.
-/// A method added to the list appears here by itself; its theory is empty until given in methods.cpp.
+/// A method added to the list appears here by itself; its theory is empty until given in shot_methods.cpp.
 
 #include <array>
 #include <cstdint>
@@ -14,8 +14,8 @@
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/thin_wall/model.hpp>
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/shots.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
 

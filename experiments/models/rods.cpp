@@ -1,4 +1,4 @@
-#include <thinwall/experiments/spinning_rod/model.hpp>
+#include <thinwall/experiments/models/rods.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@ namespace thinwall {
 namespace {
 
 using Real = long double;
-constexpr Real pi = std::numbers::pi_v<Real>;
+constexpr Real half_turn = std::numbers::pi_v<Real>;  // [rad]
 
 /// In [-pi/2, pi/2], and as good: a rod that has turned half around is the same rod.
-Real without_half_turns(Real angle) { return std::remainder(angle, pi); }
+Real without_half_turns(Real angle) { return std::remainder(angle, half_turn); }
 
 /// The integral of  room - width cos(psi)  over psi from where that is positive to `end`; 0 if it is nowhere.
 double room_left(double room, double width, double end) {
@@ -113,7 +113,7 @@ double fastest_path(const RodMotion& m) { return m.step + m.spin * (m.half_lengt
 long double first_contact(long double lead, long double step, long double reach, long double angle, long double spin) {
   Real time = 0, phase = without_half_turns(angle);
   for (;;) {
-    const Real end = spin > 0 ? (pi / 2 - phase) / spin : std::numeric_limits<Real>::infinity();
+    const Real end = spin > 0 ? (half_turn / 2 - phase) / spin : std::numeric_limits<Real>::infinity();
     while (time < end) {
       const Real at = phase + spin * time;
       const Real gap = lead - step * time - reach * std::cos(at), slope = reach * spin * std::sin(at) - step;
@@ -124,7 +124,7 @@ long double first_contact(long double lead, long double step, long double reach,
       time = next;
     }
     time = end;
-    phase -= pi;
+    phase -= half_turn;
   }
 }
 

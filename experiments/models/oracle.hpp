@@ -15,8 +15,18 @@
 #include <utility>
 #include <vector>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/swept/moving.hpp>
+#include <thinwall/swept/toi.hpp>
+
+namespace thinwall {
+
+/// What the oracle is asked in.
+using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+}  // namespace thinwall
 
 namespace thinwall::oracle {
 
@@ -224,6 +234,15 @@ template <class R> Gap<R> gap_at(const Problem<R>& problem, const R& time, const
 }
 
 enum class Verdict { apart, hit, overlapping };
+
+inline bool agree(ToiStatus status, Verdict verdict) {
+  switch (status) {
+    case ToiStatus::apart: return verdict == Verdict::apart;
+    case ToiStatus::hit: return verdict == Verdict::hit;
+    case ToiStatus::overlapping: return verdict == Verdict::overlapping;
+    default: return false;
+  }
+}
 
 template <class R> struct Impact {
   Verdict verdict = Verdict::apart;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/factors.hpp>
-#include <thinwall/experiments/spinning_rod/model.hpp>
+#include <thinwall/experiments/models/rods.hpp>
 
 namespace thinwall {
 

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/thin_wall/model.hpp>
+#include <thinwall/experiments/models/shots.hpp>
 
 #include <algorithm>
 #include <array>

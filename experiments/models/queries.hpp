@@ -180,4 +180,14 @@ template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double 
   return query;
 }
 
+/// A method's kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
+template <class Method, Shape A, Shape B>
+Toi<typename A::Scalar> kernel_impact(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  if constexpr (A::rank < B::rank) {
+    return flipped(impact(method, b, a));
+  } else {
+    return impact(method, a, b);
+  }
+}
+
 }  // namespace thinwall

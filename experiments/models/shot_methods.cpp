@@ -1,4 +1,4 @@
-#include <thinwall/experiments/thin_wall/methods.hpp>
+#include <thinwall/experiments/models/shot_methods.hpp>
 
 #include <algorithm>
 #include <cmath>

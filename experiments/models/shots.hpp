@@ -12,7 +12,7 @@
 
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/tunneling_theory.hpp>
+#include <thinwall/experiments/models/tunneling_theory.hpp>
 
 namespace thinwall {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Every method of the list for shapes that turn, behind one interface: put a flight or a pass to it, count, and ask what theory
-/// expects. A method added to the list appears here by itself; its theory and its claims are empty until given in methods.cpp.
+/// expects. A method added to the list appears here by itself; its theory and its claims are empty until given in rod_methods.cpp.
 
 #include <functional>
 #include <optional>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/spinning_rod/model.hpp>
+#include <thinwall/experiments/models/rods.hpp>
 #include <thinwall/swept/toi.hpp>
 
 namespace thinwall {

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/spinning_rod/methods.hpp>
+#include <thinwall/experiments/models/rod_methods.hpp>
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace thinwall {
 
 namespace {
 
-using Theory = std::optional<double>;
+using Chance = std::optional<double>;
 
 double pose_theory(const RodFlight& c, int poses) {
   return rod_miss_probability(clearance(c), reach(c), step_length(c) / poses, radians(c.spin_deg) / poses);
@@ -21,17 +21,17 @@ double pose_theory(const BladePass& c, int poses) {
 
 // Which theory is whose, at the wall and at the post. A method that is not named here has none, and its cells say so.
 
-template <class Method> Theory rod_theory(const Method&, const auto&) { return {}; }
-Theory rod_theory(const EndOfStep<double>&, const auto& cell) { return pose_theory(cell, 1); }
-Theory rod_theory(const Substeps<double>& method, const auto& cell) { return pose_theory(cell, method.n); }
-Theory rod_theory(const LinearSweep<double>&, const RodFlight&) {
+template <class Method> Chance rod_theory(const Method&, const auto&) { return {}; }
+Chance rod_theory(const EndOfStep<double>&, const auto& cell) { return pose_theory(cell, 1); }
+Chance rod_theory(const Substeps<double>& method, const auto& cell) { return pose_theory(cell, method.n); }
+Chance rod_theory(const LinearSweep<double>&, const RodFlight&) {
   return 0;
 }  // the sweeps join, across the wall's middle
-Theory rod_theory(const LinearSweep<double>&, const BladePass& cell) {
+Chance rod_theory(const LinearSweep<double>&, const BladePass& cell) {
   return pose_theory(cell, 1);
 }  // no path: a pose
-Theory rod_theory(const Speculative<double>&, const auto&) { return 0; }
-Theory rod_theory(const ConservativeAdvancement<double>&, const auto&) { return 0; }
+Chance rod_theory(const Speculative<double>&, const auto&) { return 0; }
+Chance rod_theory(const ConservativeAdvancement<double>&, const auto&) { return 0; }
 
 template <class Method> RodClaims claims_of(const Method&) { return {}; }
 RodClaims claims_of(const EndOfStep<double>&) { return {.never_late = false, .most_gap = 0}; }
