@@ -163,46 +163,47 @@ const bool added = [] {
   using C = Capsule<D>;
   using T = Triangle<D>;
   const auto plain_ball_at_box = [](const auto& q) {
-    return plain::rounded_box(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius);
+    return textbook::rounded_box<D>(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius);
   };
   add_impact<S, A>("sphere_thin_wall", 14, &thin_wall_shots, flat_hit, plain_ball_at_box);
   add_impact<S, A>("sphere_aabb", 14, &any_shots<S, A>, flat_hit, plain_ball_at_box);
   add_impact<S, S>("sphere_sphere", 12, &any_shots<S, S>, round_hit, [](const auto& q) {
-    return plain::ball(between(q), motion(q), q.a.shape.radius + q.b.shape.radius);
+    return textbook::ball<D>(between(q), motion(q), q.a.shape.radius + q.b.shape.radius);
   });
   add_impact<A, A>("aabb_aabb", 7.5, &any_shots<A, A>, flat_hit, [](const auto& q) {
-    return plain::slabs(between(q), motion(q), q.a.shape.half_extents + q.b.shape.half_extents);
+    return textbook::slabs<D>(between(q), motion(q), q.a.shape.half_extents + q.b.shape.half_extents);
   });
   add_impact<S, C>("sphere_capsule", 25, &any_shots<S, C>, round_hit, [](const auto& q) {
-    return plain::rounded_segment(q.a.shape.center - q.b.shape.a, motion(q), q.b.shape.b - q.b.shape.a,
-                                  q.a.shape.radius + q.b.shape.radius);
+    return textbook::rounded_segment<D>(q.a.shape.center - q.b.shape.a, motion(q), q.b.shape.b - q.b.shape.a,
+                                        q.a.shape.radius + q.b.shape.radius);
   });
   add_impact<C, A>("capsule_aabb", 43, &any_shots<C, A>, flat_hit,
                    [](const auto& q) { return plain::bisection(q.a, q.b); });
   add_impact<C, C>("capsule_capsule", 35, &any_shots<C, C>, flat_hit,
                    [](const auto& q) { return plain::bisection(q.a, q.b); });
   add_impact<S, O>("sphere_obb", 18, &any_shots<S, O>, flat_hit, [](const auto& q) {
-    return plain::rounded_box(into<D>(q.b.shape, between(q)), into<D>(q.b.shape, motion(q)), q.b.shape.half_extents,
-                              q.a.shape.radius);
+    return textbook::rounded_box<D>(into<D>(q.b.shape, between(q)), into<D>(q.b.shape, motion(q)),
+                                    q.b.shape.half_extents, q.a.shape.radius);
   });
   add_impact<A, O>("aabb_obb", 36, &any_shots<A, O>, flat_hit,
-                   [](const auto& q) { return plain::boxes(to_obb(q.a.shape), q.b.shape, -motion(q)); });
+                   [](const auto& q) { return textbook::boxes<D>(to_obb(q.a.shape), q.b.shape, -motion(q)); });
   add_impact<O, O>("obb_obb", 55, &any_shots<O, O>, flat_hit,
-                   [](const auto& q) { return plain::boxes(q.a.shape, q.b.shape, -motion(q)); });
+                   [](const auto& q) { return textbook::boxes<D>(q.a.shape, q.b.shape, -motion(q)); });
   add_impact<S, T>("sphere_triangle", 50, &any_shots<S, T>, flat_hit, [](const auto& q) {
     return plain::rounded_triangle(q.a.shape.center, motion(q), q.b.shape, q.a.shape.radius);
   });
 
-  add_raycast<S>("sphere", 13, round_hit,
-                 [](const Ray<D>& r, const S& s) { return plain::ball(r.origin - s.center, r.direction, s.radius); });
+  add_raycast<S>("sphere", 13, round_hit, [](const Ray<D>& r, const S& s) {
+    return textbook::ball<D>(r.origin - s.center, r.direction, s.radius);
+  });
   add_raycast<A>("aabb", 10, flat_hit, [](const Ray<D>& r, const A& b) {
-    return plain::slabs(r.origin - b.center, r.direction, b.half_extents);
+    return textbook::slabs<D>(r.origin - b.center, r.direction, b.half_extents);
   });
   add_raycast<O>("obb", 12.5, flat_hit, [](const Ray<D>& r, const O& b) {
-    return plain::slabs(into<D>(b, r.origin - b.center), into(b, r.direction), b.half_extents);
+    return textbook::slabs<D>(into<D>(b, r.origin - b.center), into(b, r.direction), b.half_extents);
   });
   add_raycast<C>("capsule", 25, round_hit, [](const Ray<D>& r, const C& c) {
-    return plain::rounded_segment(r.origin - c.a, r.direction, c.b - c.a, c.radius);
+    return textbook::rounded_segment<D>(r.origin - c.a, r.direction, c.b - c.a, c.radius);
   });
   add_raycast<T>("triangle", 14, flat_hit,
                  [](const Ray<D>& r, const T& t) { return plain::triangle(r.origin, r.direction, t); });

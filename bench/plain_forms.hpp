@@ -1,99 +1,19 @@
 #pragma once
-/// The plain closed forms that everybody writes first: no checks, no rescaling, verdict and time only, infinity for a
-/// miss. They are what the library's speed is held against, and their errors are counted beside it.
+/// The plain forms that everybody writes first, beside those of the textbook: no checks, no rescaling, verdict and time only, infinity for
+/// a miss. They are what the library's speed is held against, and their errors are counted beside it.
 ///
-/// Sources: Ericson, Real-Time Collision Detection, 2005 (slabs 5.3.3, sphere and box 5.5.7, boxes 4.4.1); Moeller, Trumbore,
-/// "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Written from the formulas.
+/// Source: Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Written from the formulas.
 
 #include <algorithm>
 #include <cmath>
+
+#include <thinwall/experiments/models/textbook.hpp>
 
 #include "query_sets.hpp"
 
 namespace thinwall::bench::plain {
 
 using Vec = Vec3<double>;
-
-/// First t >= 0 with |p + v t| = R, by the quadratic formula.
-inline double ball(const Vec& p, const Vec& v, double R) {
-  const double a = v.dot(v), b = p.dot(v), c = p.dot(p) - R * R;
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0) return never;
-  const double t = (-b - std::sqrt(discriminant)) / a;
-  return t >= 0 ? t : never;
-}
-
-/// First t >= 0 with p + v t in the box [-h, h].
-inline double slabs(const Vec& p, const Vec& v, const Vec& h) {
-  double enter = 0, leave = never;
-  for (int i = 0; i < 3; ++i) {
-    const double inverse = 1 / v[i];
-    const double t1 = (-h[i] - p[i]) * inverse, t2 = (h[i] - p[i]) * inverse;
-    enter = std::max(enter, std::min(t1, t2));
-    leave = std::min(leave, std::max(t1, t2));
-  }
-  return enter <= leave ? enter : never;
-}
-
-/// First t >= 0 within R of the segment from 0 to d: the infinite cylinder, else the caps.
-inline double rounded_segment(const Vec& p, const Vec& v, const Vec& d, double R) {
-  const double dd = d.dot(d), dv = d.dot(v), dp = d.dot(p);
-  const double a = dd * v.dot(v) - dv * dv, b = dd * p.dot(v) - dp * dv, c = dd * p.dot(p) - dp * dp - R * R * dd;
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0) return never;
-  const double t = (-b - std::sqrt(discriminant)) / a;
-  const double along = dp + t * dv;
-  if (along > 0 && along < dd) return t >= 0 ? t : never;
-  return ball(along <= 0 ? p : Vec(p - d), v, R);
-}
-
-/// First t >= 0 within R of the box [-h, h]: the widened slabs, then the edges and corners where that point is beside them.
-inline double rounded_box(const Vec& p, const Vec& v, const Vec& h, double R) {
-  const double t = slabs(p, v, h + Vec::Constant(R));
-  if (t == never) return never;
-  const Vec x = p + v * t;
-  int outside = 0;
-  Vec corner;
-  for (int i = 0; i < 3; ++i) {
-    corner[i] = x[i] < 0 ? -h[i] : h[i];
-    outside += std::abs(x[i]) > h[i] ? 1 : 0;
-  }
-  if (outside < 2) return t;
-  double first = never;
-  for (int i = 0; i < 3; ++i) {
-    if (outside == 2 && std::abs(x[i]) > h[i]) continue;
-    Vec edge = Vec::Zero();
-    edge[i] = -2 * corner[i];
-    first = std::min(first, rounded_segment(p - corner, v, edge, R));
-  }
-  return first;
-}
-
-/// First t >= 0 at which two boxes, B moving by v, overlap on all fifteen axes.
-inline double boxes(const Obb<double>& a, const Obb<double>& b, const Vec& v) {
-  const Vec between = b.center - a.center;
-  double enter = 0, leave = never;
-  const auto axis = [&](const Vec& n) {
-    double reach = 0;
-    for (int k = 0; k < 3; ++k) {
-      reach += a.half_extents[k] * std::abs(n.dot(a.axes.col(k))) + b.half_extents[k] * std::abs(n.dot(b.axes.col(k)));
-    }
-    const double distance = between.dot(n), speed = v.dot(n);
-    if (std::abs(speed) < 1e-300) {
-      if (std::abs(distance) > reach) leave = -1;
-      return;
-    }
-    const double t1 = (-reach - distance) / speed, t2 = (reach - distance) / speed;
-    enter = std::max(enter, std::min(t1, t2));
-    leave = std::min(leave, std::max(t1, t2));
-  };
-  for (int i = 0; i < 3; ++i) {
-    axis(a.axes.col(i));
-    axis(b.axes.col(i));
-    for (int j = 0; j < 3; ++j) axis(cross<double>(a.axes.col(i), b.axes.col(j)));
-  }
-  return enter <= leave ? enter : never;
-}
 
 /// First t at which a ray meets a triangle.
 inline double triangle(const Vec& origin, const Vec& direction, const Triangle<double>& t) {
@@ -110,8 +30,9 @@ inline double rounded_triangle(const Vec& p, const Vec& v, const Triangle<double
   const Vec n = safe_unit(cross<double>(t.b - t.a, t.c - t.a));
   const double face = triangle(p - n * ((p - t.a).dot(n) < 0 ? -R : R), v, t);
   if (face != never) return face;
-  return std::min({rounded_segment(p - t.a, v, t.b - t.a, R), rounded_segment(p - t.b, v, t.c - t.b, R),
-                   rounded_segment(p - t.c, v, t.a - t.c, R)});
+  return std::min({textbook::rounded_segment<double>(p - t.a, v, t.b - t.a, R),
+                   textbook::rounded_segment<double>(p - t.b, v, t.c - t.b, R),
+                   textbook::rounded_segment<double>(p - t.c, v, t.a - t.c, R)});
 }
 
 /// First t in [0, 1] at which the separation of two shapes is no more than zero: sampled, then bisected.

@@ -12,7 +12,7 @@
 #include <limits>
 #include <span>
 
-#include <thinwall/experiments/extremes/kernels/textbook.hpp>
+#include <thinwall/experiments/extremes/kernels/foil.hpp>
 #include <thinwall/experiments/extremes/kernels/truth.hpp>
 #include <thinwall/experiments/extremes/model.hpp>
 #include <thinwall/experiments/lab/race.hpp>
