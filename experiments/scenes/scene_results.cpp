@@ -216,18 +216,20 @@ void append_edges(Series& series, const Window& w, const Scene& scene, const Vec
   }
 }
 
-/// The edges of what stays, where they are in the window; of what is round, those of the box that holds it.
-Series outlines(const Scene& scene, const Window& window) {
+/// The edges of what stays, where they are in the window; of what is round, those of the box that holds it. `drawn` are of how many there.
+Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
   Series series = {.label = "at rest", .mark = Mark::line, .color = "#888888"};
-  std::size_t drawn = 0;
   for (const Body& body : scene.bodies) {
-    if (!body.is_static || std::holds_alternative<std::monostate>(body.shape) || ++drawn > most_outlines) continue;
+    if (!body.is_static || std::holds_alternative<std::monostate>(body.shape)) continue;
+    if (drawn == most_outlines) break;
+    const std::size_t before = series.x.size();
     if (const auto* const turned = std::get_if<Obb<double>>(&body.shape)) {
       append_edges(series, window, scene, turned->center, turned->axes, turned->half_extents);
     } else {
       const Aabb<double> box = box_of(body);
       append_edges(series, window, scene, box.center, Mat3<double>::Identity(), box.half_extents);
     }
+    if (series.x.size() > before) ++drawn;
   }
   return series;
 }
@@ -236,7 +238,8 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   Panel panel;
   panel.x_label = std::string(1, static_cast<char>('x' + scene.across)) + " [m]";
   panel.y_label = std::string(1, static_cast<char>('x' + scene.up)) + " [m]";
-  panel.series.push_back(outlines(scene, window_of(scene, playback)));
+  std::size_t outlined = 0;
+  panel.series.push_back(outlines(scene, window_of(scene, playback), outlined));
   if (panel.series.back().x.empty()) panel.series.clear();
   const bool few = playback.tracks.size() <= most_named;
   std::size_t points = 0;
@@ -259,8 +262,9 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
       stride == 1 ? "at the end of each step" : fmt::format("every {} steps", grouped_text(stride));
   return {.name = "tracks",
           .title = "Where the bodies were " + when,
-          .caption = fmt::format("The center of {}, {}; what stays, as the box that holds it, cut off at the edge.",
-                                 who, when),
+          .caption =
+              fmt::format("The center of {}, {}; {} stays, as the box that holds it, cut off at the edge.", who, when,
+                          outlined == most_outlines ? fmt::format("the first {} of what", most_outlines) : "what"),
           .panels = {std::move(panel)}};
 }
 

@@ -228,7 +228,9 @@ std::optional<PublishedQuery> QueryFile::next() {
 
 std::vector<fs::path> query_files(const fs::path& folder) {
   std::error_code error;
-  if (!fs::exists(folder, error)) throw UsageError(shown(folder) + ": there is no such folder");
+  if (!fs::exists(folder, error)) {
+    throw UsageError(shown(folder) + (error ? ": cannot be read: " + error.message() : ": there is no such folder"));
+  }
   if (!fs::is_directory(folder, error)) throw UsageError(shown(folder) + ": is not a folder");
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {

@@ -86,7 +86,11 @@ def test_by_hand() -> None:
     ]:
         with pytest.raises(ValueError, match=said):
             call()
-    for call in (lambda: world.step("1"), lambda: world.step(True), lambda: world.step(steps=1.5), lambda: world.remove(None)):
+    masked = np.ma.masked_less([-1.0, 0, 0], 0)
+    for call in (
+        lambda: world.step("1"), lambda: world.step(True), lambda: world.step(steps=1.5), lambda: world.remove(None),
+        lambda: world.set_velocity(1, masked), lambda: world.move(1, masked),
+    ):
         with pytest.raises(TypeError, match="is not allowed"):
             call()
     twins = tw.world({"body": [{"name": "twin", "shape": "none"}, {"name": "twin", "shape": "none"}]})

@@ -280,6 +280,8 @@ def _seconds(argument: str, value: float) -> float:
 
 
 def _vector(argument: str, value: npt.ArrayLike) -> Sequence[float]:
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"{argument}: a masked array is not allowed; one without a mask")
     array = np.asarray(value)
     if array.shape != (3,) or array.dtype.kind not in "iuf":
         raise ValueError(f"{argument}: an array of shape {array.shape} and type {array.dtype} is not allowed; three numbers")

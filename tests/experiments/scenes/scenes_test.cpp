@@ -364,6 +364,18 @@ TEST(SceneRun, says_what_it_left_out) {
       "The center of 40 of the 42 bodies that move, evenly spread, every 2 steps; "));
 }
 
+/// 500 boxes far from where anything moves, and then the wall, which is drawn all the same.
+TEST(SceneRun, what_lies_outside_the_picture_takes_no_outline) {
+  const std::string far =
+      "[[body]]\nshape = 'box'\nmotion = 'static'\nat = [0, 100, 0]\nsize = [1, 1, 1]\ncopies = [500, 1, 1]\n"
+      "every = [2, 0, 0]\n";
+  std::string text = bullet_text();
+  text.insert(text.find("[[body]]"), far);
+  const Outcome with = outcome_of(scene_experiment(), text), without = outcome_of(scene_experiment(), bullet_text());
+  EXPECT_EQ(with.figures[0].panels[0].series[0].x, without.figures[0].panels[0].series[0].x);
+  EXPECT_TRUE(holds(with.figures[0].caption, "; what stays, as the box that holds it"));
+}
+
 /// A policy that claims to miss nothing, and did.
 TEST(SceneRun, a_broken_claim_fails_the_self_test) {
   const Scene scene = scene_from(bullet_text());

@@ -139,6 +139,7 @@ TEST_F(ValidateTest, folders_without_queries_are_refused) {
   const std::string none = folder / "none", empty = folder.path().string();
   EXPECT_EQ(refusal(call_validate(none)), none + ": there is no such folder\n");
   EXPECT_EQ(refusal(call_validate(empty)), empty + ": has no CSV files of queries\n");
+  EXPECT_TRUE(holds(refusal(call_validate(std::string(300, 'a'))), ": cannot be read: File name too long\n"));
   const std::string stray = write("a.csv", falling("1,2", 1));
   EXPECT_EQ(refusal(call_validate(stray)), stray + ": is not a folder\n");
   EXPECT_TRUE(holds(refusal(call_validate(empty)), stray + ": is in no folder named"));
