@@ -187,12 +187,12 @@ Plot plot_of(const std::vector<Point>& points, std::string x_label, std::string 
 /// The headline: measured and predicted limits of a spring that holds both ways.
 Figure stability_figure(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
-  Figure figure = {
-      .name = "stability",
-      .title = "Which steps a spring and damper can take",
-      .caption = fmt::format("Points: what the steps of the map do, at {:g} N/m. Bars, thinner than the line: "
-                             "the measured limit at every stiffness from {:g} to {:g} N/m.",
-                             plan.stiffness.front(), plan.stiffness.front(), plan.stiffest())};
+  Figure figure = {.name = "stability",
+                   .title = "Which steps a spring and damper can take",
+                   .caption = fmt::format(
+                       "Circles and squares: what the steps of the map do, at {:g} N/m. Triangles: the measured limit "
+                       "at every stiffness from {:g} to {:g} N/m, with bars thinner than the line.",
+                       plan.stiffness.front(), plan.stiffness.front(), plan.stiffest())};
   const std::vector<MapStep> map = map_of(plan, results.limits);
   for (const Scheme scheme : all_schemes) {
     std::vector<Point> points;
