@@ -51,6 +51,13 @@ bool touches_for_certain(const TurningPair<double>& pair, const Turning<A>& a, c
   return false;
 }
 
+/// True if a plane that stands still parts the shapes at the start, beyond what rounding could undo.
+template <Shape A, Shape B> bool is_parted(const TurningPair<double>& pair, const Turning<A>& a, const Turning<B>& b) {
+  const TurningInstant<double> start = instant(pair, 0.0);
+  const auto plane = plane_riding(pair, start, Rides::world, separation_unchecked(a.shape, b.shape).normal);
+  return first_root(gap_ahead(pair, plane, start, 0.0).bound, 0.0).value > 0;
+}
+
 /// certified_time_of_impact() of valid shapes whose lengths have squares, the shape of later rank first.
 template <Shape A, Shape B> CertifiedToi certified_in_range(const Turning<A>& a, const Turning<B>& b) {
   const TurningPair<double> pair(a, b, 0);
@@ -60,6 +67,8 @@ template <Shape A, Shape B> CertifiedToi certified_in_range(const Turning<A>& a,
     proven.upper = 0;
     return proven;
   }
+  if (pair.speed == 0 && pair.first <= pair.last && !is_parted(pair, a, b))
+    return proven;  // at rest advancement only looks
   constexpr double finest = std::numeric_limits<double>::epsilon();
   const Toi<double> toi = impact(ConservativeAdvancement<double>{finest, 256}, a, b);
   if (toi.status == ToiStatus::overlapping) return proven;

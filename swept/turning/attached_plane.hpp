@@ -25,14 +25,17 @@ template <Scalar S> struct AttachedPlane {
 };
 
 /// A bound on |(p . q)''| where p and q turn with one body each, by those angles a step: p and q are their lengths, p_across and q_across what of
-/// them lies across their axes. Two bounds: differentiated twice; and seen from p, where q turns at the difference of the rotations.
+/// them lies across their axes. Two bounds: differentiated twice, where only what is across the other's axis counts; and seen from p, where q
+/// turns at the difference of the rotations.
 template <Scalar S>
 S product_curvature(const TurningPair<S>& pair, const S& angle_p, const S& angle_q, const S& p, const S& p_across,
                     const S& q, const S& q_across) {
   if (angle_p == S(0)) return angle_q * angle_q * p * q_across;
   if (angle_q == S(0)) return angle_p * angle_p * p_across * q;
-  const S apart = angle_p * angle_p * p_across * q + S(2) * angle_p * angle_q * p_across * q_across +
-                  angle_q * angle_q * p * q_across;
+  const S p_seen = std::min(p, S(p * pair.axes_sine + p_across)),
+          q_seen = std::min(q, S(q * pair.axes_sine + q_across));
+  const S apart = angle_p * angle_p * p_across * q_seen + S(2) * angle_p * angle_q * p_across * q_across +
+                  angle_q * angle_q * p_seen * q_across;
   return std::min(apart, S(p * q * pair.cross_rate));
 }
 

@@ -2,12 +2,14 @@
 /// Which plane to attach, seen from the closest points: along a face of either, square to an edge of each, along an edge, or none.
 
 #include <array>
+#include <limits>
 
 #include <thinwall/swept/turning/attached_plane.hpp>
 
 namespace thinwall {
 
-/// The edges of a core that lie square to a normal, to 1e-6: two of them span a face. One without length bounds nothing.
+/// The edges of a core that lie square to a normal, to 1e-6: two of them span a face. One without length bounds nothing, and of a triangle
+/// that is a segment one is enough.
 template <Scalar S> struct SquareEdges {
   std::array<Vec3<S>, 3> edge;  ///< [length] as it is now
   int count = 0;
@@ -18,7 +20,11 @@ template <Scalar S> struct SquareEdges {
       const auto next = static_cast<std::size_t>((k + 1) % 3), here = static_cast<std::size_t>(k);
       const Vec3<S> along = core.corners ? Vec3<S>(core.v[next] - core.v[here]) : core.v[here];
       const S length = along.squaredNorm(), on = normal.dot(along);
-      if (length > S(0) && on * on <= square_sine * length) edge[static_cast<std::size_t>(count++)] = along;
+      if (!(length > S(0) && on * on <= square_sine * length)) continue;
+      if (core.corners && count > 0 &&
+          cross(edge[0], along).squaredNorm() <= square_sine * edge[0].squaredNorm() * length)
+        continue;
+      edge[static_cast<std::size_t>(count++)] = along;
     }
   }
   /// The normal made square to what is nearly so: one given to rounding would turn away from its face.
@@ -42,8 +48,14 @@ AttachedPlane<S> plane_from(const TurningPair<S>& pair, const TurningInstant<S>&
     if (product.squaredNorm() > least_sine * least_sine)
       return plane_of_edges<S>(pair, now, a, product.dot(normal) < S(0) ? Vec3<S>(-b) : b);
   }
-  if (of_a.count > 0 && of_a.count >= of_b.count) return plane_riding(pair, now, Rides::a, of_a.snapped(normal));
-  if (of_b.count > 0) return plane_riding(pair, now, Rides::b, of_b.snapped(normal));
+  // What rolls about its own core takes a plane away from it: one that stands still stays as near, and bends nothing.
+  const auto with = [](const TurningBody<S>& body, Rides rides) {
+    const bool rolls = body.turns() && body.off_axis <= S(16) * std::numeric_limits<S>::epsilon() * body.far;
+    return rolls ? Rides::world : rides;
+  };
+  if (of_a.count > 0 && of_a.count >= of_b.count)
+    return plane_riding(pair, now, with(pair.a, Rides::a), of_a.snapped(normal));
+  if (of_b.count > 0) return plane_riding(pair, now, with(pair.b, Rides::b), of_b.snapped(normal));
   return plane_riding(pair, now, Rides::world, normal);
 }
 

@@ -60,10 +60,10 @@ TurningInstant<S> ride(const TurningPair<S>& pair, const AttachedPlane<S>& plane
 
 /// Claims: never late, never misses, rounding included (docs/turning.md), whatever the angles.
 /// Error: early by at most what it takes to close a gap of `tolerance` times the speed bound |path| + sum of angle times the farthest
-/// point's distance from the axis; a miss nearer than that may be a hit, and so may one that rounding hides: of shapes without a radius half
-/// the digits of their size.
-/// Degenerate: no motion is `apart`, or `overlapping`; very many turns are `gave_up`, or a hit that rounding hides; a rotation
-/// whose length is out of range may be `gave_up`.
+/// point's distance from the axis; a miss nearer than that may be a hit, and so may one that is hidden: by rounding, of
+/// shapes without a radius half the digits of their size; and by a box's axes, as far as they are from orthonormal.
+/// Degenerate: no motion is `apart`, or `overlapping`, to the roundings of a test at rest; very many turns are `gave_up`, or a hit that
+/// rounding hides; a rotation whose length is out of range may be `gave_up`.
 /// Source: derived in docs/turning.md; the idea of advancement is Mirtich's, 1996.
 template <Scalar S, Shape A, Shape B>
   requires ServedPair<A, B>
@@ -105,7 +105,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
     }
     if (next.time < T(1) && pair.turn > many_turns) {
       const T until = orbits_apart_until(pair, now, closest.normal);
-      if (until > next.time) next = instant(pair, std::min(until, T(1)));
+      if (until > next.time) next = instant(pair, until >= pair.last ? T(1) : until);  // and free ever after
     }
     if (next.time >= T(1)) return {ToiStatus::apart, k};
     const T gained = next.time - now.time;

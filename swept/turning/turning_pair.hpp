@@ -151,6 +151,13 @@ template <Scalar S> struct TurningBody {
   }
 };
 
+/// [1] How far a box's axes are from orthonormal: closest points take them to be, planes take them as they are.
+template <Scalar S> S untruth(const Obb<S>& box) {
+  const Mat3<S> gram = box.axes.transpose() * box.axes;
+  return (gram - Mat3<S>::Identity()).cwiseAbs().sum();
+}
+template <Shape A> typename A::Scalar untruth(const A&) { return 0; }
+
 /// Both, and what every bound between them is made of.
 template <Scalar S> struct TurningPair {
   TurningBody<S> a, b;
@@ -158,9 +165,10 @@ template <Scalar S> struct TurningPair {
   S reach;                ///< [length] both radii and the minimal separation
   S turn;                 ///< [rad] both angles
   S cross_rate = 0;       ///< [rad^2] |u x v| + |u - v|^2 of the rotations u and v, where both are any
+  S axes_sine = 0;        ///< [1] between their axes
   S speed;                ///< [length] per step: no two points near each other faster
   S margin;               ///< [length] what rounding may take from a gap (docs/turning.md, "Rounding")
-  S hidden;  ///< [length] a gap that rounding may hide: without a radius the direction across it is lost before
+  S hidden;  ///< [length] a gap that roundings and untrue axes may hide; without a radius the direction across it is lost before
   S first = 0, last = 1;  ///< [1] only between them do the balls meet within which the shapes turn; first > last: never
 
   template <Shape A, Shape B>
@@ -177,11 +185,14 @@ template <Scalar S> struct TurningPair {
       size += body->center.cwiseAbs().sum() + body->path.cwiseAbs().sum();
       for (const Vec3<S>& v : body->core) size += v.cwiseAbs().sum();
     }
-    if (a.turns() && b.turns())
+    if (a.turns() && b.turns()) {
       cross_rate = norm<S>(cross(a.rotation, b.rotation)) + (a.rotation - b.rotation).squaredNorm();
+      axes_sine = across(a.axis, b.axis);
+    }
     const S u = std::numeric_limits<S>::epsilon() / 2;
     margin = S(64) * u * (S(1) + turn / S(4)) * size;
-    hidden = reach > S(0) ? margin : std::max(margin, S(half_digits<S>() * size));
+    hidden = std::max(S(S(32) * margin), reach > S(0) ? S(0) : S(half_digits<S>() * size));
+    hidden += S(2) * (untruth(of_a.shape) + untruth(of_b.shape)) * (a.far + b.far + reach);
     when_balls_meet();
   }
 

@@ -276,6 +276,89 @@ TEST(TurningShapes, axes_that_are_not_quite_unit_make_nothing_late) {
   for (const double off : {0x1p-33, 0x1p-40, -0x1p-33}) check_long_axes(1 + off);
 }
 
+/// Questions that looks are easily wasted on: answered, in few.
+template <class A, class B>
+Toi<typename A::Scalar> few_looks(const Turning<A>& a, const Turning<B>& b,
+                                  const ConservativeAdvancement<typename A::Scalar>& method = {}) {
+  const auto toi = time_of_impact(method, a, b);
+  EXPECT_EQ(toi.status, time_of_impact(method, b, a).status);
+  EXPECT_LE(toi.evaluations, 12);
+  return toi;
+}
+
+TEST(TurningShapes, wires_that_cross_at_a_small_angle_are_seen_at_the_finest_tolerance) {
+  for (const double radius : {1e-4, 1e-3, 1e-2}) {
+    const Turning<Capsule<double>> a{{V(-0.5, 0, 0), V(0.5, 0, 0), radius}, V::Zero(), V(0, 0.001, 0)};
+    const Turning<Capsule<double>> b{{V(-0.5, -0.03, 0.004 + 2 * radius), V(0.5, 0.03, 0.004 + 2 * radius), radius},
+                                     V(0.003, 0.001, -0.01),
+                                     V(0.0005, 0, -0.001)};
+    EXPECT_EQ(few_looks(a, b, {0x1p-40}).status, ToiStatus::hit) << radius;
+  }
+}
+
+TEST(TurningShapes, untrue_axes_hide_no_contact) {
+  const auto ball_at_box = [](auto off, double start, double path, double spin) {
+    using S = decltype(off);
+    Mat3<S> axes = Mat3<S>::Identity();
+    axes(0, 0) += off;
+    const Vec3<S> half = Vec3<S>::Constant(S(0.5)), none = Vec3<S>::Zero();
+    const Turning<Obb<S>> box{{none, half, axes}, none, {S(0), S(0), S(spin)}};
+    return few_looks(box, Turning<Sphere<S>>{{{S(start), S(0), S(0)}, S(0.1)}, {S(-path), S(0), S(0)}, none});
+  };
+  EXPECT_EQ(ball_at_box(2e-10, 0.6005, 0.001, 0.001).status, ToiStatus::hit);
+  EXPECT_EQ(ball_at_box(5e-5F, 0.605, 0.01, 0.01).status, ToiStatus::hit);
+}
+
+TEST(TurningShapes, what_rolls_along_touches_nothing) {
+  for (const double gap : {1e-4, 1e-5, 1e-7}) {
+    const Turning<Capsule<double>> rod{{V(0, -1, 0), V(0, 1, 0), 0.375}, V::Zero(), V(0, 2.9, 0)};
+    const Turning<Sphere<double>> ball{{V(0.625 + gap, 0, 0), 0.25}, V(0, 0.5, 0), V::Zero()};
+    EXPECT_EQ(few_looks(rod, ball).status, ToiStatus::apart) << gap;
+  }
+}
+
+TEST(TurningShapes, what_spins_on_another_about_one_axis_touches_nothing) {
+  const Mat3<double> upright = Mat3<double>::Identity();
+  for (const auto& [gap, spin] : {std::pair(1e-6, 0.5), {1e-5, 1.5}, {1e-4, 5.5}, {1e-4, 1000.0}}) {
+    const Turning<Obb<double>> below{{V(0, 0, 0), V(0.75, 0.25, 1), upright}, V(0.2, 0, 0.5), V(0, -spin, 0)};
+    const Turning<Obb<double>> above{{V(0, 0.5 + gap, 0.25), V(0.5, 0.25, 1), upright}, V::Zero(), V(0, 0.45, 0)};
+    EXPECT_EQ(few_looks(below, above).status, ToiStatus::apart) << gap << " " << spin;
+  }
+}
+
+TEST(TurningShapes, a_triangle_on_a_line_is_as_good_as_its_segment) {
+  const Turning<Capsule<double>> rod{
+      {V(-0.375, 0.75, -0.625), V(1.125, -0.5, -1.125), 0.0078125}, V(-0.875, -0.25, 1.125), V(0.125, 0.625, -2.75)};
+  const V tip(0.875, -0.25, 0.375), path = V::Zero(), spin(1, -1.25, -1);
+  const Toi<double> truth = few_looks(rod, Turning<Capsule<double>>{{-tip, tip, 0}, path, spin});
+  const Toi<double> toi = few_looks(rod, Turning<Triangle<double>>{{-tip, tip, {0, 0, 0}}, path, spin});
+  EXPECT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_NEAR(toi.time, truth.time, 1e-8);
+  for (const V& third : {V(-tip), V(tip / 3)})  // about another center
+    EXPECT_NE(few_looks(rod, Turning<Triangle<double>>{{-tip, tip, third}, path, spin}).status, ToiStatus::gave_up);
+}
+
+TEST(TurningShapes, what_has_flown_by_is_not_waited_for) {
+  const Turning<Capsule<double>> a{{V(-0.5, 0, 0), V(0.5, 0, 0), 0.0625}, V::Zero(), V(1.25, 8.625, 10)};
+  const Turning<Capsule<double>> b{
+      {V(-0.125, -0.125, 2), V(-0.125, 0.875, 2), 0.0625}, V(3.5, 1.25, -6.75), V(70, -59.375, -45.375)};
+  EXPECT_EQ(time_of_impact(a, b).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(b, a).status, ToiStatus::apart);
+}
+
+/// At rest a rounded test is no proof: balls that overlap by 2^-106, and boxes by 2^-33 of axes that are not quite unit.
+TEST(CertifiedTurning, proves_nothing_of_what_rests_within_rounding) {
+  const Turning<Sphere<double>> large{{V(0, 0, 0), 1}, V::Zero(), V::Zero()};
+  const Turning<Sphere<double>> small{{V(1, 0x1p-26, 0), 0x1p-53}, V::Zero(), V(0, 0, 1)};
+  EXPECT_NE(certified_time_of_impact(large, small).verdict, ToiStatus::apart);
+  Turning<Obb<double>> a{{V(0, 0, 0), V(1, 1, 1), Mat3<double>::Identity()}, V::Zero(), V::Zero()}, b = a;
+  a.shape.axes(0, 0) = 1 + 0x1p-32;
+  b.shape.center[0] = 2 + 0x1p-33;
+  EXPECT_NE(certified_time_of_impact(a, b).verdict, ToiStatus::apart);
+  b.shape.center[0] = 2.1;
+  EXPECT_EQ(certified_time_of_impact(a, b).verdict, ToiStatus::apart);
+}
+
 template <class A, class B> void check_certified(int& proven, int& asked) {
   PortableDraw draw(7);
   const auto count = static_cast<unsigned>(thorough(slow_build ? 100 : 1'000));
