@@ -55,7 +55,7 @@ std::string experiment_named_in(const std::string& text, const std::string& file
   if (settings.has("scene")) return "scene";
   throw UsageError(
       fmt::format("{}:1: key '{}': missing, and so is 'scene': one of them says what the file is, as in {} = \"{}\" or "
-                  "scene = \"my scene\"; {}",
+                  "scene = \"my_scene\"; {}",
                   one_line(file), key, key, names.front(), spelling_hint("", names)));
 }
 

@@ -51,7 +51,8 @@ void check_keys(const Settings& body, const std::string& shape) {
   for (const ShapeKey& k :
        {ShapeKey{"radius", round, round}, ShapeKey{"size", box, box},
         ShapeKey{"turn_deg", shape == "turned_box", false}, ShapeKey{"height", shape == "capsule", shape == "capsule"},
-        ShapeKey{"axis", shape == "capsule", false}}) {
+        ShapeKey{"axis", shape == "capsule", false}, ShapeKey{"at", shape != "none", false},
+        ShapeKey{"every", shape != "none", false}, ShapeKey{"jitter", shape != "none", false}}) {
     if (k.needed) body.require(k.key, fmt::format("a {} needs it", shape));
     if (!k.fits && body.given(k.key)) body.complain(k.key, fmt::format("it is not of shape '{}'", shape));
   }

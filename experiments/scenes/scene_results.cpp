@@ -216,12 +216,12 @@ void append_edges(Series& series, const Window& w, const Scene& scene, const Vec
   }
 }
 
-/// The edges of what stays, where they are in the window; of what is round, those of the box that holds it. `drawn` are of how many there.
+/// The edges of what stays, where they are in the window; of what is round, those of the box that holds it. `drawn` counts them, one more than
+/// are drawn where that is not all.
 Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
   Series series = {.label = "at rest", .mark = Mark::line, .color = "#888888"};
   for (const Body& body : scene.bodies) {
     if (!body.is_static || std::holds_alternative<std::monostate>(body.shape)) continue;
-    if (drawn == most_outlines) break;
     const std::size_t before = series.x.size();
     if (const auto* const turned = std::get_if<Obb<double>>(&body.shape)) {
       append_edges(series, window, scene, turned->center, turned->axes, turned->half_extents);
@@ -229,7 +229,10 @@ Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
       const Aabb<double> box = box_of(body);
       append_edges(series, window, scene, box.center, Mat3<double>::Identity(), box.half_extents);
     }
-    if (series.x.size() > before) ++drawn;
+    if (series.x.size() == before || ++drawn <= most_outlines) continue;
+    series.x.resize(before);  // one too many
+    series.y.resize(before);
+    break;
   }
   return series;
 }
@@ -264,7 +267,7 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
           .title = "Where the bodies were " + when,
           .caption =
               fmt::format("The center of {}, {}; {} stays, as the box that holds it, cut off at the edge.", who, when,
-                          outlined == most_outlines ? fmt::format("the first {} of what", most_outlines) : "what"),
+                          outlined > most_outlines ? fmt::format("the first {} of what", most_outlines) : "what"),
           .panels = {std::move(panel)}};
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <set>
 #include <span>
@@ -16,6 +17,18 @@
 #include <thinwall/swept/swept_volume.hpp>
 
 namespace thinwall {
+
+// ---- How thin a body is.
+
+inline double least_half_width(const Sphere<double>& s) { return s.radius; }
+inline double least_half_width(const Aabb<double>& b) { return b.half_extents.minCoeff(); }
+inline double least_half_width(const Obb<double>& b) { return b.half_extents.minCoeff(); }
+inline double least_half_width(const Capsule<double>& c) { return c.radius; }
+
+/// [m] Of what has no shape, infinity.
+inline double least_half_width(const AnyShape& shape) {
+  return of_shape(shape, std::numeric_limits<double>::infinity(), [](const auto& s) { return least_half_width(s); });
+}
 
 // ---- What two bodies in contact do to each other: an impulse along the normal, with restitution, and no friction.
 

@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 #include <queue>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <thinwall/experiments/world/pairs.hpp>
@@ -85,7 +87,7 @@ class PhaseClock {
 void require_answers(std::span<const Body> bodies, std::span<const Touch> touches);
 
 /// Every contact is told. One with a body that an impulse can turn is answered, which takes one of the `max_events` of that body, or
-/// ends its motion: a step of n bodies has at most n (max_events + 1) answers.
+/// ends its motion: a step of n bodies has at most n (max_events + 2) answers.
 class EventLoop {
  public:
   struct Scene {
@@ -128,6 +130,9 @@ class EventLoop {
   bool is_on_course(const Event& event) const;
   bool was_on_course(const Event& event) const;
   bool press(const Touch& touch);
+  bool may_sink(const Touch& touch);
+  void tell(const Touch& touch, std::vector<Touch>& processed);
+  void keep_no_more_speed(std::uint32_t which);
   double closing(const Touch& touch, bool in_effect);
   void look_later(const Touch& touch, double time);
   void look(const Event& event, StepReport& counts);
@@ -149,7 +154,9 @@ class EventLoop {
   std::vector<BodyMotion>& motions_;
   std::vector<Spin>& spins_;
   std::priority_queue<Event> queue_;
-  std::vector<bool> changed_;  // by the contacts at the start
+  std::vector<bool> changed_;                               // by the contacts at the start
+  std::vector<Touch> contacts_;                             // at the start
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told_;  // of these, once one is told again
   std::vector<ProxyPair> pairs_;
   std::vector<Touch> touches_;
 };

@@ -8,10 +8,11 @@
 namespace thinwall {
 namespace {
 
-/// What touches at the start of the step has been told then.
-void tell(const Touch& touch, std::vector<Touch>& processed) {
-  if (!touch.at_start || touch.time > 0) processed.push_back(touch);
-}
+/// [1] Of the lesser least half width of two: how far they may sink into each other in a step where events do not suffice.
+constexpr double most_sinking = 0x1p-6;
+
+/// [1] Of the step.
+constexpr double hardly_any_time = 0x1p-10;
 
 /// Of a body, in a step: then it waits. Two that touch and roll are looked at a few dozen times.
 constexpr int most_looks = 1024;
@@ -45,8 +46,32 @@ void EventLoop::run(std::span<const Touch> found, std::vector<Touch>& processed,
     }
   }
   for (std::uint32_t i = 0; i < motions_.size(); ++i) {
-    if (can_move(scene_.bodies[i])) advance(i, 1);
+    if (!can_move(scene_.bodies[i])) continue;
+    if (motions_[i].waiting && motions_[i].anchor < hardly_any_time) keep_no_more_speed(i);
+    advance(i, 1);
   }
+}
+
+/// What touches at the start of the step is told once, be it found then or in what follows in that instant.
+void EventLoop::tell(const Touch& touch, std::vector<Touch>& processed) {
+  if (touch.at_start && touch.time == 0) {
+    if (told_.empty())
+      for (const Touch& told : contacts_) told_.insert({told.first, told.second});
+    if (!told_.insert({touch.first, touch.second}).second) return;
+  }
+  processed.push_back(touch);
+}
+
+/// A body that waits for all of the step, or nearly, has not fallen: it would gain speed for as long as it waits.
+void EventLoop::keep_no_more_speed(std::uint32_t which) {
+  const Body& body = scene_.bodies[which];
+  if (body.restitution == 1) return;  // what it has it was given
+  const auto keep = [](Vec3<double>& now, const Vec3<double>& before) {
+    const double speed = safe_norm(now), most = safe_norm(before);
+    if (speed > most) now *= most / speed;
+  };
+  keep(motions_[which].velocity, body.velocity);
+  if (Spin* const spin = mover(which).spin) keep(spin->velocity, body.angular_velocity);
 }
 
 /// True if it may move in the rest of the step, be it driven.
@@ -95,15 +120,14 @@ void EventLoop::advance(std::uint32_t which, double time) {
 
 /// Contacts at the start take no event: a body that rests on another is free to slide and to hit.
 void EventLoop::resolve_start(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts) {
-  std::vector<Touch> contacts;
   for (const Touch& touch : found) {
-    if (touch.at_start) contacts.push_back(touch);
+    if (touch.at_start) contacts_.push_back(touch);
   }
-  processed.insert(processed.end(), contacts.begin(), contacts.end());
+  processed.insert(processed.end(), contacts_.begin(), contacts_.end());
   bool any = true;
   for (int round = 0; round < scene_.contact_rounds && any; ++round) {
     any = false;
-    for (const Touch& touch : contacts) {
+    for (const Touch& touch : contacts_) {
       const std::uint32_t a = touch.first, b = touch.second;
       if (!bounce(mover(a), mover(b), touch.normal, touch.point)) continue;
       any = true;
@@ -152,8 +176,20 @@ void EventLoop::place(std::uint32_t which, double time) {
 /// Bodies that touch and do not approach never meet again on straight paths: they are convex, and the plane of contact goes
 /// on parting them. Those that turn may.
 void EventLoop::schedule(const Touch& touch) {
-  if (touch.at_start && !press(touch)) return look_later(touch, touch.time);
+  if (touch.at_start && (!press(touch) || may_sink(touch))) return look_later(touch, touch.time);
   queue_.push({touch, motions_[touch.first].version, motions_[touch.second].version, false});
+}
+
+/// True of a contact at the start with a body that has had all of its events there, if the two sink in by so little that the correction at the
+/// end of the step undoes it: or what rests on another would wait for good.
+bool EventLoop::may_sink(const Touch& touch) {
+  const auto is_spent = [&](std::uint32_t which) {
+    return is_moved_by_impulses(scene_.bodies[which]) && motions_[which].events >= scene_.max_events;
+  };
+  if (touch.time > 0 || (!is_spent(touch.first) && !is_spent(touch.second))) return false;
+  const double least =
+      std::min(least_half_width(scene_.bodies[touch.first].shape), least_half_width(scene_.bodies[touch.second].shape));
+  return closing(touch, true) * scene_.dt <= most_sinking * least;
 }
 
 // ---- Contacts that go on: two that touch, do not approach, and turn. What parts them now may press them together in a moment, at
@@ -220,8 +256,9 @@ void EventLoop::answer(const Touch& touch, Answer how, StepReport& counts) {
     if (!changes[k]) continue;  // it waits already: what is known of it stays
     ++motion.version;
     if (how == Answer::take_event) ++motion.events;
-    const bool is_behind_one_that_waits = !bounces;
-    if (is_behind_one_that_waits || how == Answer::wait || motion.events >= scene_.max_events) motion.waiting = true;
+    const bool is_behind_one_that_waits = !bounces, is_at_start = touch.at_start && touch.time == 0;
+    const int most = scene_.max_events + (is_at_start ? 1 : 0);  // what is left there may sink
+    if (is_behind_one_that_waits || how == Answer::wait || motion.events >= most) motion.waiting = true;
   }
   for (int k = 0; k < 2; ++k) {
     if (changes[k]) change_course(ends[k]);

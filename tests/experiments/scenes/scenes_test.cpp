@@ -316,6 +316,24 @@ TEST(Playback, the_referee_leaves_alone_what_passes_beside) {
   EXPECT_EQ(play(scene_from(text + "at = [0, 0.02, 0]\nmask = 2\n")).all_missed, 0);  // they may not meet
 }
 
+/// They pass flush: 3.1 - 2.3 is more than 0.8 by three roundings, and neither comes nearer.
+TEST(Playback, the_referee_takes_no_rounding_for_a_contact) {
+  const std::string text =
+      "scene = 'flush'\ndt = 0.1\nsteps = 3\n[[body]]\nshape = 'sphere'\nradius = 0.5\nat = [-0.5, 3.1, 0]\n"
+      "velocity = [10, 10, 0]\n[[body]]\nshape = 'sphere'\nradius = 0.3\nat = [0, 2.3, 0]\nvelocity = [0, 10, 0]\n";
+  EXPECT_EQ(play(scene_from(text)).all_missed, 0);
+}
+
+TEST(Playback, keeps_the_earliest_events) {
+  const Playback playback = play(scene_from(
+      "scene = 'many'\ndt = 1\nsteps = 1\nresponse = false\n[[body]]\nshape = 'sphere'\nradius = 0.1\n"
+      "at = [0, -5500, 0]\nvelocity = [20000, 0, 0]\ncopies = [1, 11000, 1]\nevery = [0, 1, 0]\n[[body]]\nshape = 'turned_box'\n"
+      "size = [0.5, 20000, 1]\nturn_deg = [0, 0, 30]\nat = [10000, 0, 0]\nmotion = 'static'\n"));
+  EXPECT_EQ(playback.all_events, 11'000);
+  ASSERT_EQ(playback.events.size(), 10'000U);
+  EXPECT_EQ(playback.events.front().first, 11'000U);  // the highest meets the leaning wall first
+}
+
 TEST(Playback, a_hand_pushes_at_its_time) {
   const Playback playback =
       play(scene_from("scene = 'hand'\ndt = 0.5\nsteps = 4\n[[body]]\nname = 'ball'\nshape = 'sphere'\n"
@@ -607,7 +625,7 @@ TEST(ShippedScenes, give_the_same_bits_lean_or_full_and_let_nothing_through) {
 /// Twenty discrete steps of a room of thin walls, or of bullets: something gets through.
 TEST(ShippedScenes, let_things_through_when_discrete) {
   for (const char* name : {"thin_wall_gallery", "bullet_against_bullet", "spinning_rods", "propeller"}) {
-    Scene scene = shortened(std::string(THINWALL_SCENES) + "/" + name + ".toml", "lean");
+    Scene scene = shortened(fmt::format("{}/{}.toml", THINWALL_SCENES, name), "lean");
     scene.options.policy = TimePolicy::discrete;
     EXPECT_GT(play(scene).all_missed, 0) << name;
   }

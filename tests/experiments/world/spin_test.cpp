@@ -298,6 +298,28 @@ TEST(Spin, names_what_cannot_turn) {
   });
 }
 
+/// Two thin rods come together at a sine of a tenth: the plane between them proves nothing before the gap is closed to rounding.
+TEST(Spin, wires_that_meet_at_a_small_angle_bounce) {
+  const Body one = spinning_body(1, Capsule<double>{{-0.5, 0, 0}, {0.5, 0, 0}, 1e-3}, {0, 0.001, 0});
+  Body other = spinning_body(2, Capsule<double>{{-0.5, -0.05, 0.004}, {0.5, 0.05, 0.004}, 1e-3}, {0.0005, 0, -0.001});
+  other.velocity = {0.003, 0.001, -0.01};
+  World world({one, other}, {});
+  for (int k = 0; k < 60; ++k) world.step(1.0 / 60);
+  EXPECT_LT(world.bodies()[0].velocity.z(), 0);
+}
+
+/// A rod lies a picometer above the floor, and a ball drives it down: within the instant the sweeps differ in what they call the start.
+TEST(Spin, a_contact_within_the_first_instant_is_told) {
+  Body rod = spinning_body(1, Capsule<double>{{-0.4, 0.100000000001, 0}, {0.4, 0.100000000001, 0}, 0.1}, {0.001, 0, 0});
+  Body shot = body_of(2, Sphere<double>{{0, 0.3, 0}, 0.1});
+  shot.velocity = {0, -1000, 0};
+  World world({rod, shot, fixed(body_of(3, Aabb<double>{{0, -0.5, 0}, {2.5, 0.5, 2.5}}))}, {});
+  world.step(0.0166);
+  bool told = false;
+  for (const Hit& hit : world.hits()) told = told || (hit.first == 1 && hit.second == 3);
+  EXPECT_TRUE(told);
+}
+
 /// A million turns a step: nothing can be told of it, and it is said so.
 TEST(Spin, names_two_that_turn_too_far_and_changes_nothing) {
   const Body rod = spinning_body(1, rod_along_x(1, 0.1), {0, 0, 1e13});

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,46 @@ TEST(World, a_clamped_body_slides_on_what_it_rests_on) {
   World world({slides, wall(2, {0, -1, 0}, {50, 1, 5})}, options);
   for (int k = 0; k < 8; ++k) world.step(0.125);
   EXPECT_EQ(x_of(world, 1), 3);
+}
+
+/// [m] Boxes of a cubic meter on a floor, one on the other, all at `velocity` along x; the top one of mass `top`.
+std::vector<Body> stack(std::uint32_t boxes, double velocity, double top = 1) {
+  std::vector<Body> bodies = {wall(1, {0, -0.5, 0}, {20, 0.5, 20})};
+  for (std::uint32_t k = 0; k < boxes; ++k) {
+    Body box = wall(k + 2, {0, 0.5 + k, 0}, {0.5, 0.5, 0.5});
+    box.is_static = false;
+    box.velocity = {velocity, 0, 0};
+    bodies.push_back(box);
+  }
+  bodies.back().mass = top;
+  return bodies;
+}
+
+/// A tower is as soft as its contact rounds are few; it slides whatever they are.
+TEST(World, what_rests_on_what_rests_is_free_to_slide) {
+  for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
+    for (const auto& [boxes, rounds, soft] : {std::tuple(2U, 8, 1e-4), {3U, 8, 0.01}, {8U, 256, 1e-4}}) {
+      World world(stack(boxes, 2), {.gravity = {0, -10, 0}, .policy = policy, .contact_rounds = rounds});
+      const double before = world.energy();
+      for (int k = 0; k < 60; ++k) world.step(1.0 / 60);
+      for (std::uint32_t k = 0; k < boxes; ++k) {
+        EXPECT_NEAR(x_of(world, k + 2), 2, 1e-12) << name_of(policy) << " " << boxes << " " << k;
+        EXPECT_NEAR(position(*world.find(k + 2)).y(), 0.5 + k, soft) << name_of(policy) << " " << boxes << " " << k;
+      }
+      EXPECT_LE(world.energy(), before * (1 + 1e-12)) << name_of(policy) << " " << boxes;
+    }
+  }
+}
+
+/// A thousand kilograms on one: more than the impulses of a step can carry.
+TEST(World, what_cannot_move_gains_no_speed) {
+  for (const TimePolicy policy : {TimePolicy::clamp, TimePolicy::event_driven}) {
+    World world(stack(2, 0, 1000), {.gravity = {0, -10, 0}, .policy = policy});
+    const double before = world.energy();
+    for (int k = 0; k < 300; ++k) world.step(1.0 / 60);
+    EXPECT_LE(world.energy(), before * (1 + 1e-3)) << name_of(policy);
+    EXPECT_NEAR(position(*world.find(3)).y(), 1.5, 0.1) << name_of(policy);
+  }
 }
 
 TEST(World, the_larger_restitution_counts_and_a_fall_bounces_to_its_square) {
