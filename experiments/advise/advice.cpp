@@ -49,10 +49,15 @@ template <class Step>
 std::vector<Measured> timed(std::span<const Candidate> candidates, AskMember<Step> ask, const std::vector<Step>& steps,
                             const TimingEffort& effort, const RandomStream& stream) {
   std::vector<TimedLoop<Step>> loops;
-  for (const Candidate& candidate : candidates) loops.push_back({candidate.*ask});
+  for (const Candidate& candidate : candidates) {
+    loops.push_back({[&asked = candidate.*ask, &effort](std::span<const Step> some) {
+      for (std::int64_t i = 0; i < effort.repeats; ++i) asked(some);
+    }});
+  }
   run_rounds(loops, std::span<const Step>(steps), effort.rounds, effort.round_ns, stream);
   std::vector<Measured> times;
-  for (const TimedLoop<Step>& loop : loops) {
+  for (TimedLoop<Step>& loop : loops) {
+    for (double& time : loop.nanoseconds) time /= static_cast<double>(effort.repeats);
     times.push_back({median(loop.nanoseconds), bootstrap_median(loop.nanoseconds, stream)});
   }
   return times;
@@ -111,13 +116,13 @@ Advice advise(const Wish& wish, std::span<const Candidate> candidates, std::span
     const Candidate& candidate = candidates[i];
     const Theory theory = candidate.theory(wish.cell);
     advice.rows.push_back({candidate, theory, costs[i], meets_wish(wish, theory),
-                           longest_step(wish, candidate.at_any_spin ? candidate.at_any_spin : candidate.theory)});
+                           longest_step(wish, candidate.up_to_its_spin ? candidate.up_to_its_spin : candidate.theory)});
   }
-  std::stable_sort(advice.rows.begin(), advice.rows.end(), [](const AdviceRow& a, const AdviceRow& b) {
-    return std::tuple(!a.meets, a.cost.dearer().value) < std::tuple(!b.meets, b.cost.dearer().value);
-  });
-  put_advised_first(advice.rows, std::count_if(advice.rows.begin(), advice.rows.end(),
-                                               [](const AdviceRow& row) { return row.meets; }));
+  const auto rank = [](const AdviceRow& row) {
+    return std::tuple(!row.meets, row.meets && row.method.hits_falsely, row.cost.dearer().value);
+  };
+  std::ranges::stable_sort(advice.rows, {}, rank);
+  put_advised_first(advice.rows, std::ranges::count_if(advice.rows, &AdviceRow::may_be_advised));
   return advice;
 }
 

@@ -60,8 +60,8 @@ struct Candidate {
   std::function<Theory(const Cell&)> theory;
   std::function<void(std::span<const ShotStep>)> ask = {};     ///< to be timed
   std::function<void(std::span<const RodStep>)> ask_rod = {};  ///< of a rod, in its place
-  std::function<Theory(const Cell&)> at_any_spin =
-      {};  ///< of a rod: as likely to tunnel at least, and more so the longer the step
+  std::function<Theory(const Cell&)> up_to_its_spin = {};      ///< of a rod: the worst at its spin and slower ones
+  bool hits_falsely = false;  ///< of a rod: also where nothing touches by the end of the step
 };
 
 /// The numbers of poses a step that are offered: 2, 8, and the fewest that meet the wish if they are 2 to 1000.
@@ -92,10 +92,11 @@ struct StepCost {
 struct TimingEffort {
   std::int64_t queries = 2048;  ///< of each kind
   std::int64_t rounds = 61;
-  double round_ns = 1e6;  ///< a method's turn in a round takes at most about this long
+  double round_ns = 1e6;     ///< a method's turn in a round takes at most about this long
+  std::int64_t repeats = 1;  ///< of each query, for a clock that would not see it once
 };
 
-/// `result[i]` is of `candidates[i]`. Takes about a second at most.
+/// `result[i]` is of `candidates[i]`. Takes about a second, but for coarse clocks and rods that turn many times a step.
 std::vector<StepCost> measure_costs(const Cell& cell, std::span<const Candidate> candidates,
                                     const TimingEffort& effort = {});
 /// The same of a rod's steps of both kinds.
@@ -108,15 +109,19 @@ struct AdviceRow {
   Candidate method;
   Theory theory;  ///< at the step of the wish
   StepCost cost;
-  bool meets;                          ///< the wish
-  std::optional<double> longest_step;  ///< [s] at which it would, a rod at any spin; nothing if it does at none
+  bool meets;  ///< the wish
+  std::optional<double>
+      longest_step;  ///< [s] at which it would, a rod at its spin and any slower one; nothing if it does at none
+
+  bool may_be_advised() const { return meets && !method.hits_falsely; }
 };
 
 struct Advice {
   Wish wish;
-  std::vector<AdviceRow> rows;  ///< those that meet the wish first: the advised one, then by cost; then the others
+  /// Those that meet the wish first: the advised one, then by cost; then those that meet it and hit falsely; then the others.
+  std::vector<AdviceRow> rows;
 
-  const AdviceRow* advised() const { return !rows.empty() && rows.front().meets ? &rows.front() : nullptr; }
+  const AdviceRow* advised() const { return !rows.empty() && rows.front().may_be_advised() ? &rows.front() : nullptr; }
 };
 
 /// To rounding, which formulas computed in double need. False where theory has no number for what is wished for.

@@ -95,12 +95,15 @@ std::string seen(const AdviceRow& row) {
 
 /// The least, or as little as the measurement can tell.
 std::string how_cheap(const Advice& advice) {
-  const auto meeting = std::ranges::count_if(advice.rows, [](const AdviceRow& row) { return row.meets; });
+  const auto meeting = std::ranges::count_if(advice.rows, &AdviceRow::may_be_advised);
   const double own = advice.advised()->cost.dearer().value;
   const bool tied = std::ranges::any_of(
-      advice.rows, [&](const AdviceRow& row) { return row.meets && row.cost.dearer().value < own; });
-  if (meeting == 1) return "no other method here meets the wish";
-  return fmt::format("{} of the {} methods here that meet the wish", tied ? "as little as any" : "the least", meeting);
+      advice.rows, [&](const AdviceRow& row) { return row.may_be_advised() && row.cost.dearer().value < own; });
+  const char* const also = advice.wish.rod ? " and hit nothing falsely" : "";
+  if (meeting == 1)
+    return fmt::format("no other method here meets the wish{}", advice.wish.rod ? " and hits nothing falsely" : "");
+  return fmt::format("{} of the {} methods here that meet the wish{}", tied ? "as little as any" : "the least", meeting,
+                     also);
 }
 
 /// Seen is not saved: docs/tunneling_theory.md.
@@ -132,8 +135,9 @@ constexpr const char* limits =
 
 constexpr const char* rod_limits =
     "Holds for one infinite wall at rest, straight flight, a rod that spins at a constant rate about an axis in the plane of the "
-    "wall, and a first contact that is anywhere in its step, and of a rod at any angle, alike. The longest step does at any "
-    "spin. Linear sweeps join across such a wall; past a post, or at a rim, they are as blind as a tested pose.";
+    "wall, and a first contact that is anywhere in its step, and of a rod at any angle, alike. The longest step does at its "
+    "spin and any slower one. Linear sweeps join across such a wall; past a post, or at a rim, they are as blind as a tested pose. False hits are in steps by "
+    "whose end nothing touches: thinwall run spinning_rod counts them.";
 
 constexpr const char* header =
     "                           chance of  seen late by up to  time a step [ns]          longest step\n"
@@ -163,10 +167,12 @@ std::string row_text(const AdviceRow& row, const char* mark, double step_length)
 
 std::string table_text(const Advice& advice) {
   std::string text = header;
-  bool met = true;
+  bool met = true, truly = true;
   for (const AdviceRow& row : advice.rows) {
+    if (truly && row.meets && !row.may_be_advised()) text += "These meet it too, with false hits:\n";
     if (met && !row.meets) text += "These do not meet the wish at this step:\n";
     met = row.meets;
+    truly = row.may_be_advised();
     text += row_text(row, &row == advice.advised() ? ">" : " ", step_length(advice.wish.cell));
   }
   return text;
@@ -215,6 +221,7 @@ ordered_json row_json(const AdviceRow& row, double step_length) {
           {"longest_step_s", optional_number(row.longest_step)},
           {"clear_ns", time_json(row.cost.clear)},
           {"contact_ns", time_json(row.cost.contact)},
+          {"false_hits", row.method.hits_falsely},
           {"in_experiment", row.method.fired}};
 }
 

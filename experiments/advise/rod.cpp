@@ -26,15 +26,33 @@ RodFlight flight_of(const Wish& wish, const Cell& cell, double spin) {
   return flight;
 }
 
+/// How late a pose sees the rod at most [m]. A rod whose ends are no faster than it flies touches over one stretch, which poses miss or hit
+/// within one spacing. Another touches, parts and touches again: only where its middle is within the wall's reach is it sure to.
+void bound_lateness(Theory& theory, const RodFlight& flight, const Cell& cell, int poses, bool touches_once) {
+  const double spacing = step_length(cell) / poses, whole = widest(flight) / cosine(cell);
+  const bool once = poses == 1;
+  if (touches_once) {
+    theory.latest = std::min(spacing, whole);
+    theory.why_late = once ? "min(v h, (b + c) / cos a)" : "min(v h / n, (b + c) / cos a)";
+  } else if (spacing * cosine(cell) <= clearance(flight)) {
+    theory.latest = std::min(whole, reach(flight) / cosine(cell) + spacing);
+    theory.why_late =
+        once ? "min(c / (2 cos a) + v h, (b + c) / cos a)" : "min(c / (2 cos a) + v h / n, (b + c) / cos a)";
+  } else {
+    theory.latest = whole;
+    theory.why_late = "(b + c) / cos a";
+  }
+}
+
+/// The chance at a spin [deg/s], and the lateness at the rod's own and any slower one.
 Theory pose_theory_at(const Wish& wish, const Cell& cell, double spin, int poses) {
   const RodFlight flight = flight_of(wish, cell, spin);
   Theory theory;
   theory.probability = rod_miss_probability(clearance(flight), reach(flight), step_length(flight) / poses,
                                             radians(flight.spin_deg) / poses);
-  theory.latest = std::min(step_length(cell) / poses, widest(flight) / cosine(cell));
-  const bool once = poses == 1;
-  theory.why = once ? "E max(0, 1 - (b + c m) / (v h cos a))" : "E max(0, 1 - n (b + c m) / (v h cos a))";
-  theory.why_late = once ? "min(v h, (b + c) / cos a)" : "min(v h / n, (b + c) / cos a)";
+  theory.why = poses == 1 ? "E max(0, 1 - (b + c m) / (v h cos a))" : "E max(0, 1 - n (b + c m) / (v h cos a))";
+  const bool touches_once = radians(wish.rod->spin * cell.step) * reach(flight) <= step_length(flight);
+  bound_lateness(theory, flight, cell, poses, touches_once);
   return theory;
 }
 
@@ -47,15 +65,16 @@ Theory never_late(const char* why) {
   return theory;
 }
 
-// What theory says of a method that turns, at the step and at any spin; nothing of one that is not named here.
+// What theory says of a method that turns, at its spin and at no more than that; nothing of one that is not named here.
 
 struct RodTheories {
   std::function<Theory(const Cell&)> at_spin = [](const Cell&) { return Theory{}; };
-  std::function<Theory(const Cell&)> at_any_spin = at_spin;
+  std::function<Theory(const Cell&)> up_to_its_spin = at_spin;
+  bool hits_falsely = false;
 };
-RodTheories same(const Theory& theory) {
+RodTheories same(const Theory& theory, bool hits_falsely = false) {
   const auto always = [theory](const Cell&) { return theory; };
-  return {always, always};
+  return {always, always, hits_falsely};
 }
 RodTheories of_poses(const Wish& wish, int poses) {
   return {[=](const Cell& cell) { return pose_theory_at(wish, cell, wish.rod->spin, poses); },
@@ -65,15 +84,17 @@ RodTheories of_poses(const Wish& wish, int poses) {
 template <class Method> RodTheories rod_theories(const Method&, const Wish&) { return {}; }
 RodTheories rod_theories(const EndOfStep<double>&, const Wish& wish) { return of_poses(wish, 1); }
 RodTheories rod_theories(const Substeps<double>& method, const Wish& wish) { return of_poses(wish, method.n); }
-RodTheories rod_theories(const LinearSweep<double>&, const Wish&) {
-  Theory theory;
-  theory.probability = 0;
-  theory.why = "0: the sweeps join at the wall's middle";
-  theory.why_late = "no formula";
-  return same(theory);
+RodTheories rod_theories(const LinearSweep<double>&, const Wish& wish) {
+  Theory theory = never_late("0: the sweeps join at the wall's middle");
+  const bool spins = wish.rod->spin > 0;
+  if (spins) {
+    theory.latest.reset();
+    theory.why_late = "no formula";
+  }
+  return same(theory, spins);
 }
-RodTheories rod_theories(const Speculative<double>&, const Wish&) {
-  return same(never_late("0: it looks a whole step ahead"));
+RodTheories rod_theories(const Speculative<double>&, const Wish& wish) {
+  return same(never_late("0: it looks a whole step ahead"), wish.rod->spin > 0);
 }
 RodTheories rod_theories(const ConservativeAdvancement<double>&, const Wish&) {
   return same(never_late("0: free up to its answer, proven"));
@@ -84,7 +105,8 @@ template <class Ask> Candidate rod_candidate(std::string name, int poses, const 
   candidate.ask_rod = [ask](std::span<const RodStep> steps) {
     for (const RodStep& step : steps) keep(ask(step));
   };
-  candidate.at_any_spin = theories.at_any_spin;
+  candidate.up_to_its_spin = theories.up_to_its_spin;
+  candidate.hits_falsely = theories.hits_falsely;
   return candidate;
 }
 
@@ -111,7 +133,8 @@ std::vector<Candidate> rod_candidates(const Wish& wish) {
 }
 
 std::vector<RodStep> rod_steps(const Wish& wish, std::int64_t count, std::int64_t back) {
-  const RodFlight flight = flight_of(wish, wish.cell, wish.rod->spin);
+  RodFlight flight = flight_of(wish, wish.cell, wish.rod->spin);
+  flight.step_ratio = std::max(flight.step_ratio, 1e-4);  // a shorter step is timed as this one, as a ball's is
   const RandomStream stream = random_stream(flight, 0);
   const Moving<Obb<double>> before = wall(flight);
   std::vector<RodStep> steps;

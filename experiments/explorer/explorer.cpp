@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -44,7 +46,9 @@ struct Explorer {
   std::string text;
 
   const ThinWallMethod& method(int m) const { return methods.at(static_cast<std::size_t>(m)); }
-  Wish wish() const { return {.cell = cell}; }
+  Wish wish(double miss, double late) const {
+    return {.cell = cell, .miss = miss, .late = late < 0 ? std::nullopt : std::optional(late)};
+  }
   int say(std::initializer_list<double> values) {
     numbers = values;
     return static_cast<int>(numbers.size());
@@ -94,6 +98,30 @@ StepErrors errors_of(const ThinWallMethod& method, const std::vector<ShotStep>& 
   errors.p99 = quantile(lengths, 0.99);
   errors.largest = *std::ranges::max_element(lengths);
   return errors;
+}
+
+/// [ns] What the clock moves on by at least: a browser's by a tenth of a millisecond, or a whole one.
+double clock_tick() {
+  using Clock = std::chrono::steady_clock;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 5; ++i) {
+    const auto start = Clock::now();
+    auto now = start;
+    while (now == start) now = Clock::now();
+    least = std::min(least, std::chrono::duration<double, std::nano>(now - start).count());
+  }
+  return least;
+}
+
+/// Turns of so many ticks of the clock that it cannot decide, also of the fastest method.
+TimingEffort race_effort() {
+  constexpr std::int64_t queries = 1 << 12;
+  constexpr double fastest = 30;  // [ns] a query, about
+  const double turn = std::clamp(20 * clock_tick(), 2e6, 20e6);
+  return {.queries = queries,
+          .rounds = turn > 4e6 ? 5 : 15,
+          .round_ns = turn,
+          .repeats = static_cast<std::int64_t>(std::ceil(turn / (fastest * static_cast<double>(queries))))};
 }
 
 nlohmann::ordered_json described(const ThinWallMethod& method) {
@@ -209,8 +237,7 @@ int explorer_shot(double phase) {
 
 int explorer_race() {
   Explorer& explorer = here();
-  explorer.costs = measure_costs(explorer.cell, candidates_of(explorer.methods),
-                                 {.queries = 1 << 14, .rounds = 15, .round_ns = 2e6});
+  explorer.costs = measure_costs(explorer.cell, candidates_of(explorer.methods), race_effort());
   const std::vector<ShotStep> steps = steps_of(explorer, 4096);
   std::vector<CertifiedToi> truth;
   for (const ShotStep& step : steps) truth.push_back(certified_time_of_impact(step.ball, step.wall));
@@ -227,13 +254,13 @@ int explorer_race() {
 
 const char* explorer_advice(double miss, double late) {
   if (here().costs.empty()) return here().say("");
-  Wish wish = here().wish();
-  wish.miss = miss;
-  if (late >= 0) wish.late = late;
-  return here().say(advice_sentence(advise(wish, candidates_of(here().methods), here().costs)));
+  return here().say(advice_sentence(advise(here().wish(miss, late), candidates_of(here().methods), here().costs)));
 }
 
-const char* explorer_toml() { return here().say(config_text(here().wish(), candidates_of(here().methods))); }
+const char* explorer_toml(double miss, double late) {
+  const Wish wish = here().wish(miss, late);
+  return here().say(config_text(wish, candidates(wish)));
+}
 
 #ifdef __wasm__  // what Debian's runtime library for WebAssembly was compiled to look for
 extern const std::uintptr_t __stack_chk_guard = 0x2f8a16c3;  // NOLINT(bugprone-reserved-identifier): theirs

@@ -53,8 +53,8 @@ int THINWALL_EXPORT(explorer_race)();
 /// After explorer_race(), whose times it needs, at any setting.
 const char* THINWALL_EXPORT(explorer_advice)(double miss, double late);
 
-/// The configuration of `thinwall run` that fires these shots.
-const char* THINWALL_EXPORT(explorer_toml)();
+/// The configuration of `thinwall run` that fires these shots, with what is wished as above.
+const char* THINWALL_EXPORT(explorer_toml)(double miss, double late);
 
 // ---- A rod that flies at the wall and spins: the ball's speed, step, radius and wall, and a length and a spin. explorer_set() comes first.
 // Methods are numbered as explorer_rod_describe() lists them.
@@ -65,12 +65,12 @@ const double* THINWALL_EXPORT(explorer_rod_numbers)();
 /// JSON: the methods for what turns (name, color, mark), and the factors length and spin.
 const char* THINWALL_EXPORT(explorer_rod_describe)();
 
-/// Speed [m/s], step [s], radius [m], thickness [m] as explorer_set(); the rod's length [m], between the ends of its core, and spin [rad/s] about
+/// Speed [m/s], step [s], radius [m], thickness [m] as explorer_set(); the rod's length [m], end to end, and spin [rad/s] about
 /// an axis across the flight; the seed. Returns why it cannot be, or nothing, and forgets every flight.
 const char* THINWALL_EXPORT(explorer_rod_set)(double speed, double step, double radius, double thickness, double length,
                                               double spin, double seed);
 
-/// What makes it a cell of the experiment: the step, as a multiple of wall, radii and length together, and the turn [deg] a step.
+/// What makes it a cell of the experiment: the step, as a multiple of wall and length together, and the turn [deg] a step.
 int THINWALL_EXPORT(explorer_rod_cell)();
 
 /// Fires the next `count` rods at a method: the same as the experiment spinning_rod fires.

@@ -22,7 +22,7 @@ namespace thinwall {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr Range allowed_length = {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "m"};
+constexpr Range allowed_length = {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "m"};  // end to end
 constexpr Range allowed_spin = {.lower = 0, .upper = 1e6, .unit = "rad/s"};
 constexpr Range allowed_rod_radius = {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "m"};
 
@@ -100,18 +100,23 @@ const char* explorer_rod_set(double speed, double step, double radius, double th
     if (!contains(*range, value)) return rod().say(fmt::format("{}: {}", name, range_text("a number", *range)));
   }
   if (!(seed >= 0 && seed < 0x1p53 && seed == std::trunc(seed))) return rod().say("seed: a whole number below 2^53");
-  RodFlight flight{.half_length = length / 2,
+  if (!(length > 2 * radius))
+    return rod().say("length: more than twice the radius, end to end; what is shorter is a ball");
+  RodFlight flight{.half_length = length / 2 - radius,
                    .radius = radius,
                    .thickness = thickness,
                    .tilt_deg = 90,
                    .spin_deg = spin * step * 180 / std::numbers::pi,
                    .step_ratio = 1};
   flight.step_ratio = speed * step / widest(flight);
-  constexpr double least_ratio = 1e-3, most_ratio = 1e4,
-                   most_turn = 360e3;  // more steps, or turns, than anybody waits for
-  if (!(flight.step_ratio >= least_ratio && flight.step_ratio <= most_ratio))
-    return rod().say("length: a step must be from 0.001 to 10,000 times as long as rod and wall are wide together");
-  if (flight.spin_deg > most_turn) return rod().say("spin: no more than 1,000 turns a step");
+  constexpr double most_ratio = 1e4, most_steps = 2000, most_turns = 100;  // what a page can wait for
+  if (!(flight.step_ratio <= most_ratio))
+    return rod().say("length: a step is more than 10,000 times as long as rod and wall are wide together");
+  if (flight.spin_deg > 360 * most_turns) return rod().say("spin: no more than 100 turns a step");
+  // The methods are asked from where the fastest point's path in a step is the way to the wall.
+  const double fastest = radians(flight.spin_deg) * (flight.half_length + radius);
+  if (!((widest(flight) + fastest) / step_length(flight) <= most_steps))
+    return rod().say("spin: rods that slow and spinning that fast take more than 2,000 steps to pass");
   rod().flight = flight;
   rod().seed = static_cast<std::uint64_t>(seed);
   rod().tallies.assign(rod().methods.size(), RodTally{});

@@ -38,14 +38,18 @@ template <class Query> double nanoseconds_a_query(const TimedLoop<Query>& loop, 
 }
 
 /// A round of every loop, in an order of its own, each on the slice of the queries that is next. A slice takes about
-/// `round_ns`, but for the fastest loops, which are through with all queries sooner.
+/// `round_ns`, but for the fastest loops, which are through with all queries sooner, and the slowest, which are asked eight.
 template <class Query>
 void run_rounds(std::vector<TimedLoop<Query>>& loops, std::span<const Query> queries, std::int64_t rounds,
                 double round_ns, const RandomStream& stream) {
-  constexpr std::size_t least = 50;
-  for (TimedLoop<Query>& loop : loops) {  // warms up, too
-    const double fits = round_ns / std::max(1.0, nanoseconds_a_query(loop, queries));
-    loop.slice = std::clamp(static_cast<std::size_t>(fits), std::min(least, queries.size()), queries.size());
+  const std::size_t all = queries.size(), least = std::min<std::size_t>(8, all);
+  for (TimedLoop<Query>& loop : loops) {
+    loop.run(queries.first(least));
+    loop.slice = least;
+    for (int look = 0; look < 2; ++look) {  // warms up, too: on as many as a few of them say that fit
+      const double fits = round_ns / std::max(1.0, nanoseconds_a_query(loop, queries.first(loop.slice)));
+      loop.slice = std::clamp(static_cast<std::size_t>(std::min(fits, static_cast<double>(all))), least, all);
+    }
   }
   std::vector<std::size_t> order(loops.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

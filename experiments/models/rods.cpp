@@ -112,6 +112,13 @@ double fastest_path(const RodMotion& m) { return m.step + m.spin * (m.half_lengt
 
 long double first_contact(long double lead, long double step, long double reach, long double angle, long double spin) {
   Real time = 0, phase = without_half_turns(angle);
+  constexpr Real many =
+      64;  // half turns before an end of the rod can reach the wall: so many are left out, fewer are walked
+  const Real out_of_reach = std::floor(((lead - reach) / step * spin + phase) / half_turn + Real(0.5));
+  if (out_of_reach > many) {
+    time = ((out_of_reach - Real(0.5)) * half_turn - phase) / spin;
+    phase -= out_of_reach * half_turn;
+  }
   for (;;) {
     const Real end = spin > 0 ? (half_turn / 2 - phase) / spin : std::numeric_limits<Real>::infinity();
     while (time < end) {

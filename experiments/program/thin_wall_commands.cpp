@@ -42,10 +42,10 @@ struct AdviseText {
 };
 
 /// A name alone may be that of an experiment, and what begins with - an option: a path is neither.
-std::string next_step(std::string file) {
+std::string next_step(const std::string& program, std::string file) {
   if (!looks_like_a_file(file) || file.starts_with('-')) file.insert(0, "./");
   const std::string out = "results/" + std::filesystem::path(file).stem().string();
-  return "to put it to the test: " + shell_line({"thinwall", "run", file, "--out", out}) + "\n";
+  return "to put it to the test: " + shell_line({program, "run", file, "--out", out}) + "\n";
 }
 
 int print_advice(const AdviseText& text, const Call& call) {
@@ -70,7 +70,7 @@ int print_advice(const AdviseText& text, const Call& call) {
     call.out << advice_text(advice);
   }
   call.out.flush();
-  if (to_file) call.err << next_step(*text.toml);
+  if (to_file) call.err << next_step(call.argv.front(), *text.toml);
   return exit_done;
 }
 
@@ -125,6 +125,12 @@ bool opened(const std::string& file) {
 int explore(const ExploreText& text, const Call& call) {
   const std::string file = text.out.value_or("explore.html");
   const std::string page = page_of_this_program();
+  if (file == "-") {
+    if (text.json)
+      throw UsageError("--out -: prints the page, and --json prints what became of a file; give one of them");
+    call.out << page;
+    return exit_done;
+  }
   write_own_file("--out", file, page, "explore");
   const bool shown = !text.no_open && opened(file);
   if (text.json) {
@@ -141,7 +147,8 @@ int explore(const ExploreText& text, const Call& call) {
 Action declare_explore(CLI::App& self) {
   const auto text = std::make_shared<ExploreText>();
   self.footer("One file, which works from a disk and without a network. More: docs/explorer.md.\n");
-  add_text(self, "--out", text->out, "Where the page goes (default: explore.html); an earlier one is replaced", "FILE");
+  add_text(self, "--out", text->out,
+           "Where the page goes (default: explore.html); an earlier one is replaced, and - prints it", "FILE");
   add_flag(self, "--no-open", text->no_open, "Open no browser");
   add_json(self, text->json);
   return [text](const Call& call) { return explore(*text, call); };

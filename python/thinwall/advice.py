@@ -26,6 +26,7 @@ _COLUMNS = [
     tables.Column("contact_ns", "number", "ns", "Measured here: the next step, in which the ball touches the wall, the median."),
     tables.Column("contact_ns_lower", "number", "ns", "Lower end of its 95 % interval."),
     tables.Column("contact_ns_upper", "number", "ns", "Upper end."),
+    tables.Column("false_hits", "boolean", "1", "Of a rod: it also hits where nothing touches by the end of the step."),
     tables.Column("in_experiment", "boolean", "1", "The experiment thin_wall can fire it."),
 ]
 

@@ -15,6 +15,8 @@
 #include <thinwall/experiments/models/shot_methods.hpp>
 #include <thinwall/experiments/thin_wall/results.hpp>
 
+#include "support/said.hpp"
+
 namespace thinwall {
 namespace {
 
@@ -120,10 +122,24 @@ TEST(Explorer, races_and_advises) {
 
 TEST(Explorer, writes_a_configuration_that_the_experiment_takes) {
   ASSERT_STREQ(explorer_set(300, 0.002, 0.004, 0.002, 25, 7), "");
-  const ShotPlan plan = make_plan(Settings(explorer_toml(), "page", thin_wall_experiment().default_toml), {});
+  const ShotPlan plan = make_plan(Settings(explorer_toml(0.2, 0.01), "page", thin_wall_experiment().default_toml), {});
   ASSERT_EQ(plan.cells.size(), 2U);  // the bullet is always there
   EXPECT_EQ(plan.cells[1].speed, 300);
   EXPECT_EQ(plan.cells[1].angle_deg, 25);
+  EXPECT_TRUE(holds(explorer_toml(0.2, 0.01),
+                    "# Wanted: at most 20 % of the shots tunnel, and none is seen more than 0.01 m past"));
+}
+
+TEST(Explorer, flies_rods_that_a_page_can_wait_for) {
+  const auto refusal = [](double speed, double length, double spin) {
+    return std::string(explorer_rod_set(speed, 0.01, 0.02, 0.01, length, spin, 0));
+  };
+  EXPECT_EQ(refusal(10, 0.2, 60), "");
+  explorer_rod_shot(0);
+  EXPECT_NEAR(explorer_rod_numbers()[0], 0.08, 1e-15);  // half the core of a rod of 0.2 m, end to end
+  EXPECT_EQ(refusal(10, 0.04, 60), "length: more than twice the radius, end to end; what is shorter is a ball");
+  EXPECT_EQ(refusal(10, 0.2, 7e4), "spin: no more than 100 turns a step");
+  EXPECT_EQ(refusal(0.001, 0.2, 60), "spin: rods that slow and spinning that fast take more than 2,000 steps to pass");
 }
 
 }  // namespace

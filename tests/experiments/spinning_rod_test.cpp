@@ -93,6 +93,17 @@ TEST(SpinningRodOracle, finds_the_first_contact) {
   }
 }
 
+/// 17,000 half turns before an end can reach the wall, of which the last 45 are walked.
+TEST(SpinningRodOracle, leaves_out_turns_that_cannot_touch) {
+  constexpr long double lead = 2, step = 1e-3L, spin = 36, reach = 0.5, skipped = 1496;
+  for (int i = 0; i < 100; ++i) {
+    const long double angle = 0.07L * i;
+    const long double walked =
+        skipped + first_contact(lead - step * skipped, step, reach, angle + spin * skipped, spin);
+    EXPECT_NEAR(static_cast<double>(first_contact(lead, step, reach, angle, spin) - walked), 0, 1e-13) << i;
+  }
+}
+
 /// It agrees with the library's shapes.
 TEST(SpinningRodOracle, measures_the_gap_between_the_shapes) {
   const RodFlight c = rod_flight(100, 0.3, 50);

@@ -89,6 +89,7 @@ TEST(ExploreProgram, writes_the_page_over_its_own_alone_or_says_what_is_missing)
   AdviseProgram::expect_refusal(explore(file), "--out " + file + ": is there already, and not from explore");
   EXPECT_EQ(read_text(file), "mine\n");
   AdviseProgram::expect_refusal(explore(folder.path().string()), "--out " + folder.path().string() + ": is a folder");
+  EXPECT_TRUE(explore("-").out.starts_with("<!doctype html>"));
   AdviseProgram::expect_refusal(explore(""), "--out: '' is not allowed");
   AdviseProgram::expect_refusal(explore(folder / "none/x.html"), "--out");
 }
