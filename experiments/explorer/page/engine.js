@@ -107,7 +107,8 @@ export async function startEngine(module) {
     },
     /** @param {number} miss @param {number} late */
     advice: (miss, late) => text(c.explorer_advice(miss, late)),
-    toml: () => text(c.explorer_toml()),
+    /** @param {number} miss @param {number} late */
+    toml: (miss, late) => text(c.explorer_toml(miss, late)),
   };
 }
 

@@ -25,14 +25,15 @@ async function page(code) {
   const module = await library(), engine = await startEngine(module), names = engine.methods.map((method) => method.name);
   const worker = new Worker(URL.createObjectURL(new Blob([code, '\nstart();'], { type: 'text/javascript' })));
   const order = (/** @type {Order} */ words) => worker.postMessage(words);
-  const standard = textbook(engine.factors, names);
-  let state = standard, running = true, at = 0, spoken = 0, perSecond = 0;
+  const standard = textbook([...engine.factors, ...engine.rod.factors], names);
+  let state = standard, grabbed = standard.setting, running = true, at = 0, frame = 0, spoken = 0, perSecond = 0, stopped = '';
+  let later = 0, timing = true, racing = false, again = false; // of the times
   /** @type {import('./engine.js').Tally[]} */
   let tallies = [];
   /** @type {import('./engine.js').Raced[]} */
   let raced = [];
 
-  const complain = (/** @type {string} */ why) => { byId('complaint').textContent = why; };
+  const complain = (/** @type {string} */ why) => { byId('complaint').textContent = [stopped, why].filter((text) => text !== '').join(' '); };
   const methods = () => engine.methods.map((method, i) => ({ ...method, i, chosen: state.chosen.includes(method.name) }));
   const chosen = () => methods().filter((method) => method.chosen);
 
@@ -65,7 +66,7 @@ async function page(code) {
     const done = chosen().every(({ i }) => tallies[i]?.shots >= state.most);
     if (now - spoken < 1000 && running && !done) return;
     spoken = now;
-    byId('status').textContent = `${shots.toLocaleString('en')} shots` +
+    byId('status').textContent = state.chosen.length === 0 ? 'No method is chosen.' : `${shots.toLocaleString('en')} shots` +
       (done ? '; all are fired.' : running ? `, ${short(perSecond / 1e6)} million a second.` : '; paused.');
   }
 
@@ -91,8 +92,36 @@ async function page(code) {
   }
 
   const ask = () => {
-    const late = byId('late').value.trim(), miss = Number(byId('miss').value) / 100;
-    if (raced.length > 0) order({ miss: Math.min(1, Math.max(0, miss || 0)), late: late === '' ? -1 : Math.max(0, Number(late)) });
+    if (raced.length > 0 && !timing) order(state.wish);
+  };
+
+  /** What times depend on. @param {import('./engine.js').Setting | undefined} of */
+  const timed = (of) => JSON.stringify({ ...of, seed: 0 });
+
+  /** Times the methods at these conditions, unless they change again before. @param {number} wait [ms] */
+  const measure = (wait) => {
+    timing = true;
+    byId('advice').textContent = 'The methods are being timed at these conditions.';
+    clearTimeout(later);
+    later = setTimeout(() => {
+      again = racing; // the one that is being run is of what was set before
+      if (!racing) order({ race: true });
+      racing = true;
+    }, wait);
+  };
+
+  function wish() {
+    const late = byId('late').value.trim(), wanted = { miss: typed('miss') / 100, late: late === '' ? -1 : Number(late) };
+    const fine = wanted.miss >= 0 && wanted.miss <= 1 && (late === '' || (wanted.late >= 0 && Number.isFinite(wanted.late)));
+    complain(fine ? '' : 'What is wished: a share from 0 to 100 %, and a length of 0 m or more, or none');
+    if (fine) state = { ...state, wish: wanted };
+    showWish();
+    link();
+    ask();
+  }
+  const showWish = () => {
+    byId('miss').value = String(Number((100 * state.wish.miss).toPrecision(12)));
+    byId('late').value = state.wish.late < 0 ? '' : String(state.wish.late);
   };
 
   /** Everything starts anew, if that can be fired at all. @param {Partial<typeof state>} what */
@@ -100,11 +129,12 @@ async function page(code) {
     const next = { ...state, ...what }, why = engine.set(next.setting);
     complain(why);
     if (why === '') {
+      const is_other = timed(next.setting) !== timed(state.setting) || raced.length === 0;
       state = next;
       tallies = [];
       order({ setting: state.setting, chosen: chosen().map(({ i }) => i), most: state.most, running });
-      rod.change(state.setting);
-      ask();
+      rod.change(state.setting, state.rod);
+      if (is_other) measure(1000);
     }
     show();
   }
@@ -114,6 +144,7 @@ async function page(code) {
     settings.show({ speed, rate: 1 / step, radius, thickness, angle_deg });
     byId('seed').value = String(seed);
     byId('most').value = String(state.most);
+    showWish();
     showShot();
     showShots();
     speak();
@@ -122,9 +153,9 @@ async function page(code) {
 
   const link = () => {
     try {
-      history.replaceState(null, '', write(state));
+      history.replaceState(null, '', write(state, standard));
     } catch {
-      location.hash = write(state); // where a file may not
+      location.hash = write(state, standard); // where a file may not
     }
   };
 
@@ -138,50 +169,67 @@ async function page(code) {
   const run = (/** @type {boolean} */ now) => {
     running = now;
     byId('run').textContent = now ? 'Pause' : 'Go on';
-    byId('run').setAttribute('aria-pressed', String(now));
     order({ running });
     rod.go();
     speak();
   };
 
   const phase = (/** @type {number} */ to) => {
-    if (!(to >= 0 && to < 1)) return complain('phase: a number >= 0 and < 1');
-    state = { ...state, phase: Number(to.toFixed(3)) % 1 };
-    complain('');
+    const fine = to >= 0 && to < 1;
+    complain(fine ? '' : 'phase: a number >= 0 and < 1');
+    if (fine) state = { ...state, phase: Number(to.toFixed(3)) % 1 };
     showShot();
     link();
   };
-  const walk = (/** @type {number} */ to) => { at = Math.min(4, Math.max(0, to)); showShot(); };
+  const walk = (/** @type {number} */ to) => {
+    cancelAnimationFrame(frame); // whatever plays
+    at = Math.min(4, Math.max(0, to));
+    showShot();
+  };
   function play() {
     walk(still() ? Math.floor(at) + 1 : at + 0.02);
-    if (at < 4 && !still()) requestAnimationFrame(play);
+    if (at < 4 && !still()) frame = requestAnimationFrame(play);
   }
 
-  const settings = makeControls(byId('controls'), (key, value) =>
-    change({ setting: { ...state.setting, ...(key === 'rate' ? { step: 1 / value } : { [key]: value }) } }));
+  const settings = makeControls(byId('controls'), (key, value) => {
+    const fine = key !== 'rate' || (value >= 0.001 && Number.isFinite(value));
+    if (fine) return change({ setting: { ...state.setting, ...(key === 'rate' ? { step: 1 / value } : { [key]: value }) } });
+    complain('steps a second: a number >= 0.001 [1/s]');
+    return show();
+  });
   const scene = makeScene(byId('scene'), {
+    onGrab: () => { grabbed = state.setting; },
     onPhase: phase,
-    onSpeed: (factor) => change({ setting: { ...state.setting, speed: Number((state.setting.speed * factor).toPrecision(3)) } }),
+    onSpeed: (factor) => change({ setting: { ...state.setting, speed: Number((grabbed.speed * factor).toPrecision(3)) } }),
     onThickness: (half) => change({ setting: { ...state.setting, thickness: Number((2 * half).toPrecision(3)) } }),
   });
 
-  const rod = makeRod(engine.rod, () => running);
+  const rod = makeRod(engine.rod, () => running, (now) => {
+    state = { ...state, rod: now };
+    link();
+  });
+  const typed = (/** @type {string} */ id) => (byId(id).value.trim() === '' ? NaN : Number(byId(id).value));
+  function stopAfter() {
+    const shots = typed('most'), fine = Number.isInteger(shots) && shots >= 1 && shots <= 1e9;
+    change(fine ? { most: shots } : {});
+    if (!fine) complain('shots a method: a whole number from 1 to 1,000,000,000');
+  }
 
   /** @param {string} id @param {string} event @param {() => void} then */
   const on = (id, event, then) => byId(id).addEventListener(event, then);
   on('back', 'click', () => change({ setting: standard.setting }));
   on('run', 'click', () => run(!running));
   on('again', 'click', () => change({}));
-  on('phase', 'change', () => phase(Number(byId('phase').value)));
+  on('phase', 'change', () => phase(typed('phase')));
   on('phase-slider', 'input', () => phase(Number(byId('phase-slider').value) / 1000));
   on('before', 'click', () => walk(Math.ceil(at) - 1));
   on('after', 'click', () => walk(Math.floor(at) + 1));
   on('play', 'click', () => { at = at >= 4 ? 0 : at; play(); });
-  on('most', 'change', () => change({ most: Math.min(1e9, Math.max(1, Math.round(Number(byId('most').value)) || 1)) }));
-  on('seed', 'change', () => change({ setting: { ...state.setting, seed: Number(byId('seed').value) } }));
-  on('measure', 'click', () => order({ race: true }));
-  on('miss', 'change', ask);
-  on('late', 'change', ask);
+  on('most', 'change', stopAfter);
+  on('seed', 'change', () => change({ setting: { ...state.setting, seed: typed('seed') } }));
+  on('measure', 'click', () => measure(0));
+  on('miss', 'change', wish);
+  on('late', 'change', wish);
   const copy = async (/** @type {string} */ text, /** @type {string} */ what) => {
     byId('copied').dataset.text = text;
     try {
@@ -191,18 +239,24 @@ async function page(code) {
       byId('copied').textContent = `${what}, to copy by hand: ${text}`;
     }
   };
-  on('copy-toml', 'click', () => void copy(engine.toml(), 'The configuration'));
+  on('copy-toml', 'click', () => void copy(engine.toml(state.wish.miss, state.wish.late), 'The configuration'));
   on('copy-citation', 'click', () => void copy(JSON.parse(byId('citation').textContent), 'The citation'));
-  on('copy-link', 'click', () => void copy(location.href.replace(/#.*$/, '') + write(state), 'The link'));
+  on('copy-link', 'click', () => void copy(location.href.replace(/#.*$/, '') + write(state, standard), 'The link'));
 
   worker.onmessage = ({ data }) => {
     const said = /** @type {Report} */ (data);
     if (said.raced) {
+      racing = false;
+      if (again) measure(0);
+    }
+    if (timed(said.of) !== timed(state.setting)) return; // of what was set before
+    if (said.raced && !again) {
       raced = said.raced;
+      timing = false;
       showTimes();
       ask();
     }
-    if (said.advice !== undefined) byId('advice').textContent = said.advice;
+    if (said.advice !== undefined && !timing) byId('advice').textContent = said.advice;
     if (said.tallies && JSON.stringify(said.of) === JSON.stringify(state.setting)) {
       tallies = said.tallies;
       perSecond = said.perSecond ?? 0;
@@ -210,28 +264,26 @@ async function page(code) {
       speak();
     }
   };
-  worker.onerror = (event) => complain(`the worker has stopped: ${event.message}`);
+  worker.onerror = (event) => {
+    stopped = `What fires the shots has stopped (${event.message}); load the page again.`;
+    complain('');
+  };
 
-  const from_link = () => {
+  const follow = () => {
     try {
       const wanted = read(location.hash, standard, names), why = engine.set(wanted.setting);
       if (why !== '') throw new Error(why);
-      return wanted;
+      change(wanted);
     } catch (error) {
+      change(standard);
       complain(`The link cannot be followed, so this is the textbook's bullet: ${/** @type {Error} */ (error).message}`);
-      return standard;
     }
   };
-  const follow = () => {
-    const wanted = from_link(), said = byId('complaint').textContent;
-    change(wanted);
-    complain(said);
-  };
-  addEventListener('hashchange', () => { if (location.hash !== write(state)) follow(); });
+  addEventListener('hashchange', () => { if (location.hash !== write(state, standard)) follow(); });
   addEventListener('resize', () => { showShot(); showShots(); rod.show(); if (raced.length > 0) showTimes(); });
   order({ module });
   follow();
-  order({ race: true });
+  measure(0);
   document.body.dataset.ready = 'yes';
 }
 

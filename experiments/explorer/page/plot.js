@@ -35,7 +35,7 @@ export function markPicture(look) {
 export function short(value) {
   if (value === 0) return '0';
   const size = Math.abs(value);
-  return size >= 1e-3 && size < 1e5 ? String(Number(value.toPrecision(3))) : value.toExponential(0).replace('e+', 'e');
+  return size >= 1e-3 && size < 1e5 ? String(Number(value.toPrecision(3))) : value.toExponential(2).replace(/\.?0*e\+?/, 'e');
 }
 
 /** Powers of ten, or round numbers; about as many as have room. @param {Axis} axis @param {number} pixels */

@@ -6,7 +6,7 @@ import { showRods } from './tables.js';
 /** @typedef {import('./engine.js').Setting} Setting
  *  @typedef {Awaited<ReturnType<typeof import('./engine.js').startEngine>>['rod']} Library */
 
-const rodsWanted = 20000, rodsAtOnce = 250, rodHeight = 240; // flights a method, and at once: a few milliseconds
+const rodsWanted = 20000, rodHeight = 240, rodSlice = 12; // flights a method; [ms] of them at once
 
 /** The rod in a few steps around its first contact. @param {SVGElement} into @param {import('./engine.js').RodShot} shot
  *  @param {{ color: string, mark: number, seen: number }[]} seen */
@@ -35,10 +35,9 @@ function drawFlight(into, shot, seen) {
   into.replaceChildren(...parts);
 }
 
-/** @param {Library} library @param {() => boolean} running */
-export function makeRod(library, running) {
-  const value = (/** @type {string} */ name) => library.factors.find((factor) => factor.name === name)?.value ?? 0;
-  let length = value('length'), spin = value('spin'), flight = 0, possible = false, waiting = false;
+/** @param {Library} library @param {() => boolean} running @param {(rod: import('./state.js').Rod) => void} said hears what is set */
+export function makeRod(library, running, said) {
+  let length = 0, spin = 0, flight = 0, possible = false, waiting = false, batch = /** @type {number[]} */ ([]);
   /** @type {Setting | null} */
   let setting = null;
 
@@ -54,17 +53,18 @@ export function makeRod(library, running) {
   }
 
   function showCounts() {
-    const counted = possible ? tallies() : [], count = 121, from = 0.1, to = 20;
+    const counted = possible ? tallies() : [], count = 121;
     showRods(byId('rod-counts'), library.methods, counted);
     if (!possible) return;
-    byId('rod-counts').dataset.cell = JSON.stringify(library.cell());
+    const cell = library.cell(), from = Math.min(0.1, cell[0] / 3), to = Math.max(20, cell[0] * 3);
+    byId('rod-counts').dataset.cell = JSON.stringify(cell);
     const x = Array.from({ length: count }, (_, i) => from * (to / from) ** (i / (count - 1)));
     const series = library.methods.map((method, i) => {
       const { ratio, chances } = library.curve(i, from, to, count), { shots, share, lower, upper } = counted[i];
       const points = shots > 0 ? [/** @type {[number, number, number, number]} */ ([ratio, share, lower, upper])] : [];
       return { label: method.name, color: method.color, mark: method.mark, points, line: chances.map((y, k) => /** @type {[number, number]} */ ([x[k], y])) };
     });
-    draw(byId('rod-chance'), { label: 'step over wall and rod: v h / (w + 2 r + length) [1]', from, to, log: true },
+    draw(byId('rod-chance'), { label: 'step over wall and rod: v h / (w + length) [1]', from, to, log: true },
       { label: 'share that tunnels [1]', from: 0, to: 1 }, series, 260);
   }
 
@@ -74,7 +74,9 @@ export function makeRod(library, running) {
     if (!possible || !running()) return;
     const all = tallies(), least = all.reduce((best, tally, i) => (tally.shots < all[best].shots ? i : best), 0);
     if (all[least].shots >= rodsWanted) return showCounts();
-    library.fire(least, rodsAtOnce);
+    const count = Math.min(batch[least] ?? 4, rodsWanted - all[least].shots), start = performance.now();
+    library.fire(least, count);
+    batch[least] = Math.max(1, Math.round(count * Math.min(4, rodSlice / Math.max(performance.now() - start, 0.5))));
     if (least === all.length - 1) showCounts();
     go();
   }
@@ -97,19 +99,34 @@ export function makeRod(library, running) {
     const why = library.set(setting, length, spin);
     byId('rod-complaint').textContent = why;
     possible = why === '';
+    batch = [];
+    if (!possible) for (const id of ['rod-scene', 'rod-said', 'rod-chance']) byId(id).replaceChildren();
     show();
     go();
   }
 
+  /** @param {Partial<import('./state.js').Rod>} what */
+  function choose(what) {
+    ({ length, spin, flight } = { length, spin, flight, ...what });
+    if (what.flight === undefined) set();
+    else showFlight();
+    if (possible) said({ length, spin, flight });
+  }
+  const typed = (/** @type {string} */ id) => (byId(id).value.trim() === '' ? NaN : Number(byId(id).value));
+
   const on = (/** @type {string} */ id, /** @type {string} */ event, /** @type {() => void} */ then) => byId(id).addEventListener(event, then);
-  on('rod-length', 'change', () => { length = Number(byId('rod-length').value); set(); });
-  on('rod-spin', 'change', () => { spin = Number(byId('rod-spin').value); set(); });
-  on('rod-spin-slider', 'input', () => { spin = Number((10 ** (Number(byId('rod-spin-slider').value) / 100)).toPrecision(3)); set(); });
-  on('rod-next', 'click', () => { flight = (flight + 1) % 1000; showFlight(); });
+  on('rod-length', 'change', () => choose({ length: typed('rod-length') }));
+  on('rod-spin', 'change', () => choose({ spin: typed('rod-spin') }));
+  on('rod-spin-slider', 'input', () => choose({ spin: Number((10 ** (Number(byId('rod-spin-slider').value) / 100)).toPrecision(3)) }));
+  on('rod-next', 'click', () => choose({ flight: (flight + 1) % 1000 }));
 
   return {
-    /** The conditions are others: all flights are forgotten. @param {Setting} now */
-    change(now) { setting = now; set(); },
+    /** The conditions are others: all flights are forgotten. @param {Setting} now @param {import('./state.js').Rod} rod */
+    change(now, rod) {
+      setting = now;
+      ({ length, spin, flight } = rod);
+      set();
+    },
     go,
     show,
   };

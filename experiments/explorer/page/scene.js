@@ -3,37 +3,36 @@
 import { markAt, svg } from './plot.js';
 
 /** @typedef {import('./engine.js').Shot} Shot
- *  @typedef {{ onPhase: (phase: number) => void, onSpeed: (factor: number) => void, onThickness: (half: number) => void }} Drags */
+ *  @typedef {{ onGrab: () => void, onPhase: (phase: number) => void, onSpeed: (factor: number) => void, onThickness: (half: number) => void }} Drags
+ *    the factor is of the speed when it was grabbed */
 
 const height = 260, steps_shown = 4;
 
 /** @param {SVGElement} into @param {Drags} drags */
 export function makeScene(into, drags) {
-  /** @type {{ shot: Shot, phase: number, scale: number, originX: number } | null} */
+  /** @type {{ shot: Shot, phase: number, scale: number } | null} */
   let drawn = null;
-  /** @type {'ball' | 'velocity' | 'wall' | null} */
+  /** What is held, from where, in the picture as it was then: each move draws another, to another scale.
+   *  @type {{ name: string, from: number, shot: Shot, phase: number, scale: number } | null} */
   let held = null;
 
-  const metersAt = (/** @type {PointerEvent} */ event) => {
-    const box = into.getBoundingClientRect();
-    return drawn ? (event.clientX - box.left - drawn.originX) / drawn.scale : 0;
-  };
   into.addEventListener('pointerdown', (event) => {
     const name = /** @type {Element} */ (event.target).closest('[data-held]')?.getAttribute('data-held');
-    held = /** @type {typeof held} */ (name ?? null);
-    if (held) into.setPointerCapture(event.pointerId);
+    held = name && drawn ? { ...drawn, name, from: event.clientX } : null;
+    if (!held) return;
+    into.setPointerCapture(event.pointerId);
+    drags.onGrab();
   });
-  into.addEventListener('pointerup', () => { held = null; });
+  for (const end of ['pointerup', 'pointercancel']) into.addEventListener(end, () => { held = null; });
   into.addEventListener('pointermove', (event) => {
-    if (!held || !drawn) return;
-    const { shot, phase } = drawn, x = metersAt(event);
-    if (held === 'ball') {
-      const moved = (x - shot.x) / shot.dx; // towards the wall is a smaller phase
-      drags.onPhase((((phase - moved) % 1) + 1) % 1);
-    } else if (held === 'velocity') {
-      drags.onSpeed(Math.max(0.05, (x - shot.x) / shot.dx));
+    if (!held) return;
+    const { name, from, shot, phase, scale } = held, moved = (event.clientX - from) / scale; // [m]
+    if (name === 'ball') {
+      drags.onPhase((((phase - moved / shot.dx) % 1) + 1) % 1); // towards the wall is a smaller phase
+    } else if (name === 'velocity') {
+      drags.onSpeed(Math.max(0.05, 1 + moved / shot.dx));
     } else {
-      drags.onThickness(Math.abs(x));
+      drags.onThickness(Math.max(0, shot.half - moved));
     }
   });
 
@@ -46,7 +45,7 @@ export function makeScene(into, drags) {
       const back = Math.abs(shot.x) + 1.5 * shot.radius, front = Math.max(shot.half, shot.x + steps_shown * shot.dx) + 1.5 * shot.radius;
       const scale = Math.min(width / (back + front), (height / 2 - 34) / Math.max(shot.radius, shot.half, Math.abs(shot.dy) * 1.2));
       const originX = width / 2 + ((back - front) / 2) * scale;
-      drawn = { shot, phase, scale, originX };
+      drawn = { shot, phase, scale };
       // at y = 0 where it touches
       const touch = shot.y + (shot.contact / length) * shot.dy;
       const px = (/** @type {number} */ x) => originX + x * scale, py = (/** @type {number} */ y) => middle - (y - touch) * scale;

@@ -52,8 +52,8 @@ export async function serve() {
     firing = false;
   };
 
-  onmessage = async ({ data }) => {
-    const order = /** @type {Order} */ (data);
+  const failed = (/** @type {unknown} */ error) => { setTimeout(() => { throw error; }, 0); }; // where the page hears of it
+  const obey = async (/** @type {Order} */ order) => {
     if (order.module) engine = await startEngine(order.module);
     if (!engine) return;
     if (order.setting) {
@@ -67,6 +67,8 @@ export async function serve() {
     now.running = order.running ?? now.running;
     if (order.race) report({ raced: engine.race() });
     if (order.miss !== undefined) report({ advice: engine.advice(order.miss, order.late ?? -1) });
-    void work();
+    work().catch(failed);
   };
+  let obeyed = Promise.resolve(); // one order after the other, though the first waits for the library
+  onmessage = ({ data }) => { obeyed = obeyed.then(() => obey(data)).catch(failed); };
 }
