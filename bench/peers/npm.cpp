@@ -12,6 +12,7 @@ bool thinwall::bench::add_npm(const std::string&) { return false; }
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -126,7 +127,8 @@ void add_npm_row(const std::string& name, const std::string& engine, const std::
 
 bool add_npm(const std::string& engine) {
   const NpmCaster& one = caster(engine);
-  if (!std::filesystem::exists(std::filesystem::path(THINWALL_NPM_ENGINES) / "node_modules" / one.package))
+  static const bool has_node = std::system("command -v node >/dev/null") == 0;
+  if (!has_node || !std::filesystem::exists(std::filesystem::path(THINWALL_NPM_ENGINES) / "node_modules" / one.package))
     return false;
   for_each_cast([&](const std::string& pair, auto set, const Operations& least) {
     if (one.in_plane && pair != in_plane) return;

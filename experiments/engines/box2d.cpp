@@ -25,6 +25,7 @@ class Box2dWorld final : public EngineWorld {
     fixture.shape = &wall_shape;
     fixture.friction = 0;
     fixture.restitution = 1;
+    fixture.restitutionThreshold = 0;  // [m/s] what is slower sticks; 1 as it comes
     world_.CreateBody(&wall_def)->CreateFixture(&fixture);
 
     b2BodyDef ball_def;

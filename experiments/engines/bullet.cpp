@@ -1,6 +1,8 @@
 #include <thinwall/experiments/engines/engine.hpp>
 
 #ifdef THINWALL_HAS_BULLET
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <btBulletDynamicsCommon.h>
@@ -31,6 +33,7 @@ btDefaultCollisionConstructionInfo small_pools() {
 struct BulletSweep {
   double radius = 0;     ///< [m] of the ball that is swept in place of the ball
   double threshold = 0;  ///< [m] a step: what moves less is not swept
+  bool bounces = false;  ///< contacts that a sweep finds have the bodies' restitution; not so as it comes
 };
 
 class BulletWorld final : public EngineWorld {
@@ -42,6 +45,7 @@ class BulletWorld final : public EngineWorld {
         ball_(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &ball_shape_, inertia(ball_shape_))),
         step_(static_cast<btScalar>(scene.step)) {
     world_.setGravity({0, 0, 0});
+    world_.getSolverInfo().m_restitutionVelocityThreshold = 0;  // [m/s] what is slower sticks; 0.2 as it comes
     for (btRigidBody* body : {&wall_, &ball_}) {
       body->setRestitution(1);
       body->setFriction(0);
@@ -53,6 +57,7 @@ class BulletWorld final : public EngineWorld {
     ball_.setWorldTransform(pose);
     ball_.setInterpolationWorldTransform(pose);
     ball_.setLinearVelocity(in_bullet(ball.velocity));
+    world_.setApplySpeculativeContactRestitution(sweep.bounces);
     if (sweep.radius > 0) {
       ball_.setCcdSweptSphereRadius(static_cast<btScalar>(sweep.radius));
       ball_.setCcdMotionThreshold(static_cast<btScalar>(sweep.threshold));
@@ -95,15 +100,19 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
                                     .make = [](const EngineScene& scene, const BodyState& ball) {
                                       return std::make_unique<BulletWorld>(scene, ball, BulletSweep{});
                                     }}};
-  for (const double factor : choices.swept_radius) {
-    const auto make = [factor, threshold = choices.motion_threshold](const EngineScene& scene, const BodyState& ball) {
-      return std::make_unique<BulletWorld>(scene, ball, BulletSweep{factor * scene.radius, threshold * scene.radius});
+  const auto add = [&](double factor, bool bounces) {
+    const auto make = [=, threshold = choices.motion_threshold](const EngineScene& scene, const BodyState& ball) {
+      return std::make_unique<BulletWorld>(scene, ball,
+                                           BulletSweep{factor * scene.radius, threshold * scene.radius, bounces});
     };
-    modes.push_back({.name = "ccd_" + exact_text(factor),
-                     .what = fmt::format("setCcdSweptSphereRadius({0} r), setCcdMotionThreshold({1} r)", factor,
-                                         choices.motion_threshold),
-                     .make = make});
-  }
+    modes.push_back(
+        {.name = fmt::format("ccd_{}{}", exact_text(factor), bounces ? "_bouncing" : ""),
+         .what = fmt::format("setCcdSweptSphereRadius({0} r), setCcdMotionThreshold({1} r){2}", factor,
+                             choices.motion_threshold, bounces ? ", setApplySpeculativeContactRestitution(true)" : ""),
+         .make = make});
+  };
+  for (const double factor : choices.swept_radius) add(factor, false);
+  if (!choices.swept_radius.empty()) add(std::ranges::max(choices.swept_radius), true);
   return modes;
 }
 

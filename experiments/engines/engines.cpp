@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -122,6 +123,9 @@ Table cells_table(const Rows& rows) {
                rows);
 }
 
+constexpr const char* whose_clock =
+    "Processor time of the thread; of engines in npm packages, wall-clock time, which a busy machine lengthens.";
+
 Table timings_table(const Rows& rows) {
   const auto columns = columns_of<Row>(
       names_and_factors(),
@@ -129,14 +133,15 @@ Table timings_table(const Rows& rows) {
                "", "its 95 % bootstrap interval"),
       value("volleys", "1", "Timed apart, in turn with the other engines.",
             [](const Row& r) { return r.nanoseconds.size(); }));
-  return timing(table("timings", "Time a step; making the world is not in it.", columns, rows));
+  return timing(
+      table("timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock), columns, rows));
 }
 
 /// One row an engine that took part.
-Table packages_table(const EnginePlan& plan) {
+Table packages_table(const Rows& rows) {
   std::vector<Engine> engines;
-  const auto name = [](const EngineSetup& setup) { return setup.engine.name; };
-  for (const Group<EngineSetup>& group : group_by(plan.setups, name)) engines.push_back(group[0]->engine);
+  const auto name = [](const Row& row) { return row.setup->engine.name; };
+  for (const Group<Row>& group : group_by(rows, name)) engines.push_back(group[0]->setup->engine);
   const auto version = [build = this_build()](const Engine& engine) {
     if (!engine.version.empty()) return engine.version;
     if (engine.package.empty()) return build.version;
@@ -254,8 +259,8 @@ Figure time_figure(const Rows& rows) {
       .name = "times",
       .title = "Error against run time",
       .caption = fmt::format("Time a step of a world of one wall and one ball against the share of balls that go "
-                             "through at {} m a step, with 95 % intervals.",
-                             path),
+                             "through at {} m a step, with 95 % intervals. {}",
+                             path, whose_clock),
       .is_timing = true};
   const auto columns = columns_of<Row>(text("label", "", label_of), measured("through", "", "", percent_of, "through_"),
                                        measured("time", "", "", time_of, "time_"));
@@ -299,7 +304,9 @@ std::string percent_text(double share) { return fmt::format("{:.3g} %", 100 * sh
 
 std::string with_interval(const Row& row) {
   const auto [value, interval] = percent_of(row);
-  return fmt::format("{} {:.3g} % [{:.3g}, {:.3g}]", label_of(row), value, interval.lower, interval.upper);
+  const bool has_its_own = row.theory && row.setup->mode.skin > 0;
+  return fmt::format("{} {:.3g} % [{:.3g}, {:.3g}{}]", label_of(row), value, interval.lower, interval.upper,
+                     has_its_own ? "; with its skin theory says " + percent_text(*row.theory) : "");
 }
 
 /// All modes and walls get the same shots: those of one are all there are.
@@ -337,7 +344,7 @@ std::string answer_of(const Rows& rows) {
   std::string text;
   if (!poses.empty()) {
     text = fmt::format("At {} m a step, looking at the poses of a step's end, go through (95 %): {}{}.", path,
-                       listed(poses), theory ? "; theory says " + percent_text(*theory) : "");
+                       listed(poses), theory ? "; without a skin theory says " + percent_text(*theory) : "");
   }
   if (!safe.empty()) text += fmt::format(" Sweeping, {} let none of these shots through.", listed(safe));
   if (!unsafe.empty()) text += fmt::format(" Others that sweep do, at worst: {}.", listed(unsafe));
@@ -379,15 +386,16 @@ Columns<StageRow> stage_columns() {
                               engine_and_mode<StageRow>());
 }
 
-/// In percent: who passed or was lost, and after a slash who was disturbed.
+/// In percent: who passed or was lost, and after a slash who was disturbed of the others.
 std::string in_short(const StageRow& row) {
   const StageTally& t = row.tally;
-  const auto percent = [&](std::int64_t part) {
-    const double x = share_of(100 * part, t.shots).value_or(0);
+  const auto percent = [](std::int64_t part, std::int64_t whole) {
+    const double x = share_of(100 * part, whole).value_or(0);
     return fmt::format("{:.{}f}", x, x == 0 || x >= 9.95 ? 0 : 1);
   };
-  const std::string passed = percent(t.passed + t.lost);
-  return row.kind->spins ? passed : passed + "/" + percent(t.disturbed);
+  const std::int64_t gone = t.passed + t.lost;
+  const std::string passed = percent(gone, t.shots);
+  return row.kind->spins ? passed : passed + "/" + (gone == t.shots ? "-" : percent(t.disturbed, t.shots - gone));
 }
 
 Table stages_table(const std::vector<StageRow>& rows) {
@@ -411,7 +419,8 @@ Table stage_timings_table(const std::vector<StageRow>& rows) {
       stage_columns(), value("nanoseconds", "ns", "Time a step, mean.", [](const StageRow& r) {
         return 1e9 * r.tally.seconds / static_cast<double>(std::max<std::int64_t>(1, r.tally.shots) * r.kind->steps);
       }));
-  return timing(table("stage_timings", "Time a step; making the world is not in it.", columns, rows));
+  return timing(table("stage_timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock),
+                      columns, rows));
 }
 
 std::string stages_summary(const std::vector<StageRow>& rows) {
@@ -481,13 +490,21 @@ std::string agreement_text(const Rows& rows) {
                       : "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
 }
 
+/// Of engines whose shots are not all answered; the text begins with a space.
+std::string failed_text(const std::vector<std::string>& failed) {
+  if (failed.empty()) return "";
+  return fmt::format(" {} {} left out, having died or hung.", listed(failed), failed.size() == 1 ? "is" : "are");
+}
+
 /// What is missing, and how each of the others is set up.
-std::string engines_text(const EnginePlan& plan) {
+std::string engines_text(const EnginePlan& plan, const std::vector<std::string>& failed) {
   std::vector<std::string> parts;
+  if (!failed.empty()) parts.push_back(failed_text(failed).substr(1));
   for (const std::string& line : missing_engines(plan)) parts.push_back(line + ".");
   const EngineSetup* last = nullptr;
   for (const EngineSetup& setup : plan.setups) {
     const Engine& engine = setup.engine;
+    if (std::ranges::find(failed, engine.called) != failed.end()) continue;
     if (last == nullptr || last->engine.name != engine.name) {
       parts.push_back(fmt::format("{}: {}", engine.called, engine.made_of));
       if (!engine.why_most_path.empty()) {
@@ -501,14 +518,15 @@ std::string engines_text(const EnginePlan& plan) {
   return fmt::format("{}", fmt::join(parts, "\n\n"));
 }
 
-Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages) {
+Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages,
+                   const std::vector<std::string>& failed) {
   const std::vector<SelfTest> tests = tests_of(rows, stages);
-  return {.answer = answer_of(rows),
+  return {.answer = answer_of(rows) + failed_text(failed),
           .summary = summary_of(plan, rows, stages),
-          .tables = {told_table(rows), stages_table(stages), cells_table(rows), packages_table(plan),
+          .tables = {told_table(rows), stages_table(stages), cells_table(rows), packages_table(rows),
                      timings_table(rows), stage_timings_table(stages)},
           .figures = figures_of(rows),
-          .sections = {{"The engines", engines_text(plan)},
+          .sections = {{"The engines", engines_text(plan, failed)},
                        {"The stages", stages_text(plan, stages)},
                        {"Self-test", self_test_text(tests) + agreement_text(rows)}},
           .self_test_passed = all_passed(tests)};
@@ -544,11 +562,9 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
     add_results(volleys, done.results, all);
     for (std::size_t i = 0; i < played.size(); ++i) all_stages[played[i].row].tally += stages_done.results[i];
     const std::vector<std::string> failed = drop_failed(all, all_stages);
-    Outcome outcome = outcome_of(*plan, all, all_stages);
-    for (const std::string& name : failed) {
-      outcome.summary += fmt::format("\n\n{} is left out: it died or hung, and left shots unanswered.", name);
-    }
-    return outcome;
+    if (all.empty())
+      throw std::runtime_error(fmt::format("{}: died or hung, and no other engine took part", listed(failed)));
+    return outcome_of(*plan, all, all_stages, failed);
   };
   return make_run(finish, missing_engines(*plan), std::move(tasks), std::move(stage_tasks));
 }

@@ -219,7 +219,8 @@ EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options)
   const double least_path = 13 * plan.cells.front().radius + 2 * plan.cells.front().thickness;
   if (plan.stage_shots > 0 && plan.stage_path < least_path) {
     settings.complain("stage_path",
-                      fmt::format("at least {} m, so that what is not stopped has passed at the end of a shot",
+                      fmt::format("at least {} m, so that what is not stopped has passed at the end of a shot; "
+                                  "without stages, stage_shots is 0",
                                   rounded_text(least_path, 3)));
   }
   plan.seed = options.seed;

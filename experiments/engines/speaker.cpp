@@ -22,6 +22,7 @@ namespace thinwall {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr int not_started = 127;  // as a shell says that a program is not there
 constexpr std::size_t most_of_a_line = std::size_t(1) << 30;
 
 /// Waits until one of them is ready, for no longer than to `end`; what is ready by then counts, as after a halt of this program.
@@ -42,7 +43,7 @@ Clock::time_point after(double seconds) {
 }  // namespace
 
 Speaker::Speaker(std::string name, std::vector<std::string> words, const std::filesystem::path& folder)
-    : name_(std::move(name)) {
+    : name_(std::move(name)), program_(words.front()) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -62,7 +63,7 @@ Speaker::Speaker(std::string name, std::vector<std::string> words, const std::fi
     if (::chdir(folder.c_str()) == 0 && ::dup2(in[0], 0) == 0 && ::dup2(out[1], 1) == 1 && ::dup2(null, 2) == 2) {
       ::execvp(pointers[0], pointers.data());
     }
-    ::_exit(127);
+    ::_exit(not_started);
   }
   ::close(in[0]);
   ::close(out[1]);
@@ -86,6 +87,19 @@ void Speaker::give_up(const std::string& why) {
   throw SpeakerError(fmt::format("{} {}", name_, why));
 }
 
+void Speaker::has_died() {
+  int status = 0;
+  for (int tries = 0; tries < 100 && process_ > 0; ++tries) {  // it may take its time to end
+    const pid_t ended = ::waitpid(process_, &status, WNOHANG);
+    if (ended == process_) process_ = -1;
+    if (ended != 0) break;
+    ::poll(nullptr, 0, 1);
+  }
+  if (process_ < 0 && WIFEXITED(status) && WEXITSTATUS(status) == not_started)
+    give_up(fmt::format("cannot be started: is {} installed?", program_));
+  give_up("has died");
+}
+
 std::string Speaker::line(double seconds) {
   const Clock::time_point end = after(seconds);
   while (true) {
@@ -105,7 +119,7 @@ void Speaker::listen() {
   std::array<char, 65536> buffer{};
   const ssize_t count = ::read(from_, buffer.data(), buffer.size());
   if (count < 0 && errno == EINTR) return;
-  if (count <= 0) give_up("has died");
+  if (count <= 0) has_died();
   heard_.append(buffer.data(), static_cast<std::size_t>(count));
   if (heard_.size() > most_of_a_line) give_up("goes on and on in one line");
 }
@@ -130,7 +144,7 @@ nlohmann::json Speaker::ask(const nlohmann::json& question, double seconds) {
     // a socket, unlike a pipe, says that nobody listens without a signal
     const ssize_t count = ::send(to_, asked.data() + sent, asked.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (count <= 0) give_up("has died");
+    if (count <= 0) has_died();
     sent += static_cast<std::size_t>(count);
   }
   return hear(seconds);

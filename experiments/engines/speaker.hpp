@@ -31,11 +31,12 @@ class Speaker {
 
  private:
   [[noreturn]] void give_up(const std::string& why);
+  [[noreturn]] void has_died();
   void end();
   void listen();
   std::string line(double seconds);
 
-  std::string name_;
+  std::string name_, program_;
   int process_ = -1, to_ = -1, from_ = -1;
   std::string heard_;  ///< of a line that is not whole yet, or of the next
 };

@@ -51,14 +51,18 @@ double two_balls_theory(const StageSize& s, int poses, double skin) {
   return miss_probability(2 * s.radius + skin, s.path / poses);
 }
 
-// A wall of six pieces side by side, a meter each; the ball touches within its radius of where two of them meet.
+// A wall of six pieces side by side, a meter each or more; the ball touches within its radius of where two of them meet.
 
 constexpr int pieces = 6;
+
+/// [m] Of a piece: no ball or pose of it comes to where the wall ends, and the shortest way out is not along it.
+double side(const StageSize& s) { return std::max(1.0, 2 * (s.radius + s.thickness)); }
 
 EngineStage tiles(const StageSize& s) {
   EngineStage stage = {.step = s.step, .fixed = {}, .moving = {Sphere<double>{V::Zero(), s.radius}}};
   for (int i = 0; i < pieces; ++i)
-    stage.fixed.emplace_back(Aabb<double>{{0, i - (pieces - 1) / 2.0, 0}, {s.thickness / 2, 0.5, 2}});
+    stage.fixed.emplace_back(
+        Aabb<double>{{0, side(s) * (i - (pieces - 1) / 2.0), 0}, {s.thickness / 2, side(s) / 2, 2 * side(s)}});
   return stage;
 }
 
@@ -66,7 +70,7 @@ EngineStage mesh(const StageSize& s) {
   EngineStage stage = {.step = s.step, .fixed = {}, .moving = {Sphere<double>{V::Zero(), s.radius}}};
   EngineMesh mesh;
   for (int i = 0; i <= pieces; ++i) {
-    for (const double z : {-1.75, 2.25}) mesh.points.emplace_back(front(s), i - pieces / 2.0, z);
+    for (const double z : {-1.75, 2.25}) mesh.points.emplace_back(front(s), side(s) * (i - pieces / 2.0), side(s) * z);
   }
   for (int i = 0; i < pieces; ++i) {
     mesh.triangles.push_back({2 * i, 2 * i + 1, 2 * i + 2});
@@ -103,7 +107,7 @@ double tiles_theory(const StageSize& s, int poses, double skin) {
 EngineStage rod_at_wall(const StageSize& s) {
   const V half = {0, rod_half(s), 0};
   return {.step = s.step,
-          .fixed = {Aabb<double>{V::Zero(), {s.thickness / 2, 100, 100}}},
+          .fixed = {Aabb<double>{V::Zero(), {s.thickness / 2, 100 * side(s), 100 * side(s)}}},
           .moving = {Capsule<double>{-half, half, rod_radius(s)}}};
 }
 
@@ -138,14 +142,14 @@ double spinning_rod_theory(const StageSize& s, int poses, double skin) {
 
 EngineStage plate(const StageSize& s) {
   return {.step = s.step,
-          .fixed = {Aabb<double>{V::Zero(), {s.thickness / 2, 0.5, 2}}},
+          .fixed = {Aabb<double>{V::Zero(), {s.thickness / 2, side(s) / 2, 2 * side(s)}}},
           .moving = {Sphere<double>{V::Zero(), s.radius}}};
 }
 
 StageShot past_edge(const StageSize& s, const RandomWords& words) {
   const V velocity = speed(s) * V::UnitX();
   const double gap = s.radius * (0.1 + 0.9 * uniform(words[1]));
-  const V nearest = {0, 0.5 + s.radius + gap, 0};
+  const V nearest = {0, side(s) / 2 + s.radius + gap, 0};
   return {.start = {{nearest - (1 + 2 * uniform(words[0])) * s.step * velocity, velocity}},
           .ahead = V::UnitX(),
           .beyond = std::numeric_limits<double>::infinity(),

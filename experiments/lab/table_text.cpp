@@ -321,7 +321,8 @@ ShownTable shown(const Table& table) {
   std::string same;
   for (const Choice& choice : choices(table)) {
     const Column& column = table.columns[choice.at];
-    if (!is_same_in_every_row(table, choice)) {
+    if (column.description.empty() ||
+        !is_same_in_every_row(table, choice)) {  // without a word of its own: a column of a matrix
       kept.push_back(choice);
       continue;
     }

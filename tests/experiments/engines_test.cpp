@@ -377,7 +377,8 @@ TEST(Speakers, that_die_hang_or_talk_nonsense_are_named_errors) {
   EXPECT_EQ(said("read line; kill -9 $$"), "It has died");
   EXPECT_EQ(said("exec sleep 100", 1, 0.5), "It has said nothing for 0.5 s");
   EXPECT_EQ(said("read line; echo garbage"), "It says what is not JSON: \"garbage\"");
-  EXPECT_EQ(error_of<SpeakerError>([] { Speaker("It", {"/no/such/program"}, "/").hear(5); }), "It has died");
+  EXPECT_EQ(error_of<SpeakerError>([] { Speaker("It", {"/no/such/program"}, "/").hear(5); }),
+            "It cannot be started: is /no/such/program installed?");
 }
 
 /// A ball and boxes that meet after 1.7, 1.4 and 1.4 of 4 m, and a ball that stays in front.

@@ -63,6 +63,9 @@ export function world(mode, { step, fixed, moving }) {
   Jolt.destroy(all);
   const system = it.GetPhysicsSystem(), bodies = system.GetBodyInterface();
   with3([0, 0, 0], (none) => system.SetGravity(none));
+  const how = system.GetPhysicsSettings();
+  how.mMinVelocityForRestitution = 0; // what is slower sticks; 1 m/s as it comes
+  system.SetPhysicsSettings(how);
   const add = (shape, at, motion, where, more) => {
     const form = shapeOf(shape);
     const made = with3(at, (place) => new Jolt.BodyCreationSettings(form, place, upright, motion, where));
