@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <random>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -92,14 +94,39 @@ void remove_leftovers(const fs::path& folder) {
   for (const fs::path& leftover : leftovers) fs::remove_all(leftover);
 }
 
+namespace {
+
+/// Those that are there now.
+struct Workshops {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+Workshops& workshops() {
+  static Workshops all;
+  return all;
+}
+
+}  // namespace
+
 Workshop::Workshop(const fs::path& folder) : path_(folder / temporary_name()) {
   if (::mkdir(path_.c_str(), 0700) != 0)  // fails if anything is there, be it a link
     throw std::system_error(errno, std::generic_category(), path_.string());
+  const std::scoped_lock lock(workshops().mutex);
+  workshops().paths.insert(path_);
 }
 
 Workshop::~Workshop() {
+  const std::scoped_lock lock(workshops().mutex);
   std::error_code none;
   fs::remove_all(path_, none);
+  workshops().paths.erase(path_);
+}
+
+void Workshop::remove_all() {
+  const std::unique_lock lock(workshops().mutex, std::try_to_lock);
+  if (!lock) return;  // one is being made or removed, by a disk that may never answer
+  std::error_code none;
+  for (const fs::path& path : workshops().paths) fs::remove_all(path, none);
 }
 
 }  // namespace thinwall

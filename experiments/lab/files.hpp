@@ -42,6 +42,7 @@ void remove_leftovers(const std::filesystem::path& folder);
 class Workshop {
  public:
   explicit Workshop(const std::filesystem::path& folder);
+  static void remove_all();  ///< of a process that ends without leaving its scopes
   ~Workshop();
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;

@@ -118,7 +118,12 @@ IntervalText interval_text(double value, double lower, double upper) {
   const int place = last_place((upper - lower) / 2);
   const double largest = std::max({std::abs(value), std::abs(lower), std::abs(upper)});
   const bool scientific = largest < 1e-4 || largest >= 1e7;
-  return {to_place(value, place, scientific), to_place(lower, place, scientific), to_place(upper, place, scientific)};
+  const bool may_be_zero = lower <= 0 && upper >= 0;
+  const auto shown = [&](double x) {  // what is not 0 is not said to be
+    const std::string rounded = to_place(x, place, scientific);
+    return rounded == "0" && x != 0 && !may_be_zero ? rounded_text(x, 2) : rounded;
+  };
+  return {shown(value), shown(lower), shown(upper)};
 }
 
 bool contains(const Range& range, double value) {

@@ -61,7 +61,9 @@ ordered_json size_json(const RunRecord& run, const RunWish& wish) {
 
 std::string time_text(const RunEstimate& told, double seconds) {
   if (told.tried() == 0) return "for how long, cannot be told";
-  return (told.unknown == 0 ? "about " : "at least ") + duration_text(seconds);
+  const bool mostly_beginning =
+      told.cut_tried > 0 && told.trials == 1;  // what begins a unit, a trial alone or not, is counted for each
+  return (told.unknown > 0 ? "at least " : mostly_beginning ? "at most " : "about ") + duration_text(seconds);
 }
 
 int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all, const Call& call) {
@@ -133,8 +135,9 @@ int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
   } else {
     call.out << fmt::format("shard {} of {} is finished, in {}\n", to_text(*wish.shard), run.experiment,
                             one_line(wish.out));
-    call.out << fmt::format("with {} of them: thinwall merge SHARD... --out DIR\n",
-                            wish.shard->count == 1 ? "one" : fmt::format("all {}", wish.shard->count));
+    call.out << fmt::format("with {} of them: {} merge SHARD... --out DIR\n",
+                            wish.shard->count == 1 ? "one" : fmt::format("all {}", wish.shard->count),
+                            shell_line({call.argv.front()}));
   }
   call.out.flush();
   return exit_done;
@@ -330,6 +333,7 @@ int perform_run(RunWish wish, const Call& call) try {
     watch_for_stop();
     guard.emplace(patience, [&] {
       if (stderr_is_terminal()) ProgressBar::erase();
+      Workshop::remove_all();
       std::_Exit(interrupted(wish, call));
     });
   }

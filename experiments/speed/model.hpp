@@ -46,6 +46,9 @@ struct BenchRow {
   }
 };
 
+/// Peers that are npm packages, as `peers` calls them where they are missing.
+inline constexpr std::array<std::string_view, 5> npm_peers = {"Rapier", "Jolt", "PhysX", "Havok", "Box2D 3"};
+
 /// What one start of a program said.
 struct BenchOutput {
   std::string program;

@@ -132,9 +132,14 @@ Table floors_table(const std::vector<BenchOutput>& outputs) {
 /// What did not take part, and why.
 std::optional<std::string> left_out(const BenchOutput& output) {
   std::string text = output.missing;
-  for (const std::string& peer : output.peers_left_out) text += (text.empty() ? "built without " : ", ") + peer;
-  if (!output.peers_left_out.empty())
-    text += ": install their development packages, configure with -DTHINWALL_PEERS=ON and build again";
+  const auto is_npm = [](const std::string& peer) { return std::ranges::find(npm_peers, peer) != npm_peers.end(); };
+  for (const bool npm : {false, true}) {
+    const auto some = only(output.peers_left_out, [&](const std::string& peer) { return is_npm(peer) == npm; });
+    if (some.empty()) continue;
+    text += fmt::format("{}without {}: {}", text.empty() ? "" : "; ", listed(some),
+                        npm ? "install nodejs and run `npm ci` in experiments/engines/npm"
+                            : "install their development packages, configure with -DTHINWALL_PEERS=ON and build again");
+  }
   return text.empty() ? std::nullopt : std::optional(text);
 }
 

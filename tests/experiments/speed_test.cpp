@@ -24,7 +24,8 @@ struct Speed : ::testing::Test {
   /// pairs and peers, with Bullet but without ODE.
   void write_both() const {
     write_bench(folder.path(), "pairs", bench_json(our_rows));
-    write_bench(folder.path(), "peers", bench_json(peer_rows, R"("peer_Bullet": "built in", "peer_ODE": "missing")"));
+    write_bench(folder.path(), "peers",
+                bench_json(peer_rows, R"("peer_Bullet": "built in", "peer_ODE": "missing", "peer_Jolt": "missing")"));
   }
   Outcome result(const std::string& more = "") const { return outcome_of(*speed_run(folder.path(), more)); }
 };
@@ -104,7 +105,8 @@ TEST_F(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_res
   write_both();
   const std::string text = whole_text(result());
   EXPECT_TRUE(holds(text, "Left out: batch: it is not in the folder of the benchmarks"));
-  EXPECT_TRUE(holds(text, "Left out: peers: built without ODE: install"));
+  EXPECT_TRUE(holds(text, "Left out: peers: without ODE: install"));
+  EXPECT_TRUE(holds(text, "; without Jolt: install nodejs and run `npm ci` in experiments/engines/npm"));
   std::filesystem::remove(folder.path() / "peers");
   const std::string without = whole_text(result());
   EXPECT_TRUE(holds(without, "No other library took part."));

@@ -320,6 +320,12 @@ TEST(IntervalText, shows_the_digits_that_the_interval_supports) {
   EXPECT_EQ(shown(-1.25, -1.4, -1.1), "-1.25 [-1.40, -1.10]") << "a supported zero is shown";
 }
 
+TEST(IntervalText, makes_nothing_zero_that_is_not) {
+  EXPECT_EQ(shown(2.147, 1.995, 4523), "2.1 [2, 4500]");
+  EXPECT_EQ(shown(-3.2, -900, -0.04), "-3.2 [-900, -0.04]");
+  EXPECT_EQ(shown(0.5, 1e-70, 1), "0.5 [1e-70, 1]");
+}
+
 TEST(IntervalText, leaves_whole_numbers_whole) {
   EXPECT_EQ(shown(0, 0, 0.00048), "0 [0, 0.00048]");
   EXPECT_EQ(shown(1, 0.99952, 1), "1 [0.99952, 1]");
