@@ -152,8 +152,19 @@ void set_look(std::vector<SeriesStyle>& styles) {
   for (SeriesStyle& style : styles) {
     if (!style.color.empty()) continue;
     const bool gray = !style.has_points && lines < line_grays.size();
-    style.color = gray ? line_grays[lines] : palette[colors % palette.size()];
-    style.point_type = point_types[colors % point_types.size()];
+    const auto is_taken = [&](const SeriesStyle& other) {  // by a method's own look
+      return &other != &style && other.color == style.color && other.point_type == style.point_type;
+    };
+    const auto dress = [&] {
+      style.color = gray ? line_grays[lines] : palette[colors % palette.size()];
+      style.point_type = point_types[colors % point_types.size()];
+    };
+    dress();
+    for (std::size_t tries = palette.size() * point_types.size();
+         tries > 0 && style.has_points && std::ranges::any_of(styles, is_taken); --tries) {
+      ++colors;
+      dress();
+    }
     if (!style.has_points) ++lines;
     if (!gray) ++colors;
   }

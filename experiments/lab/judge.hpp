@@ -49,11 +49,11 @@ struct Heading {
 };
 
 /// `of` and `part` head the columns of a test's name and part.
-Table self_test_table(const std::vector<SelfTest>& tests,
-                      std::string description =
-                          "Counts of independent shots against theory, over all cells of a method and scalar at once.",
-                      const Heading& of = {"method", "Way of detecting the hit."},
-                      const Heading& part = {"scalar", "Floating-point type the method ran in."});
+Table self_test_table(
+    const std::vector<SelfTest>& tests,
+    std::string description = "Counts of independent trials against theory, over all cells of a row at once.",
+    const Heading& of = {"method", "Way of detecting the hit."},
+    const Heading& part = {"scalar", "Floating-point type the method ran in."});
 
 /// Of verdicts of whatever kind.
 template <class Verdict> bool all_passed(const std::vector<Verdict>& verdicts) {

@@ -4,13 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include <thinwall/experiments/lab/table_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {
 
 constexpr int curve_points = 400;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A word stands for itself; a number says what it is of: `radius 0.1 m`.
+std::string legend_entry(const Column& column, const Value& value) {
+  if (column.type == ColumnType::text) return exact_text(value);
+  const bool has_unit = !column.unit.empty() && column.unit != "1";
+  return fmt::format("{} {}{}", spaced(column.name), exact_text(value), has_unit ? " " + column.unit : "");
+}
 
 }  // namespace
 
@@ -108,7 +118,8 @@ Plot::operator Panel() const {
     if (!at || !value) continue;
     least = std::min(least, *at);
     most = std::max(most, *at);
-    const std::string label = by_.empty() ? label_ : exact_text(row[place_of(table_, by_)]);
+    const std::string label =
+        by_.empty() ? label_ : legend_entry(table_.columns[place_of(table_, by_)], row[place_of(table_, by_)]);
     auto series = std::ranges::find(panel.series, label, &Series::label);
     if (series == panel.series.end()) {
       series = panel.series.insert(panel.series.end(), {.label = label, .mark = mark_});

@@ -178,7 +178,9 @@ Target target_of(std::string_view address, const std::string& own_page) {
   if (file.empty()) return {own_page, anchor};
   if (!file.ends_with(".md") || file.find('/') != std::string_view::npos) return {};
   const std::string page(file.substr(0, file.size() - 3));
-  return embedded_page(page).empty() ? Target() : Target{page, anchor};
+  const bool is_of_another_experiment =
+      page != own_page && !embedded_toml(page).empty();  // whose numbers this run did not measure
+  return embedded_page(page).empty() || is_of_another_experiment ? Target() : Target{page, anchor};
 }
 
 bool is_of_another_run(std::string_view heading) { return heading == "Results" || heading == "What to read from it"; }

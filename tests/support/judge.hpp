@@ -1,6 +1,8 @@
 #pragma once
 /// Are computed vectors unit, and computed points on the surfaces they should be on?
 
+#include <string_view>
+
 #include <thinwall/swept/time_of_impact.hpp>
 
 #include "support/bodies.hpp"
@@ -53,7 +55,7 @@ inline oracle::Verdict verdict_of(ToiStatus status) {
                                     : oracle::Verdict::overlapping;
 }
 
-inline const char* text(ToiStatus status) {
+inline std::string_view text(ToiStatus status) {
   constexpr const char* names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
   return names[static_cast<int>(status)];
 }

@@ -454,6 +454,21 @@ TEST(Plot, data_are_a_block_a_series) {
             "# panel 2, it's_@{a}: x y\n1 0\n10 0.5\n\n\n");
 }
 
+/// More series than there are looks repeat them; a name that is no method's does not look as one that is.
+TEST(Plot, series_wear_what_no_method_does_while_there_is_any) {
+  Figure figure = two_panels();
+  figure.panels.resize(1);
+  figure.panels[0].series = {{.label = "closed_form", .x = {1}, .y = {1}}, {.label = "my_method", .x = {1}, .y = {2}}};
+  const auto look = [script = plot_script(figure)](const std::string& number) {
+    const std::size_t line = script.find("set style line " + number + " ");
+    return script.substr(script.find("linecolor", line), script.find('\n', line) - script.find("linecolor", line));
+  };
+  EXPECT_TRUE(holds(look("1"), "linecolor"));
+  EXPECT_NE(look("1"), look("2"));
+  for (int i = 0; i < 100; ++i) figure.panels[0].series.push_back({.label = fmt::format("s{}", i), .x = {1}, .y = {1}});
+  EXPECT_TRUE(holds(plot_script(figure), "'s99'"));
+}
+
 TEST(Plot, bars_may_lie_along_both_axes) {
   Figure figure = two_panels();
   Series& points = figure.panels[0].series[1];
