@@ -233,7 +233,7 @@ double World::energy() const {
   using Wide = long double;
   Wide sum = 0;
   for (const Body& body : impl_->bodies) {
-    if (!is_moved_by_impulses(body) || std::holds_alternative<std::monostate>(body.shape)) continue;  // without a place
+    if (!is_moved_by_impulses(body)) continue;
     const Vec3<Wide> v = body.velocity.cast<Wide>(), g = impl_->options.gravity.cast<Wide>();
     const Vec3<Wide> place = position(body).cast<Wide>();
     sum += Wide(body.mass) * (v.squaredNorm() / 2 - Wide(body.gravity_scale) * g.dot(place));

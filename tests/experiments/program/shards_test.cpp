@@ -330,7 +330,7 @@ TEST_F(Mpi, ranks_1_2_and_4_give_the_bytes_of_one_process_and_one_of_them_speaks
 }
 
 TEST_F(Mpi, a_run_whose_ranks_were_killed_goes_on_with_any_number_of_them_or_with_none) {
-  const std::string trials = testing::slow_build ? "1500" : "30000";
+  const std::string trials = testing::slow_build ? "1500" : "90000";
   ASSERT_EQ(call({"run", "wall.toml", "--trials", trials, "--out", "whole"}).status, 0);
   const auto rows = [&](const std::string& file) {
     std::ifstream in(folder / ("killed/" + file));
