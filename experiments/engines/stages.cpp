@@ -60,9 +60,10 @@ double side(const StageSize& s) { return std::max(1.0, 2 * (s.radius + s.thickne
 
 EngineStage tiles(const StageSize& s) {
   EngineStage stage = {.step = s.step, .fixed = {}, .moving = {Sphere<double>{V::Zero(), s.radius}}};
-  for (int i = 0; i < pieces; ++i)
+  for (int i = 0; i < pieces; ++i) {
     stage.fixed.emplace_back(
         Aabb<double>{{0, side(s) * (i - (pieces - 1) / 2.0), 0}, {s.thickness / 2, side(s) / 2, 2 * side(s)}});
+  }
   return stage;
 }
 
