@@ -18,7 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <boost/numeric/interval.hpp>
 #include <thinwall/experiments/models/oracle.hpp>

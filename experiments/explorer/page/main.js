@@ -2,7 +2,7 @@
 
 import { makeControls } from './controls.js';
 import { startEngine } from './engine.js';
-import { byId, draw, short } from './plot.js';
+import { byId, draw, short, typed } from './plot.js';
 import { makeScene } from './scene.js';
 import { makeRod } from './rod.js';
 import { read, textbook, write } from './state.js';
@@ -208,7 +208,6 @@ async function page(code) {
     state = { ...state, rod: now };
     link();
   });
-  const typed = (/** @type {string} */ id) => (byId(id).value.trim() === '' ? NaN : Number(byId(id).value));
   function stopAfter() {
     const shots = typed('most'), fine = Number.isInteger(shots) && shots >= 1 && shots <= 1e9;
     change(fine ? { most: shots } : {});

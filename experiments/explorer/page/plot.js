@@ -7,6 +7,9 @@
 /** @param {string} id @returns {any} */
 export const byId = (id) => document.getElementById(id);
 
+/** The number in a field; NaN where it is empty or none. @param {string} id */
+export const typed = (id) => (byId(id).value.trim() === '' ? NaN : Number(byId(id).value));
+
 /** @param {string} name @param {Record<string, string | number>} attributes @param {(SVGElement | string)[]} children */
 export function svg(name, attributes, ...children) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', name);

@@ -1,6 +1,6 @@
 /** A rod that flies at the same wall and spins: its poses, and how often it passes. */
 
-import { byId, draw, markAt, short, svg } from './plot.js';
+import { byId, draw, markAt, short, svg, typed } from './plot.js';
 import { showRods } from './tables.js';
 
 /** @typedef {import('./engine.js').Setting} Setting
@@ -112,7 +112,6 @@ export function makeRod(library, running, said) {
     else showFlight();
     if (possible) said({ length, spin, flight });
   }
-  const typed = (/** @type {string} */ id) => (byId(id).value.trim() === '' ? NaN : Number(byId(id).value));
 
   const on = (/** @type {string} */ id, /** @type {string} */ event, /** @type {() => void} */ then) => byId(id).addEventListener(event, then);
   on('rod-length', 'change', () => choose({ length: typed('rod-length') }));
