@@ -4,7 +4,6 @@
 #include <set>
 #include <sstream>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +16,7 @@ namespace thinwall {
 namespace {
 
 using Kind = FileDifference::Kind;
+namespace fs = std::filesystem;
 
 std::string text_of(const std::vector<CsvRow>& rows, std::size_t i) {
   return i < rows.size() ? fmt::format("{}", fmt::join(rows[i].fields, ",")) : std::string();
@@ -113,8 +113,6 @@ std::string to_text(const FileDifference& difference) {
   return {};
 }
 
-namespace fs = std::filesystem;
-
 std::vector<std::string> files_changed_since(const fs::path& result, const Manifest& recorded) {
   std::vector<std::string> out;
   for (const auto& [file, hash] : recorded.hashes) {
@@ -133,20 +131,15 @@ RerunComparison compare_rerun(const fs::path& result, const Manifest& recorded, 
   out.files = static_cast<int>(files.size());
   bool by_hand = true;
   for (const std::string& file : files) {
-    const bool there = recorded.hashes.contains(file) && holds_file(result, file), here = again.hashes.contains(file);
-    std::optional<FileDifference> difference;
-    if (there && here) {
+    const auto as_recorded = recorded.hashes.find(file), as_rerun = again.hashes.find(file);
+    const bool there = as_recorded != recorded.hashes.end(), here = as_rerun != again.hashes.end();
+    std::optional difference = FileDifference{file, here ? Kind::only_rerun : Kind::only_recorded, 0, {}, {}, {}};
+    if (here && there && holds_file(result, file))
       difference = first_difference(file, file_text(result / file), file_text(rerun / file));
-    } else {
-      difference.emplace();
-      difference->file = file;
-      difference->kind = here ? FileDifference::Kind::only_rerun : FileDifference::Kind::only_recorded;
-    }
     if (!difference) continue;
     out.differences.push_back(*difference);
-    const auto as_recorded = recorded.hashes.find(file), as_rerun = again.hashes.find(file);
-    by_hand = by_hand && std::ranges::find(changed, file) != changed.end() && as_recorded != recorded.hashes.end() &&
-              as_rerun != again.hashes.end() && (as_recorded->second == as_rerun->second || file.ends_with(".bib"));
+    by_hand = by_hand && std::ranges::find(changed, file) != changed.end() && here && there &&
+              (as_recorded->second == as_rerun->second || file.ends_with(".bib"));
   }
   out.explained_by_hand = by_hand && !out.differences.empty();
   return out;

@@ -45,8 +45,8 @@ std::vector<SeriesStyle> series_styles(const Figure& figure);
 // ---- The script and the data.
 
 /// The script NAME.gp: run from inside its folder it reads NAME.dat and writes NAME.svg; with the variable `format` set to
-/// 'pdf', NAME.pdf; to 'tex', NAME-latex.tex and NAME-latex.pdf. Throws std::logic_error if the figure's name cannot be a file's, or a
-/// series' lists differ in length.
+/// 'pdf', NAME.pdf; to 'tex', NAME-latex.tex and NAME-latex.pdf. Throws std::logic_error if the figure's name cannot be a
+/// file's, or a series' lists differ in length.
 std::string plot_script(const Figure& figure);
 
 /// The data NAME.dat: one block a series, in the order of the panels; columns x, y and, where
@@ -85,8 +85,8 @@ struct DrawnFigures {
   std::vector<std::string> troubles;  ///< a line each
 };
 
-/// `formats`: of pdf and tex; every figure that the manifest names. Writes plots/NAME.pdf, plots/NAME-latex.tex and NAME-latex.pdf. Throws std::system_error if the
-/// folder cannot be written, UsageError if its manifest cannot be read.
+/// `formats`: of pdf and tex; every figure that the manifest names. Writes plots/NAME.pdf, plots/NAME-latex.tex and
+/// NAME-latex.pdf. Throws std::system_error if the folder cannot be written, UsageError if its manifest cannot be read.
 DrawnFigures draw_figures(const std::filesystem::path& folder, const std::vector<std::string>& formats);
 
 /// Removes what `draw_figures` drew of a result: it is older than what is about to be drawn.

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include <boost/core/noncopyable.hpp>
+
 namespace thinwall {
 
 /// The bytes of a file; none if no regular file is there. Throws std::system_error for one that cannot be read, lest it
@@ -39,13 +41,11 @@ bool is_temporary_name(std::string_view name);
 void remove_leftovers(const std::filesystem::path& folder);
 
 /// A new folder for ourselves alone in `folder`, gone with this. Throws std::system_error.
-class Workshop {
+class Workshop : boost::noncopyable {
  public:
   explicit Workshop(const std::filesystem::path& folder);
   static void remove_all();  ///< of a process that ends without leaving its scopes
   ~Workshop();
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:

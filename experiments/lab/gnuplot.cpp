@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -56,6 +54,8 @@ struct PlotLayout {
   double below = 50;     ///< from the panel's lower edge to the middle of its x label
   bool shared_x = true;  ///< one x axis for all panels, labeled once
   std::vector<PanelBox> panels;
+
+  bool beside() const { return legend_x > right; }
 };
 
 // [pixel], for text of 15 pixels
@@ -69,19 +69,18 @@ constexpr double bottom_margin = 66;
 constexpr double named_x = 26, group_row = 20;  // more below a panel with named tics, above one with named groups
 constexpr double panel_width = 780;             // of a panel with names beside it
 
-/// Room for the longest name beside the panels; 0 if there is none.
-double room_for_names(const std::vector<Panel>& panels) {
+/// Of whatever has a label.
+double letters_of_longest(const auto& labeled) {
   std::size_t longest = 0;
-  for (const Panel& panel : panels) {
-    for (const Tic& tic : panel.y_tics) longest = std::max(longest, tic.label.size());
-  }
-  return longest == 0 ? 0 : 56 + widest_letter * static_cast<double>(longest);
+  for (const auto& one : labeled) longest = std::max(longest, one.label.size());
+  return static_cast<double>(longest);
 }
 
-double letters_of_longest(const std::vector<SeriesStyle>& styles) {
-  std::size_t longest = 0;
-  for (const SeriesStyle& style : styles) longest = std::max(longest, style.label.size());
-  return static_cast<double>(longest);
+/// Room for the longest name beside the panels; 0 if there is none.
+double room_for_names(const std::vector<Panel>& panels) {
+  double longest = 0;
+  for (const Panel& panel : panels) longest = std::max(longest, letters_of_longest(panel.y_tics));
+  return longest == 0 ? 0 : 56 + widest_letter * longest;
 }
 
 /// The last column needs room for its text alone; those before it are as wide as gnuplot makes them.
@@ -155,15 +154,10 @@ void set_look(std::vector<SeriesStyle>& styles) {
     const auto is_taken = [&](const SeriesStyle& other) {  // by a method's own look
       return &other != &style && other.color == style.color && other.point_type == style.point_type;
     };
-    const auto dress = [&] {
+    for (std::size_t tries = palette.size() * point_types.size();; --tries, ++colors) {
       style.color = gray ? line_grays[lines] : palette[colors % palette.size()];
       style.point_type = point_types[colors % point_types.size()];
-    };
-    dress();
-    for (std::size_t tries = palette.size() * point_types.size();
-         tries > 0 && style.has_points && std::ranges::any_of(styles, is_taken); --tries) {
-      ++colors;
-      dress();
+      if (tries == 0 || !style.has_points || std::ranges::none_of(styles, is_taken)) break;
     }
     if (!style.has_points) ++lines;
     if (!gray) ++colors;
@@ -190,8 +184,7 @@ void require_drawable(const Figure& figure) {
   if (figure.panels.empty()) throw std::logic_error(figure_name + " has no panel");
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
-      const std::size_t n = series.x.size(), bars = series.lower.size();
-      const std::size_t x_bars = series.x_lower.size();
+      const std::size_t n = series.x.size(), bars = series.lower.size(), x_bars = series.x_lower.size();
       if (series.y.size() != n || series.upper.size() != bars || (bars != 0 && bars != n) ||
           series.x_upper.size() != x_bars || (x_bars != 0 && x_bars != bars)) {
         throw std::logic_error(figure_name + ", series '" + series.label + "': lists of different length");
@@ -281,12 +274,12 @@ std::vector<std::string> plot_items(const std::string& file, const Series& serie
 }
 
 std::string legend_item(const SeriesStyle& style, std::size_t number) {
-  if (style.has_cells) {
-    return fmt::format("keyentry with boxes linestyle {} fillstyle solid noborder title {}", number,
-                       spelled(style.label));
-  }
-  const char* with = style.has_points && style.has_line ? "linespoints" : style.has_points ? "points" : "lines";
-  return fmt::format("keyentry with {} linestyle {} title {}", with, number, spelled(style.label));
+  const char* with = style.has_cells                      ? "boxes"
+                     : style.has_points && style.has_line ? "linespoints"
+                     : style.has_points                   ? "points"
+                                                          : "lines";
+  return fmt::format("keyentry with {} linestyle {}{} title {}", with, number,
+                     style.has_cells ? " fillstyle solid noborder" : "", spelled(style.label));
 }
 
 std::vector<std::string> legend_items(const std::vector<SeriesStyle>& styles) {
@@ -329,11 +322,10 @@ std::string preamble(const Figure& figure, const std::vector<SeriesStyle>& style
       "set lmargin at screen {0:.5f}; set rmargin at screen {5:.5f}\nset multiplot\n",
       left, 1 - layout.legend_y / layout.height, layout.legend_rows, spelled(figure.title),
       1 - layout.title_y / layout.height, layout.right / layout.width, layout.legend_x / layout.width);
-  if (layout.legend_x >
-      layout.right) {  // a legend takes more columns than asked where its plot is not as high as it is
+  if (layout.beside()) {  // a legend takes more columns than asked where its plot is not as high as it is
     out += fmt::format(
-        "\n# The legend\nset tmargin at screen 1; set bmargin at screen 0\nset border 0; set tics nomirror scale 0; set format ''; set xrange [0:1]; set yrange [0:1]\n"
-        "plot NaN notitle, \\\n     {}\nunset key\nunset label\n",
+        "\n# The legend\nset tmargin at screen 1; set bmargin at screen 0\nset border 0; set tics nomirror scale 0; "
+        "set format ''; set xrange [0:1]; set yrange [0:1]\nplot NaN notitle, \\\n     {}\nunset key\nunset label\n",
         fmt::join(legend_items(styles), ", \\\n     "));
   }
   return out +
@@ -424,7 +416,7 @@ std::string plot_script(const Figure& figure) {
         items.push_back(std::move(item));
       ++block;
     }
-    if (p == 0 && layout.legend_x <= layout.right) std::ranges::copy(legend_items(styles), std::back_inserter(items));
+    if (p == 0 && !layout.beside()) std::ranges::copy(legend_items(styles), std::back_inserter(items));
     if (items.empty()) items.emplace_back("NaN notitle");
     out += fmt::format("plot {}\nunset key\nunset label\n", fmt::join(items, ", \\\n     "));
   }

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include <boost/core/noncopyable.hpp>
+
 namespace thinwall {
 
 // ---- What makes two runs the same run: only then do their results go together.
@@ -44,7 +46,7 @@ std::string identity_difference(const RunIdentity& theirs, const RunIdentity& ou
 // and a checksum, which covers the identity too, separated by tabs. A row is written whole, at once, when its unit ends. A
 // torn last row is dropped; a row that is damaged, or of another run, is named and its unit is computed again.
 
-class Journal {
+class Journal : boost::noncopyable {
  public:
   struct Row {
     double seconds = 0;
@@ -56,8 +58,6 @@ class Journal {
   /// `read_journal`. Throws std::system_error if the file cannot be written, or is no journal.
   Journal(std::filesystem::path file, const std::string& identity);
   ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   /// True of a file, not of a link to one, that begins as a journal does, damaged or not.
   static bool is_one(const std::filesystem::path& file);

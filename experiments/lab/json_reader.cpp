@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -32,6 +31,10 @@ json bounded_json(std::string_view text) {
 
 std::string json_line(const nlohmann::ordered_json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::string json_page(const nlohmann::ordered_json& value) {
+  return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 std::string exact_text(const json& value, std::string_view comma, std::string_view is) {

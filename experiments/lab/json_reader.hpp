@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+
+#include <thinwall/experiments/lab/record.hpp>
 
 namespace thinwall {
 
@@ -18,6 +20,16 @@ nlohmann::json bounded_json(std::string_view text);
 
 /// On one line, which it ends; what is not UTF-8 becomes U+FFFD.
 std::string json_line(const nlohmann::ordered_json& value);
+
+/// The same on many lines, for a file.
+std::string json_page(const nlohmann::ordered_json& value);
+
+/// The fields of a record, by their names.
+template <Record T> nlohmann::ordered_json json_of(const T& record) {
+  nlohmann::ordered_json out;
+  for_each_field<T>([&](const auto& field) { out[std::string(field.name)] = record.*field.member; });
+  return out;
+}
 
 /// A value whose real numbers are as `exact_text` of lab/text.hpp has them. `comma` and `is` stand between items, and between a key
 /// and its value: `,` and `:` of canonical JSON, `, ` and ` = ` of TOML.

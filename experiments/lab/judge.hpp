@@ -69,8 +69,8 @@ struct ResidualTest {
   double chi_square = 0;
 
   void add(double residual);
-  std::optional<Interval> allowed()
-      const;  ///< central 99.9 % of the chi-square distribution; missing if nothing is judged
+  /// The central 99.9 % of the chi-square distribution; missing if nothing is judged.
+  std::optional<Interval> allowed() const;
   bool passed() const;
 };
 

@@ -5,19 +5,16 @@
 #include <fstream>
 #include <string_view>
 #include <thread>
-#include <utility>
 
 #include <dlfcn.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <link.h>
 #include <sys/utsname.h>
-#include <nlohmann/json.hpp>
 #include <thinwall_build_info.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/journal.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
@@ -126,11 +123,10 @@ std::string utc_text(std::chrono::system_clock::time_point time) {
 }
 
 std::string reproduce_line(const RunRecord& run) {
-  std::string line = "thinwall run ";
-  line += run.default_config ? run.experiment : "resolved.toml";
-  line += fmt::format(" --seed {}", run.seed);
-  if (run.trials) line += fmt::format(" --trials {}", *run.trials);
-  return line + (run.default_config ? " --out again" : " --out ../again");  // a result within a result is none of it
+  const std::string trials = run.trials ? fmt::format(" --trials {}", *run.trials) : "";
+  return fmt::format("thinwall run {} --seed {}{} --out {}", run.default_config ? run.experiment : "resolved.toml",
+                     run.seed, trials,
+                     run.default_config ? "again" : "../again");  // a result within a result is none of it
 }
 
 std::string run_id(const RunIdentity& run) {
@@ -194,7 +190,7 @@ std::string manifest_text(const RunRecord& run, const Outcome& outcome,
                              {"started", shard.started},
                              {"finished", shard.finished}});
   }
-  return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_page(out);
 }
 
 bool stays_within(const std::string& path) {

@@ -11,6 +11,7 @@
 
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
+#include <thinwall/experiments/lab/record.hpp>
 
 namespace thinwall {
 
@@ -129,6 +130,12 @@ struct SoftwareCitation {
   std::string authors;        ///< a BibTeX list
   std::string version, date;  ///< of that release; ISO 8601
   std::string license;        ///< an SPDX name
+
+  static constexpr auto fields() {
+    using T = SoftwareCitation;
+    return record(kept("title", &T::title), kept("authors", &T::authors), kept("version", &T::version),
+                  kept("date", &T::date), kept("license", &T::license));
+  }
 };
 
 struct ResultCitation {
@@ -138,6 +145,12 @@ struct ResultCitation {
   std::string commit;  ///< full git hash of the program, or "unknown"
   bool dirty = false;  ///< tracked files differed from that commit
   std::string date;    ///< ISO 8601, of the day it was finished
+
+  static constexpr auto fields() {
+    using T = ResultCitation;
+    return record(kept("experiment", &T::experiment), kept("title", &T::question), kept("run_id", &T::run_id),
+                  kept("seed", &T::seed), kept("commit", &T::commit), kept("dirty", &T::dirty), kept("date", &T::date));
+  }
 };
 
 /// This program, as CITATION.cff named it when it was built.

@@ -6,8 +6,8 @@
 ///           .curve("theory", [](double x) { return miss_probability(x); }),
 ///       plot(cells).x("step_ratio", Axis::log).y("residual").by("method")}};
 ///
-/// A series for each value of the `by` column, in the order of the rows; bars where the x or the y column has an interval; rows without x or y
-/// are left out. A method looks the same in every figure: lab/method_looks.hpp.
+/// A series for each value of the `by` column, in the order of the rows; bars where the x or the y column has an interval; rows
+/// without x or y are left out. A method looks the same in every figure: lab/method_looks.hpp.
 
 #include <functional>
 #include <string>

@@ -19,76 +19,6 @@ namespace thinwall {
 
 namespace {
 
-/// How the report looks, on a screen of any width and on paper.
-constexpr std::string_view report_style = R"css(
-:root { color-scheme: light; --ink: #1b1b1b; --soft: #595959; --line: #d9d9d9; --tint: #f5f6f8; --link: #005a9c; }
-* { box-sizing: border-box; }
-body { margin: 0; background: #fff; color: var(--ink); font: 17px/1.55 system-ui, "Segoe UI", Roboto, Helvetica, Arial, sans-serif;
-  overflow-wrap: break-word; }
-main { max-width: 56rem; margin: 0 auto; padding: 2rem 1.1rem 4rem; }
-h1 { font-size: 1.75rem; line-height: 1.25; margin: .2rem 0 1rem; text-wrap: balance; }
-h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; padding-top: 1.2rem; border-top: 1px solid var(--line); }
-h3 { font-size: 1.02rem; margin: 1.6rem 0 .3rem; }
-p { margin: .7rem 0; max-width: 46rem; }
-li { max-width: 44rem; }
-summary { cursor: pointer; margin: .5rem 0; }
-details[open] { border-left: 2px solid var(--line); padding-left: 1rem; }
-h4 { font-size: .95rem; margin: 1.3rem 0 .3rem; }
-figcaption { max-width: 46rem; }
-a { color: var(--link); }
-.kicker { color: var(--soft); margin: 0; font-size: .9rem; }
-.answer { font-size: 1.15rem; }
-.verdict { border-left: 4px solid #009e73; background: var(--tint); padding: .5rem .8rem; }
-.verdict.failed { border-color: #d55e00; }
-figure { margin: 1.6rem 0; }
-figure svg { display: block; width: 100%; height: auto; }
-figcaption, .caption { color: var(--soft); font-size: .92rem; }
-figcaption { margin-top: .5rem; }
-.caption { margin: 1.8rem 0 .4rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
-thead th { border-top: 2px solid var(--ink); border-bottom: 1px solid var(--ink); vertical-align: bottom; }
-tbody tr:last-child td { border-bottom: 2px solid var(--ink); }
-th, td { padding: .25rem .7rem .25rem 0; text-align: left; font-weight: normal; }
-thead th { font-weight: 600; }
-th.n, td.n { text-align: right; }
-td.n { white-space: nowrap; }
-.wide th:first-child, .wide td:first-child { position: sticky; left: 0; background: #fff; }
-.u { white-space: nowrap; }
-.i { color: var(--soft); }
-tbody tr:hover { background: var(--tint); }
-pre { background: var(--tint); padding: .7rem .9rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
-code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
-dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .25rem 1.2rem; font-size: .92rem; }
-dt { color: var(--soft); }
-dd { margin: 0; overflow-wrap: anywhere; }
-sup { line-height: 0; }
-ul { padding-left: 1.2rem; columns: 17rem; }
-.caption a { white-space: nowrap; }
-@media (max-width: 40rem) {
-  body { font-size: 16px; }
-  h1 { font-size: 1.4rem; }
-  figure .wide svg { min-width: 34rem; }
-  figure .wide::before { content: "Wider than this screen: move it sideways \2192"; position: sticky; left: 0; font-size: .8rem; color: var(--soft); }
-  dl { grid-template-columns: minmax(0, 1fr); }
-  dd { margin-bottom: .4rem; }
-}
-@media print {
-  figure svg { max-height: 14.5cm; }
-  body { font-size: 10pt; }
-  main { max-width: none; padding: 0; }
-  a { color: inherit; text-decoration: none; }
-  .wide, pre { overflow: visible; }
-  pre { white-space: pre-wrap; }
-  table { font-size: 7.5pt; }
-  th, td { padding-right: .4rem; }
-  .wide table.many { font-size: 5.5pt; }
-  figure, tr, pre { break-inside: avoid; }
-  h2, h3, .caption { break-after: avoid; }
-  thead { display: table-header-group; }
-}
-)css";
-
 struct Chapter {
   std::string heading;
   std::string markdown;  ///< with its heading
@@ -130,7 +60,8 @@ std::string anchor_of(std::string_view heading) {
   return anchor;
 }
 
-/// Calls `change(element, content)` for every `<tag ...>content</tag>`, `tag` with the beginning of what follows it, and puts what it returns in its place.
+/// Calls `change(element, content)` for every `<tag ...>content</tag>`, `tag` with the beginning of what follows it, and puts
+/// what it returns in its place.
 template <class Change> std::string changed(std::string_view html, std::string_view tag, const Change& change) {
   const std::string open = fmt::format("<{}", tag), close = fmt::format("</{}>", tag.substr(0, tag.find(' ')));
   std::string out;
@@ -178,8 +109,8 @@ Target target_of(std::string_view address, const std::string& own_page) {
   if (file.empty()) return {own_page, anchor};
   if (!file.ends_with(".md") || file.find('/') != std::string_view::npos) return {};
   const std::string page(file.substr(0, file.size() - 3));
-  const bool is_of_another_experiment =
-      page != own_page && !embedded_toml(page).empty();  // whose numbers this run did not measure
+  // Whose numbers this run did not measure.
+  const bool is_of_another_experiment = page != own_page && !embedded_toml(page).empty();
   return embedded_page(page).empty() || is_of_another_experiment ? Target() : Target{page, anchor};
 }
 
@@ -193,8 +124,7 @@ struct Prose {
 };
 
 /// Links lead to the section or the page in the report; one to another file of the project becomes its words, one to the web its
-/// words and the address.
-/// Empty where there is no such page.
+/// words and the address. Empty where there is no such page.
 Prose prose_of(std::string_view experiment) {
   const std::string own(experiment);
   std::vector<std::string> linked;
@@ -261,18 +191,16 @@ std::string fact(std::string_view name, std::string_view value) {
 
 std::string provenance(const RunRecord& run) {
   const BuildRecord& build = run.build;
-  std::string libraries;
-  for (const auto& [name, version] : build.libraries) {
-    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
-  }
+  std::vector<std::string> libraries;
+  for (const auto& [name, version] : build.libraries) libraries.push_back(name + " " + version);
   const std::string changes = build.dirty ? ", with changes that are not committed" : "";
   return "<dl>\n" + fact("Program", fmt::format("thinwall {}, commit {}{}", build.version, build.commit, changes)) +
          fact("Compiler", fmt::format("{}, {} ({})", build.compiler, build.flags, build.build_type)) +
-         fact("Libraries", libraries) +
+         fact("Libraries", fmt::format("{}", fmt::join(libraries, ", "))) +
          fact("Machine",
               fmt::format("{}, {} hardware threads, {}", run.machine.cpu, run.machine.cores, run.machine.system)) +
-         fact("Run", fmt::format("{} to {}, {} thread{}", utc_text(run.started), utc_text(run.finished), run.threads,
-                                 run.threads == 1 ? "" : "s")) +
+         fact("Run", fmt::format("{} to {}, {}", utc_text(run.started), utc_text(run.finished),
+                                 plural_text(run.threads, "thread"))) +
          fact("Size", fmt::format("{} units, {} trials", grouped_text(static_cast<std::int64_t>(run.units)),
                                   grouped_text(run.total_trials))) +
          fact("Seed", std::to_string(run.seed)) + fact("Run id", run_id(run)) + fact("Command", shell_line(run.argv)) +
@@ -328,10 +256,10 @@ std::string report_page(const RunRecord& run, const Outcome& outcome, const Repo
   return fmt::format(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
-             "<title>{0}: {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<main>\n"
+             "<title>{0}: {1}</title>\n<style>\n{2}</style>\n</head>\n<body>\n<main>\n"
              "<p class=\"kicker\" id=\"top\">thinwall {3} &middot; {0} &middot; {4}</p>\n<h1>{1}</h1>\n",
-             html_escaped(run.experiment), html_escaped(run.question), report_style, html_escaped(run.build.version),
-             utc_text(run.finished).substr(0, 10)) +
+             html_escaped(run.experiment), html_escaped(run.question), embedded_report_style(),
+             html_escaped(run.build.version), utc_text(run.finished).substr(0, 10)) +
          paragraphs(outcome.answer, " class=\"answer\"") + verdict(outcome.self_test_passed) +
          (outcome.figures.empty() ? "" : figure_html(outcome.figures.front(), parts)) +
          section("More figures", figures) + section("Tables", tables) + section("Method", method) +

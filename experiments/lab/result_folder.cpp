@@ -14,7 +14,6 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
@@ -53,10 +52,6 @@ bool is_rank_journal(std::string_view name) {
              name.substr(rank_journal_begin.size(), name.size() - rank_journal_begin.size() - rank_journal_end.size()));
 }
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
-  throw UsageError(fmt::format("{}: {}", one_line(folder.string()), why));
-}
-
 constexpr std::size_t room_for_a_figure = 1 << 20;  // [byte]
 
 void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
@@ -67,7 +62,7 @@ void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& out
     folder.stage("tables/" + table.name + ".tex", latex_table(table));
   }
   std::string name = "thinwall-" + run.experiment;
-  for (char& letter : name) letter = letter == '_' ? '-' : letter;
+  std::ranges::replace(name, '_', '-');
   // Its description holds no number: an answer may speak of run times, and this file is the same in every run.
   const PackageInfo info{name, run.question, "The answer stands in report.html and manifest.json.", run.build.version};
   folder.stage("datapackage.json", datapackage_text(info, outcome.tables));
@@ -76,18 +71,18 @@ void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& out
 /// The figures that could be drawn; `why_no_svg` says what was wrong with another.
 void stage_figures(ResultFolder& folder, const Outcome& outcome, ReportParts& parts) {
   for (const Figure& figure : outcome.figures) {
-    folder.stage("plots/" + figure.name + ".gp", plot_script(figure));
-    folder.stage("plots/" + figure.name + ".dat", plot_data(figure));
-    folder.stage("plots/" + figure.name + ".json", figure_json(figure));
+    const std::string file = "plots/" + figure.name, svg = file + ".svg";
+    folder.stage(file + ".gp", plot_script(figure));
+    folder.stage(file + ".dat", plot_data(figure));
+    folder.stage(file + ".json", figure_json(figure));
     const std::string trouble = draw(folder.staging() / "plots", figure.name);
     if (!trouble.empty()) {
       parts.why_no_svg = trouble;
-      folder.stage("plots/" + figure.name + ".svg",
-                   std::string(room_for_a_figure, ' '));  // throws if that was the trouble
-      fs::remove(folder.staging() / "plots" / (figure.name + ".svg"));
+      folder.stage(svg, std::string(room_for_a_figure, ' '));  // throws if that was the trouble
+      fs::remove(folder.staging() / svg);
       continue;
     }
-    parts.svgs[figure.name] = file_text(folder.staging() / "plots" / (figure.name + ".svg"));
+    parts.svgs[figure.name] = file_text(folder.staging() / svg);
   }
 }
 
@@ -133,8 +128,8 @@ ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(s
   } catch (const std::system_error& error) {
     const std::string why = "cannot be written: " + error.code().message();
     if (error.code() != std::errc::no_space_on_device && error.code().value() != EDQUOT) refuse(why);
-    throw std::runtime_error(
-        fmt::format("--out {}: {}", one_line(path_.string()), why));  // no fault of the user's words
+    // No fault of the user's words.
+    throw std::runtime_error(fmt::format("--out {}: {}", one_line(path_.string()), why));
   }
 }
 
@@ -321,6 +316,10 @@ void ResultFolder::clear_up() const {
   }
 }
 
+void refuse_place(const fs::path& place, const std::string& why) {
+  throw UsageError(fmt::format("{}: {}", one_line(place.string()), why));
+}
+
 bool remove_result(const fs::path& folder) {
   const Manifest manifest = parse_manifest(file_text(folder / manifest_name), (folder / manifest_name).string());
   std::vector<std::string> files = {manifest_name, "report.html"};
@@ -361,21 +360,22 @@ std::string shard_in(const fs::path& folder) {
 }
 
 KeptResult read_result(const fs::path& folder) try {
-  if (!fs::exists(folder)) refuse(folder, "there is no such folder; name the folder of a result");
-  if (!fs::is_directory(folder)) refuse(folder, "is not a folder; name the folder of a result");
+  if (!fs::exists(folder)) refuse_place(folder, "there is no such folder; name the folder of a result");
+  if (!fs::is_directory(folder)) refuse_place(folder, "is not a folder; name the folder of a result");
   const fs::path file = folder / manifest_name;
   if (!fs::exists(file)) {
     if (const std::string shard = shard_in(folder); !shard.empty())
-      refuse(folder, fmt::format("is shard {} of a run; thinwall merge makes a result of all of them", shard));
+      refuse_place(folder, fmt::format("is shard {} of a run; thinwall merge makes a result of all of them", shard));
     const bool unfinished = fs::exists(folder / journal_name);
-    refuse(folder, unfinished
-                       ? "holds a run that is not finished: no manifest.json yet; the run's own command continues it"
-                       : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
+    refuse_place(folder,
+                 unfinished
+                     ? "holds a run that is not finished: no manifest.json yet; the run's own command continues it"
+                     : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
   }
-  if (!fs::is_regular_file(file)) refuse(folder, "its manifest.json is not a file");
+  if (!fs::is_regular_file(file)) refuse_place(folder, "its manifest.json is not a file");
   return kept_result(folder, file.string());
 } catch (const fs::filesystem_error& error) {
-  refuse(error.path1(), "cannot be read: " + error.code().message());
+  refuse_place(error.path1(), "cannot be read: " + error.code().message());
 }
 
 std::vector<std::string> write_results(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {

@@ -30,12 +30,9 @@ inline constexpr const char* seal_name = "shard.json";
 bool is_journal_name(std::string_view file);
 
 /// Holds a folder for this process alone, as long as it lives.
-class FolderLock {
+class FolderLock : boost::noncopyable {
  public:
-  FolderLock() = default;
   ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
   /// `shared`: beside others who share it. False if another process holds it. Throws std::system_error if there is no such
   /// folder.
@@ -45,13 +42,11 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-class ResultFolder {
+class ResultFolder : boost::noncopyable {
  public:
   /// Throws UsageError if the folder cannot be written, is in use, or holds anything but this run; it is then unchanged.
   /// Throws std::runtime_error if the disk is full.
   ResultFolder(std::filesystem::path path, const RunIdentity& identity);
-  ResultFolder(const ResultFolder&) = delete;
-  ResultFolder& operator=(const ResultFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -100,6 +95,9 @@ class ResultFolder {
   std::unique_ptr<Journal> journal_;
   std::optional<Workshop> staging_;
 };
+
+/// Throws UsageError: the place, in a line that drives no terminal, and what is wrong with it.
+[[noreturn]] void refuse_place(const std::filesystem::path& place, const std::string& why);
 
 /// Removes the complete result in `folder`, and the folder if it holds nothing else. Returns false if it stays.
 bool remove_result(const std::filesystem::path& folder);

@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <exception>
 #include <map>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
-#include <string_view>
-#include <thread>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -128,10 +123,12 @@ Parts parts_of(std::span<const Unit> units, const std::vector<Unit>& smaller) {
   Parts parts;
   for (const Unit& unit : units) {
     const auto same = trials.find(unit.key);
-    const bool is_whole = same != trials.end() && same->second == unit.trials;
-    (is_whole ? parts.whole : parts.cut) += 1;
-    if (!is_whole) parts.cut_trials += static_cast<double>(unit.trials);
-    if (!is_whole) continue;
+    if (same == trials.end() || same->second != unit.trials) {
+      parts.cut += 1;
+      parts.cut_trials += static_cast<double>(unit.trials);
+      continue;
+    }
+    parts.whole += 1;
     parts.groups[unit.trials].push_back(&unit);
     parts.whole_keys.insert(unit.key);
   }
@@ -288,8 +285,8 @@ void StopGuard::watch(std::chrono::milliseconds patience, const std::function<vo
 int default_threads() {
   const int ours = oneapi::tbb::info::default_concurrency(), neighbors = launch_of_this_process().neighbors;
   if (neighbors <= 1) return ours;
-  const int fair =
-      static_cast<int>(std::thread::hardware_concurrency()) / neighbors;  // mpirun may bind ranks to cores or not
+  // mpirun may bind ranks to cores or not
+  const int fair = static_cast<int>(std::thread::hardware_concurrency()) / neighbors;
   return std::max(1, std::min(ours, fair));
 }
 

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include <boost/core/noncopyable.hpp>
+
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
 
@@ -27,13 +29,11 @@ bool stop_requested();
 
 /// Ends the program if a stop is requested while this lives and it still lives `patience` later: for work that asks too
 /// seldom, and that loses nothing it has counted by such an end.
-class StopGuard {
+class StopGuard : boost::noncopyable {
  public:
   /// `end` is called on a thread of its own, and should not return.
   StopGuard(std::chrono::milliseconds patience, std::function<void()> end);
   ~StopGuard();
-  StopGuard(const StopGuard&) = delete;
-  StopGuard& operator=(const StopGuard&) = delete;
 
  private:
   void watch(std::chrono::milliseconds patience, const std::function<void()>& end);
@@ -56,12 +56,10 @@ Launch launch_of_this_process();
 
 /// Takes part in MPI from construction to destruction, at most once in a process; does nothing where the launch is of
 /// one rank. Throws UsageError if this program was built without MPI and has company.
-class Ranks {
+class Ranks : boost::noncopyable {
  public:
   explicit Ranks(const Launch& launch);
   ~Ranks();  // NOLINT(performance-trivially-destructible): not where it has MPI to leave
-  Ranks(const Ranks&) = delete;
-  Ranks& operator=(const Ranks&) = delete;
 
   int rank() const { return launch_.rank; }
   int count() const { return launch_.count; }
@@ -94,8 +92,8 @@ struct UnitResults {
 struct RunnerOptions {
   int threads = 1;             ///< >= 1
   std::function<bool()> stop;  ///< asked between units; may be empty
-  std::function<void(const Progress&)>
-      on_progress;  ///< called once before the first unit and after each, one at a time
+  /// Called once before the first unit and after each, one at a time.
+  std::function<void(const Progress&)> on_progress;
 };
 
 /// The cores that this process may use; its share of them where it is one of several ranks.

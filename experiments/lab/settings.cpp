@@ -63,8 +63,10 @@ std::optional<std::string> one_of(const toml::node& node, std::span<const std::s
   return value && std::ranges::find(allowed, *value) != allowed.end() ? value : std::nullopt;
 }
 
-std::string choice_text(const toml::node& node, std::span<const std::string_view> allowed) {
-  return spelling_hint(node.value_exact<std::string_view>().value_or(""), allowed);
+/// What is allowed in the place of a node, in words: some, or one of these names.
+std::string words_of(const std::string& words, const toml::node&) { return words; }
+std::string words_of(std::span<const std::string_view> names, const toml::node& node) {
+  return spelling_hint(node.value_exact<std::string_view>().value_or(""), names);
 }
 
 /// The table's own entry, or the one that a dotted path leads to.
@@ -137,20 +139,20 @@ struct Settings::Impl {
     complain(key, node, shown(node) + " is not allowed", allowed);
   }
 
-  /// `read` returns what a node holds, or nothing if that is not allowed; `allowed(node)` then says what is.
-  template <class Read, class Allowed> auto one(std::string_view key, Read read, Allowed allowed) const {
+  /// `read` returns what a node holds, or nothing if that is not allowed; `allowed` is what `words_of` takes.
+  template <class Allowed, class Read> auto one(std::string_view key, const Allowed& allowed, Read read) const {
     const toml::node& node = *entry(key).node;
     const auto value = read(node);
-    if (!value) refuse(key, node, allowed(node));
+    if (!value) refuse(key, node, words_of(allowed, node));
     return *value;
   }
 
-  template <class Read, class Allowed> auto several(std::string_view key, Read read, Allowed allowed) const {
+  template <class Allowed, class Read> auto several(std::string_view key, const Allowed& allowed, Read read) const {
     const toml::node& node = *entry(key).node;
     const auto* const array = node.as_array();
     if (!array && read(node)) complain(key, node, shown(node) + " is not a list", "put it in brackets");
-    if (!array) complain(key, node, shown(node) + " is not a list", allowed(node));
-    if (array->empty()) complain(key, node, "an empty list is not allowed", allowed(node));
+    if (!array) complain(key, node, shown(node) + " is not a list", words_of(allowed, node));
+    if (array->empty()) complain(key, node, "an empty list is not allowed", words_of(allowed, node));
     if (array->size() > most_cells) {
       complain(key, node, fmt::format("{} values", grouped_text(std::ssize(*array))),
                fmt::format("at most {}", grouped_text(most_cells)));
@@ -159,7 +161,7 @@ struct Settings::Impl {
     std::set<std::remove_cvref_t<decltype(*read(node))>> seen;
     for (const toml::node& item : *array) {
       const auto value = read(item);
-      if (!value) refuse(key, item, allowed(item));
+      if (!value) refuse(key, item, words_of(allowed, item));
       if (!seen.insert(*value).second) complain(key, item, shown(item) + " stands twice", "every value once");
       values.push_back(*value);
     }
@@ -182,6 +184,13 @@ struct Settings::Impl {
     }
   }
 };
+
+std::optional<std::int64_t> parse_count(std::string_view text) {
+  if (const auto count = parsed<std::int64_t>(text)) return count;
+  const auto value = parsed<double>(text);
+  if (!value || !(std::abs(*value) < 0x1p53) || *value != std::trunc(*value)) return std::nullopt;
+  return static_cast<std::int64_t>(*value);
+}
 
 Settings::Settings(std::string_view text, const std::string& file, std::string_view defaults)
     : impl_(std::make_unique<Impl>()) {
@@ -208,15 +217,12 @@ void Settings::require(std::string_view key, std::string_view what_is_needed) co
 }
 
 double Settings::number(std::string_view key, const Range& range) const {
-  return impl_->one(
-      key, [&](const toml::node& node) { return in_range(node, range); },
-      [&](const toml::node&) { return range_text("a number", range); });
+  return impl_->one(key, range_text("a number", range), [&](const auto& node) { return in_range(node, range); });
 }
 
 std::vector<double> Settings::numbers(std::string_view key, const Range& range) const {
-  return impl_->several(
-      key, [&](const toml::node& node) { return in_range(node, range); },
-      [&](const toml::node&) { return range_text("a list of numbers", range); });
+  const std::string allowed = range_text("a list of numbers", range);
+  return impl_->several(key, allowed, [&](const auto& node) { return in_range(node, range); });
 }
 
 std::array<double, 3> Settings::vector(std::string_view key, const Range& range) const {
@@ -231,19 +237,17 @@ std::array<double, 3> Settings::vector(std::string_view key, const Range& range)
     }
     return values;
   };
-  return impl_->one(key, read, [&](const toml::node&) { return range_text("a list of 3 numbers", range); });
+  return impl_->one(key, range_text("a list of 3 numbers", range), read);
 }
 
 std::int64_t Settings::integer(std::string_view key, std::int64_t lower, std::int64_t upper) const {
-  return impl_->one(
-      key, [&](const toml::node& node) { return in_range(node, lower, upper); },
-      [&](const toml::node&) { return fmt::format("a whole number from {} to {}", lower, upper); });
+  const std::string allowed = fmt::format("a whole number from {} to {}", lower, upper);
+  return impl_->one(key, allowed, [&](const auto& node) { return in_range(node, lower, upper); });
 }
 
 std::vector<std::int64_t> Settings::integers(std::string_view key, std::int64_t lower, std::int64_t upper) const {
-  return impl_->several(
-      key, [&](const toml::node& node) { return in_range(node, lower, upper); },
-      [&](const toml::node&) { return fmt::format("a list of whole numbers from {} to {}", lower, upper); });
+  const std::string allowed = fmt::format("a list of whole numbers from {} to {}", lower, upper);
+  return impl_->several(key, allowed, [&](const auto& node) { return in_range(node, lower, upper); });
 }
 
 std::int64_t Settings::trials(std::string_view key, std::int64_t lower, std::int64_t upper,
@@ -280,33 +284,25 @@ void Settings::limit_cells(std::span<const std::string_view> lists, std::size_t 
 }
 
 bool Settings::flag(std::string_view key) const {
-  return impl_->one(
-      key, [](const toml::node& node) { return node.value_exact<bool>(); },
-      [](const toml::node&) { return "true or false"; });
+  return impl_->one(key, "true or false", [](const auto& node) { return node.template value_exact<bool>(); });
 }
 
 std::string Settings::text(std::string_view key) const {
   static constexpr std::size_t longest = 200;
-  return impl_->one(
-      key,
-      [](const toml::node& node) {
-        auto value = node.value_exact<std::string>();
-        const bool fits = value && value->size() <= longest && *value == one_line(*value);
-        return fits ? value : std::nullopt;
-      },
-      [](const toml::node&) { return fmt::format("a text of one line and at most {} bytes", longest); });
+  const std::string allowed = fmt::format("a text of one line and at most {} bytes", longest);
+  return impl_->one(key, allowed, [](const toml::node& node) {
+    auto value = node.value_exact<std::string>();
+    const bool fits = value && value->size() <= longest && *value == one_line(*value);
+    return fits ? value : std::nullopt;
+  });
 }
 
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> allowed) const {
-  return impl_->one(
-      key, [&](const toml::node& node) { return one_of(node, allowed); },
-      [&](const toml::node& node) { return choice_text(node, allowed); });
+  return impl_->one(key, allowed, [&](const auto& node) { return one_of(node, allowed); });
 }
 
 std::vector<std::string> Settings::choices(std::string_view key, std::span<const std::string_view> allowed) const {
-  return impl_->several(
-      key, [&](const toml::node& node) { return one_of(node, allowed); },
-      [&](const toml::node& node) { return choice_text(node, allowed); });
+  return impl_->several(key, allowed, [&](const auto& node) { return one_of(node, allowed); });
 }
 
 std::vector<std::string> Settings::choices_or_all(std::string_view key,
@@ -314,12 +310,10 @@ std::vector<std::string> Settings::choices_or_all(std::string_view key,
   std::vector<std::string_view> with_all(allowed.begin(), allowed.end());
   with_all.emplace_back("all");
   const std::vector<std::string> chosen = choices(key, with_all);
-  const auto is_chosen = [&](std::string_view name) {
-    return std::ranges::find(chosen, "all") != chosen.end() || std::ranges::find(chosen, name) != chosen.end();
-  };
+  const bool all = std::ranges::find(chosen, "all") != chosen.end();
   std::vector<std::string> names;
   for (const std::string_view name : allowed) {
-    if (is_chosen(name)) names.emplace_back(name);
+    if (all || std::ranges::find(chosen, name) != chosen.end()) names.emplace_back(name);
   }
   return names;
 }

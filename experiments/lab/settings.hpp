@@ -25,6 +25,9 @@ struct UsageError : std::runtime_error {
 /// The most cells of a design, in the widest sense: every one is kept in memory, and most are a unit.
 inline constexpr std::size_t most_cells = 1'000'000;
 
+/// A whole number as people type it, also as 1e6; nothing if `text` is anything else or does not fit.
+std::optional<std::int64_t> parse_count(std::string_view text);
+
 class Settings {
  public:
   /// `text` is what the user wrote, `file` the name to quote in complaints; keys it leaves out come from `defaults`.
@@ -42,9 +45,9 @@ class Settings {
   /// Refuses what leaves out a key that has no sensible default.
   void require(std::string_view key, std::string_view what_is_needed) const;
 
+  // A list has 1 to `most_cells` values, none of them twice.
   double number(std::string_view key, const Range& range) const;
-  std::vector<double> numbers(std::string_view key,
-                              const Range& range) const;  ///< 1 to `most_cells` of them, no value twice
+  std::vector<double> numbers(std::string_view key, const Range& range) const;
   std::array<double, 3> vector(std::string_view key, const Range& range) const;
   std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper) const;
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t lower, std::int64_t upper) const;

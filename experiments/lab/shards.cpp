@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/random.hpp>
-#include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
@@ -41,39 +38,39 @@ std::vector<int> deal(std::size_t units, int shards) {
 constexpr const char* mend = "; run the shard again, it computes what is missing";
 
 struct SealedFolder {
-  std::string name;  ///< as the user wrote it, fit for a terminal
   fs::path path;
   ShardSeal seal;
+
+  std::string name() const { return one_line(path.string()); }
+  int index() const { return seal.shard.index; }
 };
 
-[[noreturn]] void refuse(const std::string& folder, const std::string& why) { throw UsageError(folder + ": " + why); }
-
-SealedFolder read_seal(const std::string& folder) try {
-  const fs::path path = folder;
-  const std::string name = one_line(folder);
-  if (!fs::exists(path)) refuse(name, "there is no such folder");
-  if (!fs::is_directory(path)) refuse(name, "is not a folder; a finished shard is needed");
+SealedFolder read_seal(const fs::path& path) try {
+  if (!fs::exists(path)) refuse_place(path, "there is no such folder");
+  if (!fs::is_directory(path)) refuse_place(path, "is not a folder; a finished shard is needed");
   if (!fs::exists(path / seal_name)) {
     const auto begun = parse_identity(read_journal(path / journal_name).identity);
-    if (begun && !begun->shard.empty()) refuse(name, fmt::format("shard {} is unfinished{}", begun->shard, mend));
-    if (fs::exists(path / manifest_name)) refuse(name, "holds a whole result, not a shard");
-    refuse(name, "is not a shard of a run: it has no shard.json");
+    if (begun && !begun->shard.empty()) refuse_place(path, fmt::format("shard {} is unfinished{}", begun->shard, mend));
+    if (fs::exists(path / manifest_name)) refuse_place(path, "holds a whole result, not a shard");
+    refuse_place(path, "is not a shard of a run: it has no shard.json");
   }
   const auto seal = parse_seal(file_text(path / seal_name));
-  if (!seal) refuse(name, std::string("its shard.json is damaged, or not ours") + mend);
-  return {name, path, *seal};
+  if (!seal) refuse_place(path, std::string("its shard.json is damaged, or not ours") + mend);
+  return {path, *seal};
 } catch (const fs::filesystem_error& error) {
-  refuse(one_line(error.path1().string()), "cannot be read: " + error.code().message());
+  refuse_place(error.path1(), "cannot be read: " + error.code().message());
 }
 
 Journal::Rows read_rows(const SealedFolder& folder) {
   const fs::path file = folder.path / journal_name;
-  if (!fs::exists(file)) refuse(folder.name, "its journal.tsv is lost; delete the folder and run the shard again");
+  if (!fs::exists(file))
+    refuse_place(folder.path, "its journal.tsv is lost; delete the folder and run the shard again");
   JournalText text = read_journal(file);
-  if (text.identity.empty()) refuse(folder.name, fmt::format("the first row of its journal.tsv is damaged{}", mend));
-  if (!text.damage.empty()) refuse(folder.name, one_line(text.damage.front()) + mend);
+  if (text.identity.empty())
+    refuse_place(folder.path, fmt::format("the first row of its journal.tsv is damaged{}", mend));
+  if (!text.damage.empty()) refuse_place(folder.path, one_line(text.damage.front()) + mend);
   if (text.identity != identity_text(folder.seal.identity) || sha256_of_file(file) != folder.seal.journal_sha256) {
-    refuse(folder.name, fmt::format("its journal.tsv was changed since the shard was finished{}", mend));
+    refuse_place(folder.path, fmt::format("its journal.tsv was changed since the shard was finished{}", mend));
   }
   return std::move(text.rows);
 }
@@ -87,32 +84,29 @@ RunIdentity whole(RunIdentity identity) {
 void check_together(const SealedFolder& first, const SealedFolder& other) {
   const RunIdentity ours = whole(first.seal.identity), theirs = whole(other.seal.identity);
   if (const std::string difference = identity_difference(theirs, ours); !difference.empty()) {
-    refuse(other.name, fmt::format("is a shard of another run than {} ({})", first.name, difference));
+    refuse_place(other.path, fmt::format("is a shard of another run than {} ({})", first.name(), difference));
   }
   if (theirs.program != ours.program) {
-    refuse(other.name, fmt::format("was computed by another build of the program than {}", first.name));
+    refuse_place(other.path, fmt::format("was computed by another build of the program than {}", first.name()));
   }
   if (other.seal.shard.count != first.seal.shard.count) {
-    refuse(other.name, fmt::format("is shard {}, but {} is shard {}: one run is cut one way", to_text(other.seal.shard),
-                                   first.name, to_text(first.seal.shard)));
+    refuse_place(other.path, fmt::format("is shard {}, but {} is shard {}: one run is cut one way",
+                                         to_text(other.seal.shard), first.name(), to_text(first.seal.shard)));
   }
 }
 
+/// `found` are in the order of their index, and each is there once.
 void check_missing(const std::vector<SealedFolder>& found) {
   const int count = found.front().seal.shard.count;
-  std::string missing;
-  int many = 0;
-  std::size_t k = 0;
-  for (int index = 1; index <= count; ++index) {
-    if (k < found.size() && found[k].seal.shard.index == index) {
-      ++k;
-      continue;
-    }
-    if (++many <= 5) missing += (missing.empty() ? "" : ", ") + to_text({index, count});
+  const auto missing = count - std::ssize(found);
+  if (missing == 0) return;
+  std::vector<std::string> first;
+  for (int index = 1; index <= count && first.size() < 5; ++index) {
+    if (!std::ranges::binary_search(found, index, {}, &SealedFolder::index)) first.push_back(to_text({index, count}));
   }
-  if (many == 0) return;
-  throw UsageError(fmt::format("missing: shard{} {}{}; {} of {} were given", many == 1 ? "" : "s", missing,
-                               many > 5 ? fmt::format(" and {} more", many - 5) : "", found.size(), count));
+  throw UsageError(fmt::format("missing: shard{} {}{}; {} of {} were given", missing == 1 ? "" : "s",
+                               fmt::join(first, ", "), missing > 5 ? fmt::format(" and {} more", missing - 5) : "",
+                               found.size(), count));
 }
 
 }  // namespace
@@ -173,7 +167,7 @@ void seal_shard(ResultFolder& folder, const RunRecord& run) {
       {"finished", utc_text(run.finished)},
       {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
       {"journal", sha256_of_file(folder.path() / journal_name)}};
-  folder.seal(seal.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  folder.seal(json_page(seal));
 }
 
 bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {
@@ -186,21 +180,21 @@ ShardSet read_shards(std::span<const std::string> folders, const std::string& pr
   std::vector<SealedFolder> found;
   for (const std::string& folder : folders) found.push_back(read_seal(folder));
   for (const SealedFolder& other : found) check_together(found.front(), other);
-  std::ranges::stable_sort(found, {}, [](const SealedFolder& folder) { return folder.seal.shard.index; });
-  const auto twice = std::ranges::adjacent_find(
-      found, [](const SealedFolder& a, const SealedFolder& b) { return a.seal.shard == b.seal.shard; });
+  std::ranges::stable_sort(found, {}, &SealedFolder::index);
+  const auto twice = std::ranges::adjacent_find(found, {}, &SealedFolder::index);
   if (twice != found.end()) {
-    refuse(std::next(twice)->name, fmt::format("is shard {}, and so is {}", to_text(twice->seal.shard), twice->name));
+    refuse_place(std::next(twice)->path,
+                 fmt::format("is shard {}, and so is {}", to_text(twice->seal.shard), twice->name()));
   }
   check_missing(found);
   if (found.front().seal.identity.program != program) {
-    refuse(found.front().name, "was computed by another build of the program than this one; merge with that one");
+    refuse_place(found.front().path, "was computed by another build of the program than this one; merge with that one");
   }
   ShardSet set{.identity = whole(found.front().seal.identity), .folders = {}, .records = {}, .rows = {}};
   for (const SealedFolder& folder : found) {
     set.rows.push_back(read_rows(folder));
     set.records.push_back(folder.seal.record);
-    set.folders.push_back(folder.name);
+    set.folders.push_back(folder.path);
   }
   return set;
 }
@@ -213,13 +207,13 @@ Journal::Rows all_rows(const ShardSet& shards, std::span<const Unit> units) {
     const auto owner = static_cast<std::size_t>(owners[i] - 1);
     const auto row = shards.rows[owner].find(units[i].key);
     if (row == shards.rows[owner].end()) {
-      refuse(shards.folders[owner], fmt::format("lacks the unit '{}'{}", one_line(units[i].key), mend));
+      refuse_place(shards.folders[owner], fmt::format("lacks the unit '{}'{}", one_line(units[i].key), mend));
     }
     all.insert(*row);
     ++taken[owner];
   }
   for (std::size_t k = 0; k < taken.size(); ++k) {
-    if (taken[k] != shards.rows[k].size()) refuse(shards.folders[k], "has units that are not its own");
+    if (taken[k] != shards.rows[k].size()) refuse_place(shards.folders[k], "has units that are not its own");
   }
   return all;
 }

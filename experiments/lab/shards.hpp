@@ -56,8 +56,8 @@ bool is_sealed(const ResultFolder& folder, const RunIdentity& identity);
 
 /// All the shards of one run.
 struct ShardSet {
-  RunIdentity identity;              ///< of the whole run
-  std::vector<std::string> folders;  ///< by the shard's index
+  RunIdentity identity;                        ///< of the whole run
+  std::vector<std::filesystem::path> folders;  ///< by the shard's index
   std::vector<ShardRecord> records;
   std::vector<Journal::Rows> rows;
 };

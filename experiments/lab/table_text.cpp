@@ -1,11 +1,9 @@
 #include <thinwall/experiments/lab/table_text.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
-#include <stdexcept>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,16 +39,11 @@ std::string field(const Value& value) {
   return quoted(text ? guarded(*text) : exact_text(value));
 }
 
+/// A missing value fits every column, and a whole number one of numbers.
 bool fits(const Value& value, ColumnType type) {
-  if (std::holds_alternative<std::monostate>(value)) return true;
-  switch (type) {
-    case ColumnType::text: return std::holds_alternative<std::string>(value);
-    case ColumnType::integer: return std::holds_alternative<std::int64_t>(value);
-    case ColumnType::number:
-      return std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value);
-    case ColumnType::boolean: return std::holds_alternative<bool>(value);
-  }
-  return false;
+  constexpr std::array types = {ColumnType::text, ColumnType::integer, ColumnType::number, ColumnType::boolean};
+  if (value.index() == 0 || types[value.index() - 1] == type) return true;
+  return type == ColumnType::number && std::holds_alternative<std::int64_t>(value);
 }
 
 void require_shape(const Table& table) {
@@ -67,18 +60,9 @@ void require_shape(const Table& table) {
 
 using nlohmann::ordered_json;
 
-const char* type_name(ColumnType type) {
-  switch (type) {
-    case ColumnType::text: return "string";
-    case ColumnType::integer: return "integer";
-    case ColumnType::number: return "number";
-    case ColumnType::boolean: return "boolean";
-  }
-  return "any";
-}
-
 ordered_json field(const Column& column) {
-  ordered_json out = {{"name", column.name}, {"type", type_name(column.type)}};
+  constexpr std::array types = {"string", "integer", "number", "boolean"};  // of a ColumnType, in Table Schema
+  ordered_json out = {{"name", column.name}, {"type", types[static_cast<std::size_t>(column.type)]}};
   if (!column.unit.empty()) out["unit"] = column.unit;
   out["description"] = column.description;
   return out;
@@ -221,9 +205,8 @@ std::string typeset(const std::string& number, const std::string& minus, const c
   return number.substr(0, at) + raise + (power < 0 ? minus : "") + std::to_string(std::abs(power)) + lower;
 }
 
-std::string markdown_cell(const ShownCell& cell) {
-  const std::string interval = cell.lower.empty() ? "" : fmt::format(" [{}, {}]", cell.lower, cell.upper);
-  return markdown_escaped(cell.text + interval);
+std::string with_interval(const ShownCell& cell) {
+  return cell.text + (cell.lower.empty() ? "" : fmt::format(" [{}, {}]", cell.lower, cell.upper));
 }
 
 std::string latex_cell(const ShownCell& cell) {
@@ -265,14 +248,11 @@ std::optional<double> finite_number(const Value& value) {
 }
 
 std::string exact_text(const Value& value) {
-  struct Visitor {
-    std::string operator()(std::monostate) const { return {}; }
-    std::string operator()(const std::string& text) const { return text; }
-    std::string operator()(std::int64_t number) const { return std::to_string(number); }
-    std::string operator()(double number) const { return number_field(number); }
-    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
-  };
-  return std::visit(Visitor{}, value);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return number_field(*number);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  return {};
 }
 
 std::string csv_text(const Table& table) {
@@ -321,16 +301,15 @@ ShownTable shown(const Table& table) {
   std::string same;
   for (const Choice& choice : choices(table)) {
     const Column& column = table.columns[choice.at];
-    if (column.description.empty() ||
-        !is_same_in_every_row(table, choice)) {  // without a word of its own: a column of a matrix
+    const bool is_of_a_matrix = column.description.empty();
+    if (is_of_a_matrix || !is_same_in_every_row(table, choice)) {
       kept.push_back(choice);
       continue;
     }
     const ShownCell value = cell(table.rows[0], choice);
     if (value.text == missing_text) continue;  // nothing in any row
-    same += fmt::format("{}{} {}{}{}{}", same.empty() ? " In every row: " : ", ", title(column), value.text,
-                        value.lower.empty() ? "" : fmt::format(" [{}, {}]", value.lower, value.upper),
-                        has_unit(column) ? " " : "", has_unit(column) ? column.unit : "");
+    same += fmt::format("{}{} {}{}", same.empty() ? " In every row: " : ", ", title(column), with_interval(value),
+                        has_unit(column) ? " " + column.unit : "");
   }
   if (kept.empty()) {  // every row is like every other
     kept = choices(table);
@@ -360,7 +339,7 @@ std::string markdown_table(const Table& whole) {
   }
   for (const auto& row : table.rows) {
     out += "|";
-    for (const ShownCell& cell : row) out += fmt::format(" {} |", markdown_cell(cell));
+    for (const ShownCell& cell : row) out += fmt::format(" {} |", markdown_escaped(with_interval(cell)));
     out += "\n";
   }
   return fmt::format("{}\n\n{}\n{}\n{}", markdown_escaped(table.caption), names, rule, out);

@@ -24,7 +24,8 @@ std::optional<double> finite_number(const Value& value);
 /// One field, without quotes: numbers in shortest form that reads back as the same bits; missing and NaN are empty.
 std::string exact_text(const Value& value);
 
-/// A text that a spreadsheet would compute stands behind a single quote, as docs/results.md says. Throws std::logic_error, naming the row, if one is not as long as the columns, or a value not of its column's type.
+/// A text that a spreadsheet would compute stands behind a single quote, as docs/results.md says. Throws std::logic_error, naming
+/// the row, if one is not as long as the columns, or a value not of its column's type.
 std::string csv_text(const Table& table);
 
 struct CsvRow {

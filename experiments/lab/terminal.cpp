@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -16,22 +18,20 @@ std::size_t width(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  for (const std::string_view word : split(text, ' ')) {
-    if (!word.empty()) words.emplace_back(word);
-  }
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words = split(text, ' ');
+  std::erase(words, "");
   return words;
 }
 
 /// The words on lines of at most `most` letters, a longer word on a line of its own.
 std::vector<std::string> broken(std::string_view text, std::size_t most) {
   std::vector<std::string> lines;
-  for (const std::string& word : words_of(text)) {
+  for (const std::string_view word : words_of(text)) {
     if (lines.empty() || width(lines.back()) + 1 + width(word) > most) {
-      lines.push_back(word);
+      lines.emplace_back(word);
     } else {
-      lines.back() += " " + word;
+      lines.back().append(" ").append(word);
     }
   }
   return lines;
@@ -83,7 +83,7 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
   for (std::size_t j = 0; j < all.columns.size(); ++j) {
     std::size_t widest = 0;
     for (const auto& row : all.rows) widest = std::max(widest, width(row[j].text));
-    for (const std::string& word : words_of(all.columns[j].header)) widest = std::max(widest, width(word));
+    for (const std::string_view word : words_of(all.columns[j].header)) widest = std::max(widest, width(word));
     whole += widest + (j > 0 ? 2 : 0);
     if (j > 0 && whole > terminal_width) break;  // the file has them all
     headers.push_back(broken(all.columns[j].header, widest));
@@ -105,11 +105,8 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
     });
   }
   for (const auto& row : all.rows) out += line([&](std::size_t j) { return one_line(row[j].text); });
-  if (widths.size() < all.columns.size()) {
-    out += wrapped("And " + std::to_string(all.columns.size() - widths.size()) + " columns that data/" + table.name +
-                   ".csv has.");
-  }
-  return out;
+  const std::size_t left = all.columns.size() - widths.size();
+  return out + (left > 0 ? wrapped(fmt::format("And {} columns that data/{}.csv has.", left, table.name)) : "");
 }
 
 }  // namespace thinwall

@@ -97,10 +97,10 @@ std::string plural_text(std::int64_t count, std::string_view noun) {
   return grouped_text(count).append(" ").append(noun).append(count == 1 ? "" : "s");
 }
 
-std::string listed(std::span<const std::string> parts) {
+std::string listed(std::span<const std::string> parts, std::string_view last) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
+    text.append(i == 0 ? "" : i + 1 < parts.size() ? ", " : last).append(parts[i]);
   return text;
 }
 

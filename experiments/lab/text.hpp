@@ -15,9 +15,8 @@ namespace thinwall {
 
 // ---- Numbers as text: exactly for files, rounded for readers.
 
-/// The shortest text that reads back as the same bits. Whole numbers below 2^53 have no exponent: 1000000, not 1e+06; all from there
-/// on have one.
-/// Zero has no sign. NaN is `nan`, infinities `inf` and `-inf`.
+/// The shortest text that reads back as the same bits. Whole numbers below 2^53 have no exponent: 1000000, not 1e+06; all from
+/// there on have one. Zero has no sign. NaN is `nan`, infinities `inf` and `-inf`.
 std::string exact_text(double value);
 
 /// `digits` significant digits, for a reader: 0.0123, 1.2e-05, 1500000.
@@ -36,7 +35,7 @@ std::string plural_text(std::int64_t count, std::string_view noun);
 std::string spaced(std::string name);
 
 /// `a`, `a and b`, `a, b and c`.
-std::string listed(std::span<const std::string> parts);
+std::string listed(std::span<const std::string> parts, std::string_view last = " and ");
 
 /// As a person says it: `0.4 s`, `12 s`, `3 min 20 s`, `2 h 5 min`.
 std::string duration_text(double seconds);
@@ -48,21 +47,16 @@ template <class Number> std::optional<Number> parsed(std::string_view text) {
   return error == std::errc() && stop == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// A whole number, also as 1e6; nothing if `text` is anything else or does not fit.
-std::optional<std::int64_t> parse_count(std::string_view text);
-
-// ---- A number with its interval, rounded to what the interval supports.
-
+/// A number with its interval, rounded to what the interval supports.
 struct IntervalText {
   std::string value, lower, upper;
 };
 
-/// The last digit shown is the first of half the interval's width, or the second where the first is 1 or 2:
-/// 0.28723 in [0.28591, 0.28851] is 0.2872 [0.2859, 0.2885]. Whole numbers, such as a probability of 0, stay as they are; what would be rounded to 0,
-/// in an interval without it, keeps two digits of its own. Four significant digits where the interval has no width. All three finite, `lower` <= `upper`.
+/// The last digit shown is the first of half the interval's width, or the second where the first is 1 or 2: 0.28723 in
+/// [0.28591, 0.28851] is 0.2872 [0.2859, 0.2885]. Whole numbers, such as a probability of 0, stay as they are. What would be
+/// rounded to 0, in an interval without it, keeps two digits of its own. Where the interval has no width there are four digits.
+/// All three must be finite, and `lower` <= `upper`.
 IntervalText interval_text(double value, double lower, double upper);
-
-// ---- The allowed values of a number, checked and in words.
 
 /// The allowed values of a number; NaN and infinity never are.
 struct Range {
@@ -79,8 +73,6 @@ bool contains(const Range& range, double value);
 /// As a complaint names them: `numbers > 0 and <= 10 [s]`, where `kind` is `numbers`.
 std::string range_text(std::string_view kind, const Range& range);
 
-// ---- What a mistyped word may have meant.
-
 /// The fewest letters to insert, delete, replace or swap with their neighbor that turn `a` into `b`; case is ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
@@ -93,10 +85,8 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// Every `from` in `text`, which is not empty, becomes `to`.
 void replace_all(std::string& text, std::string_view from, std::string_view to);
 
-// ---- What a TOML text nests too deeply, told before a parser sees it.
-
-/// The line, from 1, of the first key of more than `most` parts, as `a.b.c` has three; 0 if there is none. Nested arrays
-/// and inline tables are bounded by the parser itself.
+/// Of a TOML text that no parser has seen yet, the line, from 1, of the first key of more than `most` parts, as `a.b.c` has
+/// three; 0 if there is none. Nested arrays and inline tables are bounded by the parser itself.
 int line_of_deep_key(std::string_view text, int most);
 
 }  // namespace thinwall
