@@ -2,13 +2,12 @@
 /// What can be typed: the commands, their options, what they return, and how what they say is kept harmless.
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <span>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,13 +43,25 @@ struct Call {
 /// Does what the user asked for and returns the exit code. Throws UsageError for what the user must mend.
 using Action = std::function<int(const Call&)>;
 
+/// Adds a command's options to `self`, and returns what reads them after parsing.
+using Declare = std::function<Action(CLI::App& self)>;
+
 struct Command {
   const char* name;
-  const char* summary;                ///< a line of `thinwall --help`
-  const char* examples;               ///< whole lines, shown before the options; may be empty
-  Action (*declare)(CLI::App& self);  ///< adds its options to `self`; the action reads them after parsing
-  bool by_all_ranks = false;          ///< under mpirun, every rank does it; if not, rank 0 alone
+  const char* summary;   ///< a line of `thinwall --help`
+  const char* examples;  ///< whole lines, shown before the options
+  Declare declare;
+  bool by_all_ranks = false;  ///< under mpirun, every rank does it; if not, rank 0 alone
 };
+
+/// Of a command whose options `add` has parsed into a `Text`, and which does `act`.
+template <class Text> Declare options(void (*add)(CLI::App&, Text&), int (*act)(const Text&, const Call&)) {
+  return [=](CLI::App& self) -> Action {
+    const auto text = std::make_shared<Text>();
+    add(self, *text);
+    return [=](const Call& call) { return act(*text, call); };
+  };
+}
 
 /// Every command, in the order of `thinwall --help`.
 std::span<const Command> commands();
@@ -73,10 +84,8 @@ void add_benchmarks(CLI::App& command, OptionText& folder);
 void add_target(CLI::App& command, const std::string& name, std::string& target, const std::string& meaning,
                 const std::string& form);
 
-/// Writes `text`, whole or not at all. An earlier file of the same first line is replaced, anything else that lies there is not. Throws
-/// UsageError, which calls the file what `option` was given, and `command` what should have written an earlier one.
-void write_own_file(std::string_view option, const std::filesystem::path& file, std::string_view text,
-                    std::string_view command);
+/// With an empty line behind it; nothing for nothing.
+std::string summary_text(const std::string& summary);
 
 // All throw UsageError, naming the option and what is allowed.
 int parse_threads(const OptionText& text);         ///< every core if not given
@@ -90,44 +99,13 @@ std::string parse_choice(std::string_view option, const OptionText& text,
 /// What to do: a command's action, or one that prints a help text or the version. Throws UsageError.
 Action parse_command_line(const std::vector<std::string>& argv);
 
-// ---- Output that drives no terminal, whatever text it is given: a name, a manifest or a file may hold escape sequences.
-
-/// Hands letters on to `out`. Of control characters the end of a line and the tab pass; others are spelled out, `\x1b` or, where
-/// JSON may hold them, `\u009b`, which stays JSON and means the same.
-class HarmlessOutput final : public std::ostream {
- public:
-  explicit HarmlessOutput(std::ostream& to) : std::ostream(nullptr), buffer_(to) { rdbuf(&buffer_); }
-
- private:
-  class Buffer final : public std::streambuf {
-   public:
-    explicit Buffer(std::ostream& out) : out_(out) {}
-
-   private:
-    int_type overflow(int_type value) override;
-    int sync() override;
-
-    std::ostream& out_;
-    bool after_c2_ = false;  // the first byte of U+0080 to U+00BF in UTF-8 was held back
-  };
-
-  Buffer buffer_;
-};
-
 // ---- The commands.
 
-Command advise_command();
-Command cite_command();
-Command compare_command();
+std::vector<Command> run_commands();        ///< run, compare, plan
+std::vector<Command> thin_wall_commands();  ///< advise, explore
+std::vector<Command> result_commands();     ///< merge, report, reproduce, cite
+Command validate_command();                 ///< its exit code is 1 if any verdict is wrong
 Command completion_command();
-Command explore_command();
-Command list_command();
-Command merge_command();
-Command plan_command();
-Command report_command();
-Command reproduce_command();
-Command run_command();
-Command validate_command();  ///< its exit code is 1 if any verdict is wrong
 
 // ---- `thinwall report`, and the option --figures that `thinwall run` shares with it.
 

@@ -1,22 +1,18 @@
 #include <thinwall/experiments/program/command.hpp>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <memory>
 #include <ostream>
+#include <streambuf>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
-#include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
+#include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -56,17 +52,12 @@ Nothing is colored, with NO_COLOR or without.
 void refuse_extras(const CLI::App& app, const std::vector<std::string>& extras) {
   if (extras.empty()) return;
   std::vector<std::string> names;
-  std::string unknown = extras.front();
-  for (const std::string& extra : extras) {
-    if (extra.starts_with("-")) {
-      unknown = extra.substr(0, extra.find('='));
-      break;
-    }
-  }
-  const bool is_option = unknown.starts_with("-");
+  const auto option = std::ranges::find_if(extras, [](const std::string& extra) { return extra.starts_with("-"); });
+  const bool is_option = option != extras.end();
+  const std::string unknown = is_option ? option->substr(0, option->find('=')) : extras.front();
   if (is_option) {
-    for (const CLI::Option* option : app.get_options()) {
-      if (!option->get_lnames().empty()) names.push_back("--" + option->get_lnames().front());
+    for (const CLI::Option* known : app.get_options()) {
+      if (!known->get_lnames().empty()) names.push_back("--" + known->get_lnames().front());
     }
   } else {
     for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
@@ -86,12 +77,9 @@ std::string version_text() {
 
 /// `list, run or plan`.
 std::string every_name() {
-  std::string out;
-  for (const Command& command : commands()) {
-    const bool last = &command == &commands().back();
-    out += fmt::format("{}{}", out.empty() ? "" : last ? " or " : ", ", command.name);
-  }
-  return out;
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.emplace_back(command.name);
+  return listed(names, " or ");
 }
 
 Action print(std::string text) {
@@ -120,14 +108,44 @@ std::string list_text(std::span<const Experiment> experiments) {
   return out;
 }
 
-Action declare_list(CLI::App& self) {
-  const auto json = std::make_shared<bool>(false);
-  add_json(self, *json);
-  return [json](const Call& call) {
-    call.out << (*json ? list_json(call.experiments) : list_text(call.experiments));
-    return exit_done;
-  };
+int list(const bool& json, const Call& call) {
+  call.out << (json ? list_json(call.experiments) : list_text(call.experiments));
+  return exit_done;
 }
+
+/// Output that drives no terminal, whatever text it is given: a name, a manifest or a file may hold escape sequences. Hands letters
+/// on to another stream. Of control characters the end of a line and the tab pass; others are spelled out, `\x1b` or, where JSON may
+/// hold them, `\u009b`, which stays JSON and means the same.
+class HarmlessBuffer final : public std::streambuf {
+ public:
+  explicit HarmlessBuffer(std::ostream& to) : out_(to) {}
+
+ private:
+  int_type overflow(int_type value) override {
+    if (traits_type::eq_int_type(value, traits_type::eof())) return traits_type::not_eof(value);
+    const char letter = traits_type::to_char_type(value);
+    const auto code = static_cast<unsigned char>(letter);
+    const bool after_c2 = std::exchange(after_c2_, code == 0xc2);
+    const bool is_c1 = after_c2 && 0x80 <= code && code < 0xa0;
+    if (after_c2 && !is_c1) out_.put('\xc2');
+    if (is_c1 || code == 0x7f) {
+      out_ << fmt::format("\\u{:04x}", code);
+    } else if (code < 0x20 && letter != '\n' && letter != '\t') {
+      out_ << fmt::format("\\x{:02x}", code);
+    } else if (!after_c2_) {
+      out_.put(letter);
+    }
+    return out_ ? value : traits_type::eof();
+  }
+
+  int sync() override {
+    if (std::exchange(after_c2_, false)) out_.put('\xc2');
+    return out_.flush() ? 0 : -1;
+  }
+
+  std::ostream& out_;
+  bool after_c2_ = false;  // the first byte of U+0080 to U+00BF in UTF-8 was held back
+};
 
 constexpr const char* list_examples = R"(  thinwall list
   thinwall list --json
@@ -163,8 +181,7 @@ Action parse_command_line(const std::vector<std::string>& argv) {
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
     if (&chosen() == &app) return print(app.help());
-    const std::string examples = commands()[index()].examples;
-    return print((examples.empty() ? "" : "Examples:\n" + examples + "\n") + chosen().help("thinwall"));
+    return print(fmt::format("Examples:\n{}\n{}", commands()[index()].examples, chosen().help("thinwall")));
   } catch (const CLI::CallForVersion&) {
     return print(version_text());
   } catch (const CLI::ArgumentMismatch& error) {
@@ -237,80 +254,25 @@ std::string parse_choice(std::string_view option, const OptionText& text, std::s
   return *text;
 }
 
-void write_own_file(std::string_view option, const std::filesystem::path& file, std::string_view text,
-                    std::string_view command) {
-  const auto refuse = [&](const std::string& why) {
-    throw UsageError(fmt::format("{} {}: {}", option, one_line(file.string()), why));
-  };
-  if (file.empty()) throw UsageError(fmt::format("{}: '' is not allowed; a file is needed", option));
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (std::filesystem::is_directory(status)) refuse("is a folder; a file is needed");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) refuse("is not a file");
-  if (std::filesystem::exists(status)) {
-    std::string first;
-    std::ifstream in(file);
-    std::getline(in, first);
-    if (first != text.substr(0, text.find('\n')))
-      refuse(fmt::format("is there already, and not from {}; another name is needed", command));
-  }
-  const std::filesystem::path fresh = file.string() + ".new";
-  if (std::filesystem::exists(fresh, error)) refuse("needs the name " + one_line(fresh.string()) + ", which is taken");
-  try {
-    write_file(fresh, text);
-    std::filesystem::rename(fresh, file);
-  } catch (const std::system_error& why) {
-    std::filesystem::remove(fresh, error);
-    refuse("cannot be written: " + why.code().message());
-  }
-}
-
-std::streambuf::int_type HarmlessOutput::Buffer::overflow(int_type value) {
-  if (traits_type::eq_int_type(value, traits_type::eof())) return traits_type::not_eof(value);
-  const char letter = traits_type::to_char_type(value);
-  const auto code = static_cast<unsigned char>(letter);
-  const bool after_c2 = std::exchange(after_c2_, code == 0xc2);
-  const bool is_c1 = after_c2 && 0x80 <= code && code < 0xa0;
-  if (after_c2 && !is_c1) out_.put('\xc2');
-  if (is_c1 || code == 0x7f) {
-    out_ << fmt::format("\\u{:04x}", code);
-  } else if (code < 0x20 && letter != '\n' && letter != '\t') {
-    out_ << fmt::format("\\x{:02x}", code);
-  } else if (!after_c2_) {
-    out_.put(letter);
-  }
-  return out_ ? value : traits_type::eof();
-}
-
-int HarmlessOutput::Buffer::sync() {
-  if (std::exchange(after_c2_, false)) out_.put('\xc2');
-  return out_.flush() ? 0 : -1;
+std::string summary_text(const std::string& summary) {
+  return summary.empty() ? "" : summary + (summary.ends_with('\n') ? "\n" : "\n\n");
 }
 
 std::span<const Command> commands() {
-  static const std::array all = {
-      list_command(),        //
-      run_command(),         //
-      compare_command(),     //
-      plan_command(),        //
-      advise_command(),      //
-      explore_command(),     //
-      validate_command(),    //
-      merge_command(),       //
-      report_command(),      //
-      reproduce_command(),   //
-      cite_command(),        //
-      completion_command(),  //
-  };
+  static const std::vector<Command> all =
+      flat<Command>({{{"list", "Print every experiment and its question", list_examples, options(add_json, list)}},
+                     run_commands(),
+                     thin_wall_commands(),
+                     {validate_command()},
+                     result_commands(),
+                     {completion_command()}});
   return all;
 }
 
-Command list_command() { return {"list", "Print every experiment and its question", list_examples, declare_list}; }
-
 int run_program(const std::vector<std::string>& argv, std::span<const Experiment> experiments, std::ostream& to_stdout,
                 std::ostream& to_stderr) {
-  HarmlessOutput out(to_stdout), err(to_stderr);
-  std::ostream nowhere(nullptr);
+  HarmlessBuffer harmless_out(to_stdout), harmless_err(to_stderr);
+  std::ostream out(&harmless_out), err(&harmless_err), nowhere(nullptr);
   const bool quiet = launch_of_this_process().rank > 0;  // of the ranks that mpirun started, one speaks
   std::ostream& notes = quiet ? nowhere : err;
   try {

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
@@ -39,22 +37,13 @@ CompletedValue value_of_form(const std::string& form, std::span<const Experiment
   return out;
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between = " ") {
-  return fmt::format("{}", fmt::join(words, between));
-}
-
-std::vector<std::string> names_of(const CompletedCommand& command) {
-  std::vector<std::string> out;
-  for (const CompletedOption& option : command.options) out.push_back(option.name);
-  return out;
-}
+std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 // bash -------------------------------------------------------------------------------------------------------------
 
 /// Sets what `_thinwall` may offer: words, and whether files.
 std::string bash_value(const CompletedValue& value) {
-  return fmt::format("words={} toml={} folder={}", single_quoted(joined(value.words)), value.toml ? 1 : 0,
-                     value.folder ? 1 : 0);
+  return fmt::format("words={} toml={:d} folder={:d}", single_quoted(joined(value.words)), value.toml, value.folder);
 }
 
 constexpr const char* bash_end = R"(  mapfile -t COMPREPLY < <(
@@ -73,12 +62,14 @@ std::string bash_script(std::span<const CompletedCommand> commands) {
   std::string values, targets;
   for (const CompletedCommand& command : commands) {
     names.push_back(command.name);
+    std::vector<std::string> own;
     for (const CompletedOption& option : command.options) {
+      own.push_back(option.name);
       if (!option.takes_value) continue;
       values += fmt::format("    {}:{}) {} is_value=1 ;;\n", command.name, option.name, bash_value(option.value));
     }
     targets += fmt::format("    {}) {}; [[ $cur == -* ]] && {{ words={}; toml=0; folder=0; }} ;;\n", command.name,
-                           bash_value(command.target), single_quoted(joined(names_of(command))));
+                           bash_value(command.target), single_quoted(joined(own)));
   }
   return "# Completion of thinwall for bash. To load it: source <(thinwall completion bash)\n"
          "_thinwall() {\n"
@@ -103,7 +94,7 @@ std::string zsh_escaped(const std::string& text) {
 
 std::string zsh_action(const CompletedValue& value) {
   if (value.words.empty() && !value.toml && !value.folder) return " ";
-  return fmt::format("{{_thinwall_offer {} {} {}}}", value.toml ? 1 : 0, value.folder ? 1 : 0, joined(value.words));
+  return fmt::format("{{_thinwall_offer {:d} {:d} {}}}", value.toml, value.folder, joined(value.words));
 }
 
 constexpr const char* zsh_offer = R"(_thinwall_offer() {
@@ -182,19 +173,13 @@ int print_completion(const CompletionText& text, const Call& call) {
   const std::string shell = parse_choice("completion", text.shell, shells);
   const std::vector<CompletedCommand> all = completed_commands(call.experiments);
   const std::string script = shell == "bash" ? bash_script(all) : shell == "zsh" ? zsh_script(all) : fish_script(all);
-  if (text.json) {
-    call.out << json_line({{"shell", shell}, {"script", script}});
-  } else {
-    call.out << script;
-  }
+  call.out << (text.json ? json_line({{"shell", shell}, {"script", script}}) : script);
   return exit_done;
 }
 
-Action declare_completion(CLI::App& self) {
-  const auto text = std::make_shared<CompletionText>();
-  add_target(self, "shell", text->shell, "The shell that is to complete", "bash|zsh|fish");
-  add_json(self, text->json);
-  return [text](const Call& call) { return print_completion(*text, call); };
+void add_options(CLI::App& self, CompletionText& text) {
+  add_target(self, "shell", text.shell, "The shell that is to complete", "bash|zsh|fish");
+  add_json(self, text.json);
 }
 
 }  // namespace
@@ -222,7 +207,7 @@ std::vector<CompletedCommand> completed_commands(std::span<const Experiment> exp
 
 Command completion_command() {
   return {"completion", "Print a script that completes commands, options and experiments in a shell",
-          completion_examples, declare_completion};
+          completion_examples, options(add_options, print_completion)};
 }
 
 }  // namespace thinwall

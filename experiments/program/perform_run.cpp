@@ -15,7 +15,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
@@ -30,6 +29,10 @@
 namespace thinwall {
 
 namespace {
+
+constexpr const char* self_test_failed =
+    "the self-test failed: do not trust these numbers; the report says more. Chance fails one correct run in a hundred or "
+    "fewer: another --seed tells\n";
 
 /// How a rank's part ended, in order of severity.
 enum Ending : int { finished, stopped, failed };
@@ -61,8 +64,8 @@ ordered_json size_json(const RunRecord& run, const RunWish& wish) {
 
 std::string time_text(const RunEstimate& told, double seconds) {
   if (told.tried() == 0) return "for how long, cannot be told";
-  const bool mostly_beginning =
-      told.cut_tried > 0 && told.trials == 1;  // what begins a unit, a trial alone or not, is counted for each
+  // What begins a unit, a trial alone or not, is counted for each.
+  const bool mostly_beginning = told.cut_tried > 0 && told.trials == 1;
   return (told.unknown > 0 ? "at least " : mostly_beginning ? "at most " : "about ") + duration_text(seconds);
 }
 
@@ -103,26 +106,24 @@ int list_cells(const RunWish& wish, const RunRecord& run, std::span<const Unit> 
   return exit_done;
 }
 
-int reply(const RunWish& wish, const RunRecord& run, const Outcome& outcome, const Call& call) {
-  auto& [experiments, argv, out, err] = call;
+/// `Told`: an Outcome, or the Manifest of a result that lies there already.
+template <class Told> int reply(const RunWish& wish, const RunRecord& run, const Told& told, const Call& call) {
   const std::vector<std::string> troubles = draw_figures(wish.out, wish.figures).troubles;
-  for (const std::string& trouble : troubles) err << trouble << "\n";
+  for (const std::string& trouble : troubles) call.err << trouble << "\n";
   const std::string report = (std::filesystem::path(wish.out) / "report.html").string();
   if (wish.json) {
     ordered_json reply = size_json(run, wish);
     reply["resumed_units"] = run.resumed_units;
-    reply["answer"] = outcome.answer;
-    reply["self_test_passed"] = outcome.self_test_passed;
+    reply["answer"] = told.answer;
+    reply["self_test_passed"] = told.self_test_passed;
     reply["report"] = report;
-    out << json_line(reply);
+    call.out << json_line(reply);
   } else {
-    if (!outcome.summary.empty()) out << outcome.summary << (outcome.summary.ends_with('\n') ? "\n" : "\n\n");
-    out << outcome.answer << "\n\nreport: " << one_line(report) << "\n";
+    call.out << summary_text(told.summary) << told.answer << "\n\nreport: " << one_line(report) << "\n";
   }
-  out.flush();
-  if (outcome.self_test_passed) return troubles.empty() ? exit_done : exit_failed;
-  err << "the self-test failed: do not trust these numbers; the report says more. Chance fails one correct run in a hundred or "
-         "fewer: another --seed tells\n";
+  call.out.flush();
+  if (told.self_test_passed) return troubles.empty() ? exit_done : exit_failed;
+  call.err << self_test_failed;
   return exit_failed;
 }
 
@@ -133,9 +134,8 @@ int shard_reply(const RunWish& wish, const RunRecord& run, const Call& call) {
     reply["resumed_units"] = run.resumed_units;
     call.out << json_line(reply);
   } else {
-    call.out << fmt::format("shard {} of {} is finished, in {}\n", to_text(*wish.shard), run.experiment,
-                            one_line(wish.out));
-    call.out << fmt::format("with {} of them: {} merge SHARD... --out DIR\n",
+    call.out << fmt::format("shard {} of {} is finished, in {}\nwith {} of them: {} merge SHARD... --out DIR\n",
+                            to_text(*wish.shard), run.experiment, one_line(wish.out),
                             wish.shard->count == 1 ? "one" : fmt::format("all {}", wish.shard->count),
                             shell_line({call.argv.front()}));
   }
@@ -155,16 +155,9 @@ std::string default_folder(const ConfiguredRun& chosen, const std::optional<Shar
 }
 
 RunRecord record_of(const ConfiguredRun& chosen, const RunWish& wish, const Call& call, std::span<const Unit> units) {
-  RunRecord record;
-  record.experiment = chosen.experiment.name;
-  record.question = chosen.question;
-  record.config = chosen.config;
-  record.default_config = chosen.default_config;
-  record.seed = wish.merged ? wish.merged->identity.seed : wish.request.options.seed;
-  record.trials = wish.merged ? wish.merged->identity.trials : wish.request.options.trials;
+  RunRecord record = chosen.record;
   record.shard = wish.shard ? to_text(*wish.shard) : "";
   record.argv = call.argv;
-  record.threads = wish.request.options.threads;
   record.units = units.size();
   record.started = std::chrono::system_clock::now();
   record.build = this_build();
@@ -175,46 +168,56 @@ RunRecord record_of(const ConfiguredRun& chosen, const RunWish& wish, const Call
   return record;
 }
 
-std::vector<Unit> units_of(const Shard& shard, const Launch& launch, const std::vector<Unit>& all) {
-  if (launch.count > 1) {
-    throw UsageError("--shard: mpirun shares a run out among its ranks already; use one of the two");
-  }
+std::vector<Unit> units_of(const Shard& shard, const std::vector<Unit>& all) {
   std::vector<Unit> units;
   for (const std::size_t i : units_of(shard, all.size())) units.push_back(all[i]);
   return units;
 }
 
-}  // namespace
+/// The ranks that compute one run together. Rank 0 holds the folder, tells the others what is left to do, gathers what
+/// they did into its journal, and goes on alone. Each keeps what it has finished in a journal of its own until then, so that
+/// a killed run loses no more than any other.
+class Crew : boost::noncopyable {
+ public:
+  /// A crew of one needs no MPI. Throws UsageError as Ranks does.
+  Crew(const Launch& launch, std::span<const Unit> units) : ranks_(launch), units_(units) {}
+  ~Crew() {  // sends home ranks that still wait for rank 0
+    if (!leads() || told_) return;
+    std::vector<std::uint8_t> nothing(units_.size());
+    ranks_.share(nothing);
+    ranks_.worst(finished);
+  }
 
-Crew::Crew(const Launch& launch, std::span<const Unit> units) : ranks_(launch), units_(units) {}
+  bool leads() const { return ranks_.rank() == 0; }
 
-Crew::~Crew() {
-  if (!leads() || told_) return;
-  std::vector<std::uint8_t> nothing(units_.size());
-  ranks_.share(nothing);
-  ranks_.worst(finished);
-}
+  /// Of the leader: what `compute_units` returns, by all ranks.
+  UnitResults compute(ResultFolder& folder, const std::string& identity, const RunnerOptions& options);
+
+  /// Of the others: computes what the leader says, into a journal in `folder`. Returns the exit code.
+  int assist(const std::filesystem::path& folder, const std::string& identity, const RunnerOptions& options);
+
+ private:
+  std::vector<Unit> share_of(const std::vector<std::uint8_t>& open) const;  // this rank's
+
+  Ranks ranks_;
+  std::span<const Unit> units_;
+  bool told_ = false;  // the others know what to do
+};
 
 std::vector<Unit> Crew::share_of(const std::vector<std::uint8_t>& open) const {
   std::vector<Unit> left;
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (open[i]) left.push_back(units_[i]);
   }
-  std::vector<Unit> ours;
-  for (const std::size_t i : units_of({ranks_.rank() + 1, ranks_.count()}, left.size())) ours.push_back(left[i]);
-  return ours;
+  return units_of({ranks_.rank() + 1, ranks_.count()}, left);
 }
 
 UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, const RunnerOptions& options) {
   Journal& journal = folder.journal();
-  if (count() == 1) return compute_units(units_, journal, options);
-  std::vector<std::uint8_t> open(units_.size());
-  std::size_t known = 0;
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    const bool done = journal.finished().contains(units_[i].key);
-    open[i] = done ? 0 : 1;
-    known += done ? 1U : 0U;
-  }
+  if (ranks_.count() == 1) return compute_units(units_, journal, options);
+  std::vector<std::uint8_t> open;
+  for (const Unit& unit : units_) open.push_back(journal.finished().contains(unit.key) ? 0 : 1);
+  const auto known = static_cast<std::size_t>(std::ranges::count(open, 0));
   ranks_.share(open);
   told_ = true;
 
@@ -246,17 +249,47 @@ int Crew::assist(const std::filesystem::path& folder, const std::string& identit
       if (!compute_units(ours, journal, options).complete) ending = stopped;
     }
   } catch (const std::exception& error) {
-    std::cerr << fmt::format("rank {} of {} failed: {}\n", ranks_.rank(), count(), one_line(error.what()));
+    std::cerr << fmt::format("rank {} of {} failed: {}\n", ranks_.rank(), ranks_.count(), one_line(error.what()));
     ending = failed;
   }
   ranks_.worst(ending);
   return ending == finished ? exit_done : ending == stopped ? exit_interrupted : exit_failed;
 }
 
+/// True if stderr is a terminal that can redraw a line (TERM is not `dumb`).
 bool stderr_is_terminal() {
   const char* const term = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
 }
+
+/// On a terminal: nothing is printed where stderr is none.
+class ProgressBar : boost::noncopyable {
+ public:
+  explicit ProgressBar(bool enabled) : enabled_(enabled) {}
+  ~ProgressBar() {
+    if (drawn_) erase();
+  }
+
+  static void erase() { std::fputs("\r\x1b[K", stderr); }
+
+  void show(const Progress& progress) {
+    constexpr auto pause = std::chrono::milliseconds(100);
+    const auto now = Clock::now();
+    if (!enabled_ || (drawn_ && now - last_ < pause && progress.units_done < progress.units)) return;
+    drawn_ = true;
+    last_ = now;
+    const std::string line = progress_line(progress, std::chrono::duration<double>(now - start_).count());
+    std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
+    std::fflush(stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool enabled_, drawn_ = false;
+  Clock::time_point start_ = Clock::now(), last_;
+};
+
+}  // namespace
 
 std::string progress_line(const Progress& progress, double seconds) {
   constexpr int width = 24;
@@ -275,30 +308,13 @@ std::string progress_line(const Progress& progress, double seconds) {
   return line;
 }
 
-void ProgressBar::show(const Progress& progress) {
-  constexpr auto pause = std::chrono::milliseconds(100);
-  const auto now = Clock::now();
-  if (!enabled_ || (drawn_ && now - last_ < pause && progress.units_done < progress.units)) return;
-  drawn_ = true;
-  last_ = now;
-  const std::string line = progress_line(progress, std::chrono::duration<double>(now - start_).count());
-  std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
-  std::fflush(stderr);
-}
-
-void ProgressBar::erase() { std::fputs("\r\x1b[K", stderr); }
-
-ProgressBar::~ProgressBar() {
-  if (drawn_) erase();
-}
-
 int perform_run(RunWish wish, const Call& call) try {
   const ConfiguredRun chosen =
       wish.merged ? configure_again(wish.merged->identity, wish.request.options.threads, call.experiments)
                   : configure_run(wish.target, wish.request, call.experiments);
-  const std::vector<Unit> all = chosen.run->units();
-  const std::vector<Unit> part = wish.shard ? units_of(*wish.shard, wish.launch, all) : std::vector<Unit>();
-  const std::vector<Unit>& units = wish.shard ? part : all;
+  if (wish.shard && wish.launch.count > 1)
+    throw UsageError("--shard: mpirun shares a run out among its ranks already; use one of the two");
+  const std::vector<Unit> all = chosen.run->units(), units = units_of(wish.shard.value_or(Shard{}), all);
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, wish, call, units);
   if (wish.list_cells) return list_cells(wish, record, units, call.out);
@@ -316,11 +332,7 @@ int perform_run(RunWish wish, const Call& call) try {
   ResultFolder folder(wish.out, record);
   for (const std::string& note : folder.notes()) call.err << note << "\n";
   if (const auto& kept = folder.complete()) {
-    Outcome outcome;
-    outcome.answer = kept->answer;
-    outcome.summary = kept->summary;
-    outcome.self_test_passed = kept->self_test_passed;
-    return reply(wish, record, outcome, call);
+    return reply(wish, record, *kept, call);
   }
   if (wish.shard && is_sealed(folder, record)) {
     call.err << one_line(wish.out) << ": finished already; nothing was computed\n";

@@ -2,14 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/lab/comparison.hpp>
@@ -62,14 +60,9 @@ ordered_json result_json(const KeptResult& result) {
 }
 
 std::string result_text(const KeptResult& result) {
-  std::string out = result.citation.question + "\n\n" + result.answer + "\n\n";
-  if (!result.summary.empty()) out += result.summary + (result.summary.ends_with('\n') ? "\n" : "\n\n");
+  std::string out = result.question + "\n\n" + result.answer + "\n\n" + summary_text(result.summary);
   if (!result.self_test_passed) out += "The self-test failed: do not cite these numbers.\n\n";
   return out + "report: " + one_line((result.folder / "report.html").string()) + "\n";
-}
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  throw UsageError(fmt::format("{}: {}", one_line(path.string()), why));
 }
 
 /// Checks a folder that may hold anything.
@@ -84,14 +77,13 @@ int check(const ReportText& text, const Call& call) try {
   } else {
     for (const std::string& fault : faults) call.out << fault << "\n";
     call.out << fmt::format("{}: {}\n", one_line(text.target),
-                            doubtful             ? "whole, but its self-test failed: do not cite its numbers"
-                            : whole              ? "whole: no fault was found"
-                            : faults.size() == 1 ? "1 fault"
-                                                 : fmt::format("{} faults", faults.size()));
+                            doubtful ? "whole, but its self-test failed: do not cite its numbers"
+                            : whole  ? "whole: no fault was found"
+                                     : plural_text(std::ssize(faults), "fault"));
   }
   return whole ? exit_done : exit_failed;
 } catch (const fs::filesystem_error& error) {
-  refuse(error.path1(), "cannot be read: " + error.code().message());
+  refuse_place(error.path1(), "cannot be read: " + error.code().message());
 }
 
 int report(const ReportText& text, const Call& call) {
@@ -121,14 +113,12 @@ int report(const ReportText& text, const Call& call) {
   return drawing;
 }
 
-Action declare_report(CLI::App& self) {
-  const auto text = std::make_shared<ReportText>();
+void add_report(CLI::App& self, ReportText& text) {
   self.footer(report_footer);
-  add_target(self, "result", text->target, "The folder of a result", "RESULT");
-  add_flag(self, "--check", text->check, "Check the whole folder, and name each fault found");
-  add_figures(self, text->figures);
-  add_json(self, text->json);
-  return [text](const Call& call) { return report(*text, call); };
+  add_target(self, "result", text.target, "The folder of a result", "RESULT");
+  add_flag(self, "--check", text.check, "Check the whole folder, and name each fault found");
+  add_figures(self, text.figures);
+  add_json(self, text.json);
 }
 
 }  // namespace
@@ -155,22 +145,11 @@ constexpr const char* cite_examples = R"(  thinwall cite                      th
 )";
 
 std::string json_reply(const SoftwareCitation& software, const std::optional<ResultCitation>& result) {
-  ordered_json reply = {{"software",
-                         {{"title", software.title},
-                          {"authors", software.authors},
-                          {"version", software.version},
-                          {"date", software.date},
-                          {"license", software.license},
-                          {"bibtex", bibtex(software)}}}};
+  ordered_json reply = {{"software", json_of(software)}};
+  reply["software"]["bibtex"] = bibtex(software);
   if (result) {
-    reply["result"] = {{"experiment", result->experiment},
-                       {"title", result->question},
-                       {"run_id", result->run_id},
-                       {"seed", result->seed},
-                       {"commit", result->commit},
-                       {"dirty", result->dirty},
-                       {"date", result->date},
-                       {"bibtex", bibtex(*result)}};
+    reply["result"] = json_of(*result);
+    reply["result"]["bibtex"] = bibtex(*result);
   }
   return json_line(reply);
 }
@@ -181,7 +160,7 @@ struct CiteText {
   bool json = false;
 };
 
-int cite(const CiteText& text, std::ostream& out) {
+int cite(const CiteText& text, const Call& call) {
   SoftwareCitation software = this_software();
   std::optional<ResultCitation> result;
   if (text.given && text.target.empty()) throw UsageError("cite: the folder of a result is empty; name one, or none");
@@ -190,20 +169,14 @@ int cite(const CiteText& text, std::ostream& out) {
     software = kept.software;
     result = kept.citation;
   }
-  if (text.json) {
-    out << json_reply(software, result);
-  } else {
-    out << (result ? bibtex(software, *result) : bibtex(software));
-  }
+  call.out << (text.json ? json_reply(software, result) : result ? bibtex(software, *result) : bibtex(software));
   return exit_done;
 }
 
-Action declare_cite(CLI::App& self) {
-  const auto text = std::make_shared<CiteText>();
-  add_target(self, "result", text->target, "The folder of a result; without one the software alone is cited", "RESULT");
-  self.get_option("result")->each([text](const std::string&) { text->given = true; });
-  add_json(self, text->json);
-  return [text](const Call& call) { return cite(*text, call.out); };
+void add_cite(CLI::App& self, CiteText& text) {
+  add_target(self, "result", text.target, "The folder of a result; without one the software alone is cited", "RESULT");
+  self.get_option("result")->each([&text](const std::string&) { text.given = true; });
+  add_json(self, text.json);
 }
 
 constexpr const char* merge_examples = R"(  thinwall run thin_wall --shard 1/2 --out part1
@@ -232,14 +205,12 @@ int merge(const MergeText& text, const Call& call) {
   return perform_run(wish, call);
 }
 
-Action declare_merge(CLI::App& self) {
-  const auto text = std::make_shared<MergeText>();
+void add_merge(CLI::App& self, MergeText& text) {
   self.footer(merge_footer);
-  self.add_option("shards", text->folders, "The folders that thinwall run --shard left, in any order")
+  self.add_option("shards", text.folders, "The folders that thinwall run --shard left, in any order")
       ->option_text("SHARD...");
-  add_out(self, text->out);
-  add_json(self, text->json);
-  return [text](const Call& call) { return merge(*text, call); };
+  add_out(self, text.out);
+  add_json(self, text.json);
 }
 
 constexpr const char* reproduce_examples = R"(  thinwall reproduce results/thin_wall
@@ -278,9 +249,9 @@ Rerun prepare(const ReproduceText& text) try {
   Rerun out;
   out.result = fs::path(text.target).lexically_normal();
   if (!out.result.has_filename()) out.result = out.result.parent_path();  // `results/mine/`
-  if (!fs::is_directory(out.result)) refuse(out.result, "there is no such folder; name the folder of a result");
+  if (!fs::is_directory(out.result)) refuse_place(out.result, "there is no such folder; name the folder of a result");
   if (!fs::exists(out.result / "manifest.json")) {
-    refuse(out.result, "holds no manifest.json; name the folder of a complete result");
+    refuse_place(out.result, "holds no manifest.json; name the folder of a complete result");
   }
   out.recorded = manifest_in(out.result);
   out.changed = files_changed_since(out.result, out.recorded);
@@ -290,18 +261,18 @@ Rerun prepare(const ReproduceText& text) try {
     out.out = (named ? out.result : fs::canonical(out.result)).string() + ".again";
   }
   if (fs::exists(out.out / "manifest.json")) {
-    refuse(out.out, "holds a result already; delete it, or name another folder with --out");
+    refuse_place(out.out, "holds a result already; delete it, or name another folder with --out");
   }
   const std::string within = fs::weakly_canonical(out.out).lexically_relative(fs::canonical(out.result)).string();
   if (stays_within(within) || within == ".")
-    refuse(out.out, "lies in the result itself; name another folder with --out");
+    refuse_place(out.out, "lies in the result itself; name another folder with --out");
   out.stays = text.out.has_value();
   if (!out.stays && fs::exists(out.out) && !fs::exists(out.out / "journal.tsv")) {  // it would be removed in the end
-    refuse(out.out, "is there already; delete it, or name another folder with --out");
+    refuse_place(out.out, "is there already; delete it, or name another folder with --out");
   }
   return out;
 } catch (const fs::filesystem_error& error) {
-  refuse(error.path1(), "cannot be read: " + error.code().message());
+  refuse_place(error.path1(), "cannot be read: " + error.code().message());
 }
 
 /// Throws UsageError if this build cannot run it.
@@ -330,13 +301,13 @@ std::string json_reply(const Rerun& rerun, const RerunComparison& found) {
                         {"explained_by_hand", found.explained_by_hand},
                         {"facts", ordered_json::array()}};
   for (const FileDifference& difference : found.differences) {
-    const bool cell = difference.kind == FileDifference::Kind::cell,
-               line = difference.kind == FileDifference::Kind::line;
-    const bool row = cell || difference.kind == FileDifference::Kind::row;
+    using Kind = FileDifference::Kind;
+    const bool cell = difference.kind == Kind::cell, row = cell || difference.kind == Kind::row;
+    const ordered_json none, number = difference.row;
     reply["differences"].push_back({{"file", difference.file},
-                                    {"row", row ? ordered_json(difference.row) : ordered_json()},
-                                    {"column", cell ? ordered_json(difference.column) : ordered_json()},
-                                    {"line", line ? ordered_json(difference.row) : ordered_json()},
+                                    {"row", row ? number : none},
+                                    {"column", cell ? ordered_json(difference.column) : none},
+                                    {"line", difference.kind == Kind::line ? number : none},
                                     {"recorded", difference.recorded},
                                     {"rerun", difference.rerun},
                                     {"text", to_text(difference)}});
@@ -396,34 +367,25 @@ int reproduce(const ReproduceText& text, const Call& call) {
   return exit_done;
 }
 
-Action declare_reproduce(CLI::App& self) {
-  const auto text = std::make_shared<ReproduceText>();
+void add_reproduce(CLI::App& self, ReproduceText& text) {
   self.footer(reproduce_footer);
-  add_target(self, "result", text->target, "The folder of a complete result", "RESULT");
-  add_text(self, "--out", text->out, "Where the rerun goes, and stays (default: RESULT.again, removed if identical)",
+  add_target(self, "result", text.target, "The folder of a complete result", "RESULT");
+  add_text(self, "--out", text.out, "Where the rerun goes, and stays (default: RESULT.again, removed if identical)",
            "DIR");
-  add_threads(self, text->threads);
-  add_benchmarks(self, text->benchmarks);
-  add_json(self, text->json);
-  return [text](const Call& call) { return reproduce(*text, call); };
+  add_threads(self, text.threads);
+  add_benchmarks(self, text.benchmarks);
+  add_json(self, text.json);
 }
 
 }  // namespace
 
-Command report_command() {
-  return {"report", "Print what a result says, check its folder, draw its figures for print", report_examples,
-          declare_report};
-}
-
-Command cite_command() {
-  return {"cite", "Print BibTeX for the software, and for a result", cite_examples, declare_cite};
-}
-
-Command merge_command() { return {"merge", "Make one result of the shards of a run", merge_examples, declare_merge}; }
-
-Command reproduce_command() {
-  return {"reproduce", "Run a result again from its manifest, and say what differs", reproduce_examples,
-          declare_reproduce};
+std::vector<Command> result_commands() {
+  return {{"merge", "Make one result of the shards of a run", merge_examples, options(add_merge, merge)},
+          {"report", "Print what a result says, check its folder, draw its figures for print", report_examples,
+           options(add_report, report)},
+          {"reproduce", "Run a result again from its manifest, and say what differs", reproduce_examples,
+           options(add_reproduce, reproduce)},
+          {"cite", "Print BibTeX for the software, and for a result", cite_examples, options(add_cite, cite)}};
 }
 
 }  // namespace thinwall

@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
@@ -85,15 +84,17 @@ void choose_benchmarks(Settings& settings, const std::string& folder) {
 }
 
 ConfiguredRun configured(const Experiment& chosen, Settings& settings, const RunOptions& options) {
-  ConfiguredRun out{.experiment = chosen,
-                    .name = std::string(chosen.name),
-                    .question = std::string(chosen.question),
-                    .run = chosen.configure(settings, options),
-                    .config = settings.resolved_json()};
-  out.default_config = out.config == Settings("", "", chosen.default_toml).resolved_json();
+  ConfiguredRun out{.name = std::string(chosen.name), .run = chosen.configure(settings, options), .record = {}};
+  out.record.experiment = chosen.name;
+  out.record.question = chosen.question;
+  out.record.config = settings.resolved_json();
+  out.record.default_config = out.record.config == Settings("", "", chosen.default_toml).resolved_json();
+  out.record.seed = options.seed;
+  out.record.trials = options.trials;
+  out.record.threads = options.threads;
   if (is_scene(chosen)) {
     out.name = (chosen.name == "compare" ? "compare_" : "") + settings.text("scene");
-    if (chosen.name == "scene") out.question = settings.text("question");
+    if (chosen.name == "scene") out.record.question = settings.text("question");
   }
   return out;
 }
@@ -124,9 +125,8 @@ ConfiguredRun configure_again(const RunIdentity& identity, int threads, std::spa
   Settings settings(config_toml(identity), "configuration", chosen->default_toml);
   settings.reject_unknown_keys();
   ConfiguredRun out = configured(*chosen, settings, {identity.seed, identity.trials, threads});
-  RunIdentity again = identity;
-  again.config = out.config;  // JSON may spell a number otherwise
-  if (const std::string difference = identity_difference(again, identity); !difference.empty()) {
+  // JSON may spell a number otherwise
+  if (const std::string difference = identity_difference(out.record, identity); !difference.empty()) {
     throw UsageError(fmt::format("the configuration reads back as another one ({})", difference));
   }
   return out;
@@ -223,10 +223,10 @@ RunWish parse_run(const RunText& text) {
   RunWish wish = text.wish;
   wish.request.plan_kind = parse_plan_kind(text.plan);
   wish.request.benchmarks = text.benchmarks.value_or("");
-  RunOptions& options = wish.request.options;
-  options.seed = parse_seed(text.seed);
-  if (text.trials) options.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
-  options.threads = parse_threads(text.threads);
+  RunOptions& chosen = wish.request.options;
+  chosen.seed = parse_seed(text.seed);
+  if (text.trials) chosen.trials = parse_positive("--trials", *text.trials, std::numeric_limits<std::int64_t>::max());
+  chosen.threads = parse_threads(text.threads);
   wish.out = parse_folder(text.out);
   wish.figures = parse_figures(text.figures);
   if (text.shard) wish.shard = parse_shard(*text.shard);
@@ -241,22 +241,22 @@ constexpr const char* run_examples = R"(  thinwall run thin_wall
   mpirun -n 8 thinwall run my.toml
 )";
 
-Action declare_run(CLI::App& self) {
-  const auto text = std::make_shared<RunText>();
+void add_run(CLI::App& self, RunText& text) {
   self.footer("A folder that holds the same run, unfinished, is continued; one that holds another run is refused.\n");
-  add_target(self, "experiment", text->wish.target, "The name of an experiment, or a TOML file; of a scene too",
+  add_target(self, "experiment", text.wish.target, "The name of an experiment, or a TOML file; of a scene too",
              "NAME|FILE.toml");
-  add_text(self, "--trials", text->trials, "Overrides the number of trials in the configuration; of a scene, its steps",
+  add_text(self, "--trials", text.trials, "Overrides the number of trials in the configuration; of a scene, its steps",
            "N");
-  add_text(self, "--shard", text->shard, "Compute the i-th of N shards alone, for thinwall merge", "i/N");
-  add_flag(self, "--trace", text->wish.request.trace, "Of a scene: write trace.jsonl, for a viewer");
-  add_benchmarks(self, text->benchmarks);
-  add_run_options(self, *text);
-  return [text](const Call& call) {
-    if (text->wish.target.empty())
-      throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
-    return perform_run(parse_run(*text), call);
-  };
+  add_text(self, "--shard", text.shard, "Compute the i-th of N shards alone, for thinwall merge", "i/N");
+  add_flag(self, "--trace", text.wish.request.trace, "Of a scene: write trace.jsonl, for a viewer");
+  add_benchmarks(self, text.benchmarks);
+  add_run_options(self, text);
+}
+
+int run(const RunText& text, const Call& call) {
+  if (text.wish.target.empty())
+    throw UsageError("run: an experiment's name or a TOML file is missing; see thinwall list");
+  return perform_run(parse_run(text), call);
 }
 
 constexpr const char* compare_examples = R"(  thinwall compare experiments/scenes/bullet_against_bullet.toml
@@ -268,16 +268,16 @@ constexpr const char* compare_footer =
 finer than the finest: the exact run that the others are held against. A folder is continued as by `run`.
 )";
 
-Action declare_compare(CLI::App& self) {
-  const auto text = std::make_shared<RunText>();
-  text->wish.request.compare = true;
+void add_compare(CLI::App& self, RunText& text) {
+  text.wish.request.compare = true;
   self.footer(compare_footer);
-  add_scene_target(self, text->wish.target);
-  add_run_options(self, *text);
-  return [text](const Call& call) {
-    require_scene_target("compare", text->wish.target);
-    return perform_run(parse_run(*text), call);
-  };
+  add_scene_target(self, text.wish.target);
+  add_run_options(self, text);
+}
+
+int compare(const RunText& text, const Call& call) {
+  require_scene_target("compare", text.wish.target);
+  return perform_run(parse_run(text), call);
 }
 
 std::string json_reply(const Scene& scene, const Plan& plan) {
@@ -320,27 +320,21 @@ constexpr const char* plan_examples = R"(  thinwall plan experiments/scenes/rain
   thinwall plan my_scene.toml --json
 )";
 
-Action declare_plan(CLI::App& self) {
-  const auto text = std::make_shared<PlanText>();
-  add_scene_target(self, text->target);
-  add_seed(self, text->seed);
-  add_plan_kind(self, text->plan);
-  add_json(self, text->json);
-  return [text](const Call& call) { return print_plan(*text, call); };
+void add_plan(CLI::App& self, PlanText& text) {
+  add_scene_target(self, text.target);
+  add_seed(self, text.seed);
+  add_plan_kind(self, text.plan);
+  add_json(self, text.json);
 }
 
 }  // namespace
 
-Command run_command() {
-  return {"run", "Run an experiment; leave its data, figures, tables and report in a folder", run_examples, declare_run,
-          true};
+std::vector<Command> run_commands() {
+  return {{"run", "Run an experiment; leave its data, figures, tables and report in a folder", run_examples,
+           options(add_run, run), true},
+          {"compare", "Step a scene under every time policy, and hold each against the exact run", compare_examples,
+           options(add_compare, compare), true},
+          {"plan", "Print what a scene does not need, and why", plan_examples, options(add_plan, print_plan)}};
 }
-
-Command compare_command() {
-  return {"compare", "Step a scene under every time policy, and hold each against the exact run", compare_examples,
-          declare_compare, true};
-}
-
-Command plan_command() { return {"plan", "Print what a scene does not need, and why", plan_examples, declare_plan}; }
 
 }  // namespace thinwall

@@ -1,12 +1,10 @@
 #include <thinwall/experiments/program/command.hpp>
 
 #include <algorithm>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
@@ -17,21 +15,31 @@
 namespace thinwall {
 namespace {
 
+using nlohmann::ordered_json;
+
+constexpr std::string_view row_form = "{:<{}}  {:<11}  {:>8}  {:>8}  {:>8}  {:>8}  {:>7}  {:>7}\n";
+
 std::string row_text(std::size_t width, std::string_view family, std::string_view primitives,
                      const QueryCounts& counts) {
-  return fmt::format("{:<{}}  {:<11}  {:>8}  {:>8}  {:>8}  {:>8}  {:>7}  {:>7}\n", family, width, primitives,
-                     grouped_text(counts.read), grouped_text(counts.all_skipped()), grouped_text(counts.checked),
-                     grouped_text(counts.hits), grouped_text(counts.false_negatives),
+  return fmt::format(row_form, family, width, primitives, grouped_text(counts.read), grouped_text(counts.all_skipped()),
+                     grouped_text(counts.checked), grouped_text(counts.hits), grouped_text(counts.false_negatives),
                      grouped_text(counts.false_positives));
 }
 
+/// The key and the words of each `Skipped`.
+struct SkippedWords {
+  const char *key, *words;
+};
+constexpr std::array<SkippedWords, 3> reasons = {
+    {{"skipped_not_rigid", "a primitive does not translate rigidly"},
+     {"skipped_not_double", "a coordinate is not a double"},
+     {"skipped_rounding_decides", "rounding a displacement to double would change the answer"}}};
+
 std::string skipped_text(const QueryCounts& counts) {
-  constexpr std::array<std::string_view, 3> reasons = {"a primitive does not translate rigidly",
-                                                       "a coordinate is not a double",
-                                                       "rounding a displacement to double would change the answer"};
   std::string out;
   for (std::size_t i = 0; i < reasons.size(); ++i) {
-    if (counts.skipped[i] > 0) out += fmt::format("skipped {:>8}: {}\n", grouped_text(counts.skipped[i]), reasons[i]);
+    if (counts.skipped[i] == 0) continue;
+    out += fmt::format("skipped {:>8}: {}\n", grouped_text(counts.skipped[i]), reasons[i].words);
   }
   if (counts.rounded > 0) {
     out += fmt::format("rounded {:>8}: a displacement is not a double; the nearest one has the same exact answer\n",
@@ -41,39 +49,29 @@ std::string skipped_text(const QueryCounts& counts) {
 }
 
 std::string text_reply(const Validation& validation) {
-  std::size_t width = 6;
+  std::size_t width = std::string_view("family").size();
   for (const QueryFamily& family : validation.families) width = std::max(width, family.name.size());
-  std::string out = fmt::format("{:<{}}  {:<11}  {:>8}  {:>8}  {:>8}  {:>8}  {:>7}  {:>7}\n", "family", width,
-                                "primitives", "read", "skipped", "checked", "hits", "false -", "false +");
+  std::string out =
+      fmt::format(row_form, "family", width, "primitives", "read", "skipped", "checked", "hits", "false -", "false +");
   for (const QueryFamily& family : validation.families) {
     out += row_text(width, family.name, name(family.primitives), family.counts);
   }
   const QueryCounts& total = validation.total;
   out += row_text(width, "total", "", total) + "\n" + skipped_text(total);
-  out += fmt::format("\n{} verdicts of ClosedForm checked against the file and exact arithmetic: ",
-                     grouped_text(total.checked));
-  out += fmt::format("{} false negatives, {} false positives", total.false_negatives, total.false_positives);
+  out += fmt::format(
+      "\n{} verdicts of ClosedForm checked against the file and exact arithmetic: {} false negatives, {} false positives",
+      grouped_text(total.checked), total.false_negatives, total.false_positives);
   if (total.undecided > 0) out += fmt::format(", {} undecided", total.undecided);
   if (total.file_differs > 0) out += fmt::format("; the file is wrong {} times", total.file_differs);
   return out + fmt::format("\nmedian {} ns a query, called again and again\n", rounded_text(validation.median_ns, 3));
 }
 
 std::string json_reply(const Validation& validation) {
-  using nlohmann::ordered_json;
   const auto object = [](const QueryCounts& counts) {
-    return ordered_json{
-        {"read", counts.read},
-        {"checked", counts.checked},
-        {"hits", counts.hits},
-        {"skipped", counts.all_skipped()},
-        {"skipped_not_rigid", counts.skipped[static_cast<std::size_t>(Skipped::not_rigid)]},
-        {"skipped_not_double", counts.skipped[static_cast<std::size_t>(Skipped::not_double)]},
-        {"skipped_rounding_decides", counts.skipped[static_cast<std::size_t>(Skipped::rounding_decides)]},
-        {"rounded", counts.rounded},
-        {"false_negatives", counts.false_negatives},
-        {"false_positives", counts.false_positives},
-        {"undecided", counts.undecided},
-        {"file_differs", counts.file_differs}};
+    ordered_json out = json_of(counts);
+    out["skipped"] = counts.all_skipped();
+    for (std::size_t i = 0; i < reasons.size(); ++i) out[reasons[i].key] = counts.skipped[i];
+    return out;
   };
   ordered_json reply = object(validation.total);
   reply["median_ns"] = validation.median_ns;
@@ -108,12 +106,10 @@ std::string text_reply(const TurningValidation& validation) {
 }
 
 std::string json_reply(const TurningValidation& validation) {
-  using nlohmann::ordered_json;
   const auto methods = [&](const std::vector<TurningCounts>& all) {
     ordered_json list = ordered_json::array();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      ordered_json& counts = list.emplace_back(ordered_json{{"method", validation.methods[i].name}});
-      for_each_field<TurningCounts>([&](const auto& field) { counts[field.name] = all[i].*field.member; });
+      list.emplace_back(ordered_json{{"method", validation.methods[i].name}}).update(json_of(all[i]));
     }
     return list;
   };
@@ -169,21 +165,19 @@ int print_validation(const ValidateText& text, const Call& call) {
   return print_judged(validation, validation.total.wrong(), text.json, call);
 }
 
-Action declare_validate(CLI::App& self) {
-  const auto text = std::make_shared<ValidateText>();
+void add_validate(CLI::App& self, ValidateText& text) {
   self.footer(validate_footer);
-  add_target(self, "folder", text->folder, "Where the CSV files of queries are", "DIR");
-  add_text(self, "--turning", text->turning, "Instead: queries of shapes that turn; a CSV file, or a folder of them",
+  add_target(self, "folder", text.folder, "Where the CSV files of queries are", "DIR");
+  add_text(self, "--turning", text.turning, "Instead: queries of shapes that turn; a CSV file, or a folder of them",
            "FILE");
-  add_json(self, text->json);
-  return [text](const Call& call) { return print_validation(*text, call); };
+  add_json(self, text.json);
 }
 
 }  // namespace
 
 Command validate_command() {
   return {"validate", "Check the verdicts of published queries against exact arithmetic", validate_examples,
-          declare_validate};
+          options(add_validate, print_validation)};
 }
 
 }  // namespace thinwall

@@ -245,19 +245,6 @@ std::vector<fs::path> query_files(const fs::path& folder) {
   return files;
 }
 
-QueryCounts& QueryCounts::operator+=(const QueryCounts& other) {
-  read += other.read;
-  checked += other.checked;
-  hits += other.hits;
-  rounded += other.rounded;
-  for (std::size_t i = 0; i < skipped.size(); ++i) skipped[i] += other.skipped[i];
-  false_negatives += other.false_negatives;
-  false_positives += other.false_positives;
-  undecided += other.undecided;
-  file_differs += other.file_differs;
-  return *this;
-}
-
 Validation validate(const fs::path& folder) {
   Validation out;
   std::vector<double> times;

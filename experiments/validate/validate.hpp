@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <thinwall/discrete/scalar.hpp>
+#include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/validate/exact_verdict.hpp>
 #include <thinwall/swept/toi.hpp>
 
@@ -107,19 +108,23 @@ Toi<double> library_answer(const RigidQuery& query);
 
 /// Counts of queries; all of one kind of primitives from one family, or of everything.
 struct QueryCounts {
-  std::int64_t read = 0;
-  std::int64_t checked = 0;
-  std::int64_t hits = 0;                     ///< of those checked, by exact arithmetic
-  std::int64_t rounded = 0;                  ///< of those checked, with a displacement rounded to double
-  std::array<std::int64_t, 3> skipped = {};  ///< by Skipped
-  std::int64_t false_negatives = 0;          ///< the library misses what exact arithmetic, or the file, calls a hit
-  std::int64_t false_positives = 0;          ///< the reverse
-  std::int64_t undecided = 0;                ///< the library gives no verdict: it gave up, or calls the input invalid
-  std::int64_t file_differs = 0;             ///< the published answer is not the exact one
+  std::int64_t read = 0, checked = 0, hits = 0, rounded = 0;
+  std::array<std::int64_t, 3> skipped = {};
+  std::int64_t false_negatives = 0, false_positives = 0, undecided = 0, file_differs = 0;
 
+  static constexpr auto fields() {
+    using T = QueryCounts;
+    return record(sum("read", &T::read, "1", "Read."), sum("checked", &T::checked, "1", "Of those, that fit."),
+                  sum("hits", &T::hits, "1", "Of those checked, by exact arithmetic."),
+                  sum("skipped", &T::skipped, "1", "Of those read, that do not fit: by Skipped."),
+                  sum("rounded", &T::rounded, "1", "Of those checked, with a displacement rounded to double."),
+                  sum("false_negatives", &T::false_negatives, "1", "Missed: hits by exact arithmetic, or the file."),
+                  sum("false_positives", &T::false_positives, "1", "The reverse."),
+                  sum("undecided", &T::undecided, "1", "Without a verdict: it gave up, or calls the input invalid."),
+                  sum("file_differs", &T::file_differs, "1", "Whose published answer is not the exact one."));
+  }
   std::int64_t all_skipped() const { return skipped[0] + skipped[1] + skipped[2]; }
   std::int64_t wrong() const { return false_negatives + false_positives + undecided + file_differs; }
-  QueryCounts& operator+=(const QueryCounts& other);
 };
 
 struct QueryFamily {
