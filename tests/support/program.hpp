@@ -19,12 +19,13 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <boost/core/noncopyable.hpp>
 
 namespace thinwall {
 
 // ---- A folder that lasts as long as a test, and what lies in it.
 
-class TemporaryFolder {
+class TemporaryFolder : boost::noncopyable {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "thinwall-test-XXXXXX").string();
@@ -35,8 +36,6 @@ class TemporaryFolder {
     std::error_code none;
     std::filesystem::remove_all(path_, none);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
@@ -72,7 +71,7 @@ inline bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/nu
 
 // ---- The program as a process that a test can watch and kill.
 
-class ProgramProcess {
+class ProgramProcess : boost::noncopyable {
  public:
   /// Its stdout goes nowhere, its stderr to the file `notes`.
   ProgramProcess(std::vector<std::string> words, const std::string& notes) {
@@ -89,8 +88,6 @@ class ProgramProcess {
   ~ProgramProcess() {
     if (running()) end_with(SIGKILL);
   }
-  ProgramProcess(const ProgramProcess&) = delete;
-  ProgramProcess& operator=(const ProgramProcess&) = delete;
 
   bool running() { return !ended_ && !(ended_ = ::waitpid(child_, &status_, WNOHANG) == child_); }
 

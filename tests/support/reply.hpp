@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/program/program.hpp>
 
@@ -40,6 +41,11 @@ inline const std::string& refusal(const Reply& reply) {
   EXPECT_EQ(std::ranges::count(reply.err, '\n'), 1) << reply.err;
   return reply.err;
 }
+/// `object` has every member that `some` has, and with the same value.
+inline void expect_members(const nlohmann::json& object, const nlohmann::json& some) {
+  for (const auto& [name, value] : some.items()) EXPECT_EQ(object.value(name, nlohmann::json()), value) << name;
+}
+
 /// It holds every part of `said`.
 inline void expect_refusal(const Reply& reply, const Words& said) {
   const std::string& line = refusal(reply);

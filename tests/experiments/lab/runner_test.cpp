@@ -46,16 +46,6 @@ struct RunnerTest : testing::Test {
   }
 };
 
-TEST_F(RunnerTest, keeps_the_order_of_the_units_for_any_thread_count) {
-  const auto units = squares(200);
-  for (const int threads : {1, 2, 3, 8}) {
-    Journal journal(folder / std::to_string(threads), "the run");
-    const UnitResults results = compute_units(units, journal, {.threads = threads, .stop = {}, .on_progress = {}});
-    EXPECT_TRUE(results.complete);
-    for (std::size_t i = 0; i < units.size(); ++i) EXPECT_EQ(results.results[i], std::to_string(i * i));
-  }
-}
-
 TEST_F(RunnerTest, stops_between_units_and_goes_on_where_it_was) {
   const auto units = squares(50);
   {
@@ -83,18 +73,6 @@ TEST_F(RunnerTest, stops_between_units_and_goes_on_where_it_was) {
   EXPECT_EQ(seen.back().trials, 50 * 51 / 2);
 }
 
-TEST_F(RunnerTest, names_a_unit_that_fails_and_keeps_the_others) {
-  auto units = squares(5);
-  units[4].compute = []() -> std::string { throw std::runtime_error("no luck"); };
-  {
-    Journal journal(file, "the run");
-    EXPECT_EQ(error_of<std::runtime_error>(
-                  [&] { compute_units(units, journal, {.threads = 1, .stop = {}, .on_progress = {}}); }),
-              "unit 'unit 4' failed: no luck");
-  }
-  EXPECT_EQ(Journal(file, "the run").finished().size(), 4u);
-}
-
 TEST_F(RunnerTest, refuses_two_units_of_one_name) {
   auto units = squares(2);
   units[1].key = units[0].key;
@@ -114,23 +92,17 @@ struct JournalTest : testing::Test {
   }
 };
 
-TEST_F(JournalTest, gives_back_what_was_added) {
+TEST_F(JournalTest, gives_back_what_was_added_and_knows_whose_it_is) {
+  EXPECT_EQ(read_journal(file).identity, "");
   write_three();
+  EXPECT_EQ(read_journal(file).identity, "the run");
   const Journal journal(file, "the run");
-  ASSERT_EQ(journal.finished().size(), 3u);
+  EXPECT_EQ(journal.finished().size(), 3u);
   EXPECT_EQ(journal.finished().find("a")->second.result, "1 2 3");
   EXPECT_EQ(journal.finished().find("b")->second.result, "tab\there");
   EXPECT_EQ(journal.finished().find("b")->second.seconds, 0.2);
   EXPECT_EQ(journal.finished().find("c")->second.result, "");
   EXPECT_TRUE(journal.damage().empty());
-}
-
-TEST_F(JournalTest, knows_whose_it_is) {
-  EXPECT_EQ(read_journal(file).identity, "");
-  write_three();
-  EXPECT_EQ(read_journal(file).identity, "the run");
-  write_text(file, "something else\n");
-  EXPECT_EQ(read_journal(file).identity, "");
 }
 
 TEST_F(JournalTest, drops_a_torn_last_row_wherever_it_was_torn) {
@@ -147,20 +119,6 @@ TEST_F(JournalTest, drops_a_torn_last_row_wherever_it_was_torn) {
   }
 }
 
-TEST_F(JournalTest, names_a_damaged_row_and_forgets_it) {
-  write_three();
-  std::string text = read_text(file);
-  text[text.find("1 2 3")] = '7';
-  write_text(file, text);
-  const Journal journal(file, "the run");
-  EXPECT_EQ(journal.finished().size(), 2u);
-  EXPECT_FALSE(journal.finished().contains("a"));
-  ASSERT_EQ(journal.damage().size(), 1u);
-  EXPECT_EQ(journal.damage()[0],
-            file + ":2: the row of 'a' is damaged, or of another run; that unit is computed again");
-  EXPECT_TRUE(Journal(file, "the run").damage().empty());  // the row is gone
-}
-
 TEST_F(JournalTest, takes_no_row_of_another_run) {
   Journal(folder / "other.tsv", "another run").add("b", {0.2, "theirs"});
   Journal(file, "the run").add("a", {0.1, "ours"});
@@ -173,30 +131,9 @@ TEST_F(JournalTest, takes_no_row_of_another_run) {
       std::vector<std::string>{file + ":3: the row of 'b' is damaged, or of another run; that unit is computed again"});
 }
 
-TEST_F(JournalTest, follows_no_link_and_overwrites_nothing_of_others) {
-  write_text(folder / "mine", "mine\n");
-  std::filesystem::create_symlink("mine", file + ".new");
-  std::filesystem::create_symlink("mine", folder / "link.tsv");
-  write_three();
-  EXPECT_THROW(Journal(folder / "link.tsv", "the run"), std::system_error);
-  EXPECT_THROW(Journal(folder / "mine", "the run"), std::system_error);
-  EXPECT_EQ(read_text(folder / "mine"), "mine\n");
-  EXPECT_TRUE(std::filesystem::is_symlink(file + ".new"));
-  std::filesystem::create_symlink("journal.tsv", folder / "linked.tsv");  // to a journal, too
-  EXPECT_THROW(Journal(folder / "linked.tsv", "the run"), std::system_error);
-}
-
-TEST_F(JournalTest, cannot_be_written_where_nothing_can) {
-  write_text(file, "");
-  EXPECT_THROW(Journal(file + "/below.tsv", "the run"), std::system_error);
-}
-
-TEST(Shard, is_written_as_it_is_read) {
+TEST(Shard, is_written_as_it_is_read_and_counts_from_one) {
   EXPECT_EQ(parse_shard("2/4"), (Shard{2, 4}));
   EXPECT_EQ(to_text(parse_shard("1000/1000")), "1000/1000");
-}
-
-TEST(Shard, counts_from_one) {
   for (const char* text : {"0/4", "5/4", "1/0", "a/b", "2", "/4", "2/", "2/4/6", "-1/4", "1/1000001", "", " 1/2"}) {
     EXPECT_TRUE(holds(error_of<UsageError>([&] { parse_shard(text); }),
                       "--shard: '" + std::string(text) + "' is not allowed; i/N"));
@@ -219,7 +156,8 @@ TEST(Shard, has_its_units_for_itself_and_as_many_as_any_other) {
   }
 }
 
-TEST(Shard, mixes_units_that_repeat_in_a_pattern) {
+TEST(Shard, mixes_units_that_repeat_in_a_pattern_and_the_same_on_every_machine) {
+  EXPECT_EQ(units_of({1, 3}, 10), (std::vector<std::size_t>{1, 3, 7, 8}));
   for (const int count : {2, 3, 4, 8}) {  // every second unit is dear: none must get them all
     int dear = 0;
     for (const std::size_t i : units_of({1, count}, 4800)) dear += i % 2 == 0 ? 1 : 0;
@@ -227,25 +165,17 @@ TEST(Shard, mixes_units_that_repeat_in_a_pattern) {
   }
 }
 
-TEST(Shard, is_the_same_units_on_every_machine) {
-  EXPECT_EQ(units_of({1, 3}, 10), (std::vector<std::size_t>{1, 3, 7, 8}));
-}
-
 TEST(RunIdentity, tells_what_differs) {
-  const RunIdentity ours{"toy", R"({"radius":1,"speed":[1,2]})", 7, std::nullopt, "program"};
-  EXPECT_EQ(identity_difference(ours, ours), "");
-  auto theirs = ours;
-  theirs.program = "another";
-  EXPECT_EQ(identity_difference(theirs, ours), "");
-  theirs.trials = 5;
-  EXPECT_EQ(identity_difference(theirs, ours), "trials = 5, not none");
-  theirs.seed = 8;
-  EXPECT_EQ(identity_difference(theirs, ours), "seed = 8, not 7");
-  theirs = ours;
-  theirs.config = R"({"radius":1,"speed":[1,3]})";
-  EXPECT_EQ(identity_difference(theirs, ours), "speed = [1,3], not [1,2]");
-  theirs.config = R"({"radius":1,"speed":[1,2],"more":1})";
-  EXPECT_EQ(identity_difference(theirs, ours), "keys that are unknown here");
+  const char* config = R"({"radius":1,"speed":[1,2]})";
+  const auto from_ours = [&](const RunIdentity& theirs) {
+    return identity_difference(theirs, {"toy", config, 7, std::nullopt, "program"});
+  };
+  EXPECT_EQ(from_ours({"toy", config, 7, std::nullopt, "program"}), "");
+  EXPECT_EQ(from_ours({"toy", config, 7, std::nullopt, "another"}), "");
+  EXPECT_EQ(from_ours({"toy", config, 7, 5, ""}), "trials = 5, not none");
+  EXPECT_EQ(from_ours({"toy", config, 8, 5, ""}), "seed = 8, not 7");
+  EXPECT_EQ(from_ours({"toy", R"({"radius":1,"speed":[1,3]})", 7, {}, ""}), "speed = [1,3], not [1,2]");
+  EXPECT_EQ(from_ours({"toy", R"({"radius":1,"speed":[1,2],"more":1})", 7, {}, ""}), "keys that are unknown here");
   EXPECT_FALSE(parse_identity("garbage"));
 }
 
@@ -295,6 +225,10 @@ TEST(Estimate, is_made_from_few_trials_and_by_another_process) {
   EXPECT_EQ(told.whole, 1);
   EXPECT_EQ(told.whole_tried, 1);
   EXPECT_GT(told.seconds, 0);
+  const RunEstimate itself = estimate_of(1, {}, 0.2);  // a run of one trial cannot be cut
+  EXPECT_EQ(itself.cut_tried, 0);
+  EXPECT_EQ(itself.whole_tried, 10);
+  EXPECT_EQ(itself.unknown, 0);
 }
 
 TEST(Estimate, ends_where_a_unit_does_not) {
@@ -308,9 +242,6 @@ TEST(Estimate, ends_where_a_unit_does_not) {
 }
 
 TEST(Estimate, says_what_it_knows_nothing_of) {
-  const RunEstimate told = estimate_of(100, {{"endless", 3, compute_forever}}, 0.2);
-  EXPECT_EQ(told.unknown, 1);
-  EXPECT_TRUE(basis_text(told).ends_with(", 1 unit too long to try")) << basis_text(told);
   const auto endless = [](std::int64_t trials) {
     return std::make_unique<UnevenRun>(trials, std::vector<Unit>(), compute_forever);
   };
@@ -331,13 +262,6 @@ TEST(Estimate, passes_over_trials_that_are_too_few) {
     return std::make_unique<UnevenRun>(trials, std::vector<Unit>());
   };
   EXPECT_GE(estimate(run.units(), again, 0.2).trials, 16);
-}
-
-TEST(Estimate, of_a_run_of_one_trial_is_the_run_itself) {
-  const RunEstimate told = estimate_of(1, {}, 0.2);
-  EXPECT_EQ(told.cut_tried, 0);
-  EXPECT_EQ(told.whole_tried, 10);
-  EXPECT_EQ(told.unknown, 0);
 }
 
 using std::chrono::milliseconds;
@@ -433,6 +357,10 @@ TEST(Record, keeps_every_bit_of_a_real) {
     EXPECT_EQ(std::signbit(from_text<double>(to_text(x))), std::signbit(x));
   }
   EXPECT_TRUE(std::isnan(from_text<double>(to_text(std::numeric_limits<double>::quiet_NaN()))));
+  RealSum sum;  // whose mean is exact to its unit
+  EXPECT_FALSE(sum.mean());
+  for (const double x : {0.25, 0.5, -0.125}) sum.add(x);
+  EXPECT_EQ(*sum.mean(), 0.625 / 3);
 }
 
 /// A journal's row that another program wrote, or that was damaged in a way its checksum does not see.
@@ -443,15 +371,13 @@ TEST(Record, refuses_what_is_not_its_text) {
     if (whole[length] != ' ') continue;
     EXPECT_THROW(from_text<Everything>(whole.substr(0, length)), std::runtime_error) << length;
   }
-  EXPECT_THROW(from_text<Everything>(whole + " 1"), std::runtime_error);
-  EXPECT_THROW(from_text<Everything>(" " + whole), std::runtime_error);
-  EXPECT_THROW(from_text<Everything>(""), std::runtime_error);
-  EXPECT_THROW(from_text<std::int64_t>("1.5"), std::runtime_error);
-  EXPECT_THROW(from_text<std::int64_t>("99999999999999999999"), std::runtime_error);
-  EXPECT_THROW(from_text<std::vector<std::int64_t>>("999999999999 1"), std::runtime_error);  // no room is asked for
-  EXPECT_THROW(from_text<std::vector<std::int64_t>>("-1"), std::runtime_error);
-  EXPECT_THROW(from_text<std::string>("'a%2"), std::runtime_error);
-  EXPECT_THROW(from_text<std::string>("a"), std::runtime_error);
+  for (const std::string& text : {whole + " 1", " " + whole, std::string()})
+    EXPECT_THROW(from_text<Everything>(text), std::runtime_error) << text;
+  for (const char* text : {"1.5", "99999999999999999999"})
+    EXPECT_THROW(from_text<std::int64_t>(text), std::runtime_error) << text;
+  for (const char* text : {"999999999999 1", "-1"})  // no room is asked for
+    EXPECT_THROW(from_text<std::vector<std::int64_t>>(text), std::runtime_error) << text;
+  for (const char* text : {"'a%2", "a"}) EXPECT_THROW(from_text<std::string>(text), std::runtime_error) << text;
 }
 
 RC_GTEST_PROP(Record, adds_up_to_the_same_bits_in_any_order_and_grouping, ()) {
@@ -472,13 +398,6 @@ RC_GTEST_PROP(Record, adds_up_to_the_same_bits_in_any_order_and_grouping, ()) {
   for (std::size_t i = 0; i < all.size(); ++i) (i % 2 == 0 ? front : back) += all[i];
   RC_ASSERT(backward == forward);
   RC_ASSERT((back += front) == forward);
-}
-
-TEST(Record, a_mean_is_exact_to_its_unit) {
-  RealSum sum;
-  EXPECT_FALSE(sum.mean());
-  for (const double x : {0.25, 0.5, -0.125}) sum.add(x);
-  EXPECT_EQ(*sum.mean(), 0.625 / 3);
 }
 
 struct Named {

@@ -126,16 +126,13 @@ TEST(Settings, resolve_to_the_same_text_however_a_number_is_written) {
   EXPECT_NE(Settings("radius = 0.25", "", defaults).resolved_json(), plain.resolved_json());
 }
 
-TEST(Settings, let_an_experiment_complain_of_its_own) {
-  const Settings settings("\n\nradius = 2", "my.toml", defaults);
-  EXPECT_EQ(error_of<UsageError>([&] { settings.complain("radius", "at most the wall's thickness"); }),
-            "my.toml:3: key 'radius': 2 is not allowed; at most the wall's thickness");
-}
-
-TEST(Settings, blame_the_users_file_for_what_does_not_go_with_a_default) {
-  const Settings settings("\nshots = 3", "my.toml", defaults);
-  EXPECT_EQ(error_of<UsageError>([&] { settings.complain("radius", "at most a third of the shots"); }),
-            "my.toml:1: key 'radius', left at its default: 0.5 is not allowed; at most a third of the shots");
+TEST(Settings, let_an_experiment_complain_of_its_own_and_blame_the_users_file_for_a_default) {
+  const auto complaint_about = [](const char* text) {
+    return error_of<UsageError>([&] { Settings(text, "my.toml", defaults).complain("radius", "at most so much"); });
+  };
+  EXPECT_EQ(complaint_about("\n\nradius = 2"), "my.toml:3: key 'radius': 2 is not allowed; at most so much");
+  EXPECT_EQ(complaint_about("\nshots = 3"),
+            "my.toml:1: key 'radius', left at its default: 0.5 is not allowed; at most so much");
 }
 
 TEST(Settings, take_trials_in_the_range_of_the_key) {
@@ -155,20 +152,16 @@ std::string list_of(std::size_t count) {
 
 TEST(Settings, limit_the_cells_that_lists_make) {
   const Settings settings("\nspeed = " + list_of(2000), "my.toml", defaults);
-  EXPECT_NO_THROW(settings.limit_cells({"speed", "methods"}, 250));
-  EXPECT_NO_THROW(settings.limit_cells({"speed", "radius"}));  // which is no list: that is for another complaint
-  const auto complaint_of = [&](auto... arguments) {
-    return error_of<UsageError>([&] { settings.limit_cells(arguments...); });
+  const auto complaint_of = [&](const std::vector<std::string_view>& lists, std::size_t each) {
+    return error_of<UsageError>([&] { settings.limit_cells(lists, each); });
   };
-  using Lists = std::initializer_list<std::string_view>;
+  EXPECT_EQ(complaint_of({"speed", "methods"}, 250), "");
+  EXPECT_EQ(complaint_of({"speed", "radius"}, 1), "");  // which is no list: that is for another complaint
   EXPECT_EQ(
-      complaint_of(Lists{"methods", "speed"}, 251U),
+      complaint_of({"methods", "speed"}, 251),
       "my.toml:2: key 'speed': methods (2) x speed (2,000) x 251 for each make 1,004,000 cells; at most 1,000,000");
-  const std::string many = complaint_of(Lists{"speed", "speed", "speed", "speed", "speed", "speed"});  // 2^64 is 1.8e19
-  EXPECT_TRUE(holds(many, "make 6.4e+19 cells"));
-}
-
-TEST(Settings, take_no_more_values_than_there_may_be_cells) {
+  const std::vector<std::string_view> six(6, "speed");  // 2^64 is 1.8e19
+  EXPECT_TRUE(holds(complaint_of(six, 1), "make 6.4e+19 cells"));
   EXPECT_EQ(complaint("speed = " + list_of(most_cells + 1)),
             "my.toml:1: key 'speed': 1,000,001 values; at most 1,000,000");
 }
@@ -190,7 +183,8 @@ TEST(Settings, refuse_a_key_of_many_parts) {
 
 // ---- The texts of numbers, ranges and names.
 
-TEST(ExactText, is_the_shortest_that_reads_back) {
+TEST(Text, of_numbers_is_exact_for_files_and_rounded_for_readers) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(exact_text(0.1), "0.1");
   EXPECT_EQ(exact_text(1.0 / 3), "0.3333333333333333");
   EXPECT_EQ(exact_text(1e6), "1000000");
@@ -198,34 +192,18 @@ TEST(ExactText, is_the_shortest_that_reads_back) {
   EXPECT_EQ(exact_text(-0.0), "0");
   EXPECT_EQ(exact_text(5e-324), "5e-324");
   EXPECT_EQ(exact_text(std::nan("")), "nan");
-  EXPECT_EQ(exact_text(-std::numeric_limits<double>::infinity()), "-inf");
-}
-
-RC_GTEST_PROP(ExactText, reads_back_as_the_same_number, (double value)) {
-  RC_ASSERT(std::stod(exact_text(value)) == value);
-}
-
-TEST(RoundedText, keeps_the_digits_asked_for) {
+  EXPECT_EQ(exact_text(-infinity), "-inf");
   EXPECT_EQ(rounded_text(0.123456, 4), "0.1235");
   EXPECT_EQ(rounded_text(1234567, 4), "1235000");
   EXPECT_EQ(rounded_text(1.2345e-7, 2), "1.2e-07");
   EXPECT_EQ(rounded_text(0, 4), "0");
-}
-
-TEST(PercentText, is_a_share_to_a_tenth_and_a_dash_where_there_is_none) {
-  EXPECT_EQ(percent_text(0.8576), "85.8 %");
-  EXPECT_EQ(percent_text(std::nullopt), "-");
-  EXPECT_EQ(spaced("long_double"), "long double");
-}
-
-TEST(GroupedText, sets_thousands_apart) {
   EXPECT_EQ(grouped_text(0), "0");
   EXPECT_EQ(grouped_text(999), "999");
   EXPECT_EQ(grouped_text(-1000), "-1,000");
   EXPECT_EQ(grouped_text(12000000), "12,000,000");
-}
-
-TEST(DurationText, is_what_a_person_says) {
+  EXPECT_EQ(percent_text(0.8576), "85.8 %");
+  EXPECT_EQ(percent_text(std::nullopt), "-");
+  EXPECT_EQ(spaced("long_double"), "long double");
   EXPECT_EQ(duration_text(0.412), "0.4 s");
   EXPECT_EQ(duration_text(3.44), "3.4 s");
   EXPECT_EQ(duration_text(59.4), "59 s");
@@ -233,36 +211,32 @@ TEST(DurationText, is_what_a_person_says) {
   EXPECT_EQ(duration_text(7500), "2 h 5 min");
 }
 
-TEST(ParseCount, takes_whole_numbers_however_written) {
+RC_GTEST_PROP(Text, reads_back_as_the_same_number, (double value)) { RC_ASSERT(std::stod(exact_text(value)) == value); }
+
+TEST(Text, of_a_count_is_taken_however_written) {
   EXPECT_EQ(parse_count("12"), 12);
   EXPECT_EQ(parse_count("1e6"), 1000000);
   EXPECT_EQ(parse_count("-3"), -3);
   for (const char* bad : {"", "1.5", "12x", "nan", "inf", "1e300", " 1"}) EXPECT_FALSE(parse_count(bad)) << bad;
 }
 
-TEST(EditDistance, counts_inserted_deleted_replaced_and_swapped_letters) {
+TEST(Text, of_a_mistyped_word_names_the_nearest_and_all) {
   EXPECT_EQ(edit_distance("radius", "radius"), 0u);
   EXPECT_EQ(edit_distance("Radius", "radius"), 0u);
   EXPECT_EQ(edit_distance("raduis", "radius"), 1u);
   EXPECT_EQ(edit_distance("adius", "radius"), 1u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
-}
-
-TEST(SpellingHint, names_the_nearest_and_all) {
   const std::vector<std::string_view> names = {"angle", "radius"};
   EXPECT_EQ(spelling_hint("raduis", names), "did you mean 'radius'? (allowed: angle, radius)");
   EXPECT_EQ(spelling_hint("frequency", names), "allowed: angle, radius");
   EXPECT_EQ(spelling_hint("", names), "allowed: angle, radius");
 }
 
-TEST(RangeText, says_what_is_allowed) {
+TEST(Text, of_a_range_says_what_is_allowed_and_contains_refuses_what_is_no_number) {
   EXPECT_EQ(range_text("numbers", {}), "numbers");
   EXPECT_EQ(range_text("numbers", {.lower = 0, .lower_open = true, .unit = "s"}), "numbers > 0 [s]");
   EXPECT_EQ(range_text("a number", {.lower = 0, .upper = 90, .upper_open = true}), "a number >= 0 and < 90");
-}
-
-TEST(RangeContains, refuses_what_is_no_number) {
   EXPECT_TRUE(contains({.lower = 0}, 0));
   EXPECT_FALSE(contains({.lower = 0, .lower_open = true}, 0));
   EXPECT_FALSE(contains({.upper = 1, .upper_open = true}, 1));
@@ -285,23 +259,20 @@ TEST(Escape, leaves_nothing_that_the_place_would_read) {
   EXPECT_EQ(markdown_escaped("a|b*c\nd"), "a\\|b\\*c d");
   EXPECT_EQ(clipped("abc", 3), "abc");
   EXPECT_EQ(clipped("a\u00e9b", 2), "a...");
-}
-
-TEST(ShellLine, splits_into_the_same_words) {
   EXPECT_EQ(shell_line({"run", "a b", "it's", "", "x=1"}), "run 'a b' 'it'\\''s' '' x=1");
 }
 
-RC_GTEST_PROP(GnuplotQuoted, gives_the_text_back, (const std::string& text)) {
+RC_GTEST_PROP(Escape, of_gnuplot_gives_the_text_back, (const std::string& text)) {
   RC_ASSERT(gnuplot_unquoted("title " + gnuplot_quoted(text) + " with 'b'") == one_line(text));
 }
 
-TEST(GnuplotQuoted, leaves_no_quote_within) {
+TEST(Escape, of_gnuplot_leaves_no_quote_within) {
   EXPECT_EQ(gnuplot_quoted("a \"b\" \\ `c`"), "'a \"b\" \\ `c`'");
   EXPECT_EQ(gnuplot_quoted("it's \"b\" \\ `c`"), "\"it\\047s \\042b\\042 \\134 \\140c\\140\"");
   EXPECT_EQ(gnuplot_unquoted("'it''s' 'b'"), "it's") << "as older scripts have it";
 }
 
-RC_GTEST_PROP(TsvEscape, gives_the_text_back_and_hides_what_separates, (const std::string& text)) {
+RC_GTEST_PROP(Escape, of_tsv_gives_the_text_back_and_hides_what_separates, (const std::string& text)) {
   const std::string escaped = tsv_escaped(text);
   RC_ASSERT(escaped.find_first_of("\t\n\r") == std::string::npos);
   RC_ASSERT(tsv_unescaped(escaped) == text);
@@ -312,33 +283,21 @@ std::string shown(double value, double lower, double upper) {
   return text.value + " [" + text.lower + ", " + text.upper + "]";
 }
 
-TEST(IntervalText, shows_the_digits_that_the_interval_supports) {
+TEST(Text, of_an_interval_shows_the_digits_that_it_supports) {
   EXPECT_EQ(shown(0.28723, 0.28591, 0.28851), "0.2872 [0.2859, 0.2885]");  // +- 0.0013: two digits of it
   EXPECT_EQ(shown(0.28723, 0.2812, 0.2932), "0.287 [0.281, 0.293]");       // +- 0.006: one
   EXPECT_EQ(shown(0.70263, 0.6925, 0.7125), "0.703 [0.693, 0.713]");
   EXPECT_EQ(shown(12345, 11543, 13147), "12300 [11500, 13100]");
-  EXPECT_EQ(shown(-1.25, -1.4, -1.1), "-1.25 [-1.40, -1.10]") << "a supported zero is shown";
-}
-
-TEST(IntervalText, makes_nothing_zero_that_is_not) {
-  EXPECT_EQ(shown(2.147, 1.995, 4523), "2.1 [2, 4500]");
+  EXPECT_EQ(shown(-1.25, -1.4, -1.1), "-1.25 [-1.40, -1.10]");  // a supported zero is shown
+  EXPECT_EQ(shown(2.147, 1.995, 4523), "2.1 [2, 4500]");        // what is not 0 is not shown as 0
   EXPECT_EQ(shown(-3.2, -900, -0.04), "-3.2 [-900, -0.04]");
   EXPECT_EQ(shown(0.5, 1e-70, 1), "0.5 [1e-70, 1]");
-}
-
-TEST(IntervalText, leaves_whole_numbers_whole) {
-  EXPECT_EQ(shown(0, 0, 0.00048), "0 [0, 0.00048]");
+  EXPECT_EQ(shown(0, 0, 0.00048), "0 [0, 0.00048]");  // whole numbers stay whole
   EXPECT_EQ(shown(1, 0.99952, 1), "1 [0.99952, 1]");
-}
-
-TEST(IntervalText, has_exponents_for_the_very_small_and_the_very_large) {
-  EXPECT_EQ(shown(0, 0, 1.84e-5), "0 [0, 1.8e-05]");
+  EXPECT_EQ(shown(0, 0, 1.84e-5), "0 [0, 1.8e-05]");  // exponents for the very small and the very large
   EXPECT_EQ(shown(1.2345e-6, 1.1e-6, 1.4e-6), "1.23e-06 [1.10e-06, 1.40e-06]");
   EXPECT_EQ(shown(1.2345e9, 1.1e9, 1.4e9), "1.23e+09 [1.10e+09, 1.40e+09]");
-}
-
-TEST(IntervalText, shows_four_digits_where_the_interval_has_no_width) {
-  EXPECT_EQ(shown(0.123456, 0.123456, 0.123456), "0.1235 [0.1235, 0.1235]");
+  EXPECT_EQ(shown(0.123456, 0.123456, 0.123456), "0.1235 [0.1235, 0.1235]");  // no width: four digits
 }
 
 }  // namespace

@@ -27,7 +27,7 @@
 #include <thinwall/experiments/lab/terminal.hpp>
 
 #include "support/program.hpp"
-#include "support/said.hpp"
+#include "support/reply.hpp"
 
 namespace thinwall {
 
@@ -90,13 +90,9 @@ TEST(Columns, a_field_stands_where_it_is_named_and_the_others_where_all_are) {
             "nothing,20,0.5,finite,0,0,,,,,\n");
 }
 
-TEST(Columns, leave_out_what_is_there_only) {
-  const Table brief = table("brief", "", columns().without({"shots", "latest"}), rows);
-  EXPECT_EQ(brief.columns.size(), 9U);
+TEST(Columns, leave_out_what_is_there_only_and_are_empty_where_their_condition_does_not_hold) {
+  EXPECT_EQ(columns().without({"shots", "latest"}).all().size(), 9U);
   EXPECT_THROW(columns().without({"shot"}), std::logic_error);
-}
-
-TEST(Columns, are_empty_where_their_condition_does_not_hold) {
   const auto some = columns_of<Row>(where([](const Row& r) { return r.method == "nothing"; }, fields(&Row::tally)));
   const Table table = thinwall::table("some", "", some, rows);
   EXPECT_EQ(table.rows[0][0], Value());
@@ -240,12 +236,9 @@ TEST(Tasks, hand_each_list_its_own_results) {
   EXPECT_EQ(run->finish(results, {0, 0, 2}).answer, "d e\t2" + std::to_string(2.0));
 }
 
-TEST(Sha256, gives_the_examples_of_the_standard) {
+TEST(Sha256, gives_the_examples_of_the_standard_and_of_a_file_its_contents) {
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-}
-
-TEST(Sha256, of_a_file_is_of_its_content) {
   const TemporaryFolder folder;
   write_text(folder / "abc", "abc");
   EXPECT_EQ(sha256_of_file(folder / "abc"), sha256("abc"));
@@ -278,14 +271,12 @@ TEST(Csv, keeps_a_spreadsheet_from_computing_a_text) {
       "word,size\n'=1+1,-1.5\n'@a,-1.5\n'+1,-1.5\n'-1,-1.5\n'\ta,-1.5\n\"'\ra\",-1.5\n''a,-1.5\n'',-1.5\n-,-1.5\na=b,-1.5\n,-1.5\n");
 }
 
-TEST(Csv, spells_what_is_no_finite_number) {
-  EXPECT_EQ(exact_text(Value{std::numeric_limits<double>::quiet_NaN()}), "");
-  EXPECT_EQ(exact_text(Value{std::numeric_limits<double>::infinity()}), "INF");
-  EXPECT_EQ(exact_text(Value{-std::numeric_limits<double>::infinity()}), "-INF");
+TEST(Csv, spells_what_is_no_finite_number_and_refuses_rows_that_do_not_fit_the_columns) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(exact_text(Value{std::nan("")}), "");
+  EXPECT_EQ(exact_text(Value{infinity}), "INF");
+  EXPECT_EQ(exact_text(Value{-infinity}), "-INF");
   EXPECT_EQ(exact_text(Value{}), "");
-}
-
-TEST(Csv, refuses_rows_that_do_not_fit_the_columns) {
   Table table = small_table();
   table.rows[1].pop_back();
   EXPECT_THROW(csv_text(table), std::logic_error);
@@ -300,18 +291,13 @@ TEST(Datapackage, describes_every_column) {
   timings.is_timing = true;
   const std::vector<Table> tables = {small_table(), timings};
   const auto json = nlohmann::json::parse(datapackage_text({"thinwall-toy", "title", "text", "1.0"}, tables));
-  EXPECT_EQ(json.at("profile"), "tabular-data-package");
-  EXPECT_EQ(json.at("name"), "thinwall-toy");
+  expect_members(json, {{"profile", "tabular-data-package"}, {"name", "thinwall-toy"}});
   const auto& cells = json.at("resources").at(0);
-  EXPECT_EQ(cells.at("path"), "data/cells.csv");
-  EXPECT_EQ(cells.at("hash"), "sha256:" + sha256(csv_text(tables[0])));
-  EXPECT_EQ(cells.at("bytes"), csv_text(tables[0]).size());
+  const std::string csv = csv_text(tables[0]);
+  expect_members(cells, {{"path", "data/cells.csv"}, {"hash", "sha256:" + sha256(csv)}, {"bytes", csv.size()}});
   EXPECT_EQ(cells.at("schema").at("missingValues"), nlohmann::json::array({""}));
-  const auto& angle = cells.at("schema").at("fields").at(1);
-  EXPECT_EQ(angle.at("name"), "angle_deg");
-  EXPECT_EQ(angle.at("type"), "number");
-  EXPECT_EQ(angle.at("unit"), "deg");
-  EXPECT_EQ(angle.at("description"), "Where.");
+  expect_members(cells.at("schema").at("fields").at(1),
+                 {{"name", "angle_deg"}, {"type", "number"}, {"unit", "deg"}, {"description", "Where."}});
   EXPECT_FALSE(json.at("resources").at(1).contains("hash")) << "timings differ from run to run";
 }
 
@@ -382,13 +368,10 @@ TEST(ResolvedToml, resolves_to_itself) {
 
 Figure two_panels() {
   const double gap = std::numeric_limits<double>::quiet_NaN();
-  const Series theory{
-      .label = "theory", .mark = Mark::line, .x = {1, 10, 100}, .y = {0, gap, 1}, .lower = {}, .upper = {}};
+  const Series theory{.label = "theory", .mark = Mark::line, .x = {1, 10, 100}, .y = {0, gap, 1}};
   const Series points{
       .label = "it's_@{a}", .mark = Mark::points, .x = {1, 10}, .y = {0, 0.5}, .lower = {0, 0.4}, .upper = {0.1, 0.6}};
-  Series residuals = points;
-  residuals.lower.clear();
-  residuals.upper.clear();
+  const Series residuals{.label = points.label, .x = points.x, .y = points.y};
   return {.name = "probability",
           .title = "Seen",
           .caption = "Meant.",
@@ -414,10 +397,8 @@ TEST_F(DrawnPlot, is_drawn_the_same_every_time_and_again_by_a_reader) {
   const std::string first = read_text(folder / "probability.svg");
   ASSERT_EQ(std::system(("cd " + folder.path().string() + " && gnuplot probability.gp").c_str()), 0);
   EXPECT_EQ(read_text(folder / "probability.svg"), first);
-  for (const char* text : {"Seen", "x [1]", "p [1]", "r [1]", "it&#39;s_@{a}", "it's_@{a}"}) {
-    if (first.find(text) != std::string::npos) continue;
-    EXPECT_STREQ(text, "it&#39;s_@{a}") << "not in the figure";  // either spelling of the quote is right
-  }
+  for (const char* text : {"Seen", "x [1]", "p [1]", "r [1]", "it's_@{a}"})
+    EXPECT_TRUE(holds(html_unescaped(first), text));
 }
 
 /// A name is the user's, and stands in the script, the legend, at the tics and as the title.
@@ -483,32 +464,26 @@ TEST(Plot, bars_may_lie_along_both_axes) {
 TEST_F(DrawnPlot, cells_stand_between_names) {
   Figure figure;
   figure.name = "heat";
-  Series cells{.label = "much", .mark = Mark::cells, .x = {1, 2}, .y = {1, 1}, .lower = {}, .upper = {}};
-  cells.color = "#123456";
-  Panel panel{"x", "y", false, false, 0.5, {cells}};
-  panel.x_tics = {{1, "ten_thousand"}, {2, "more"}};
-  panel.y_tics = {{1, "a rather long name of a row"}};
-  panel.x_groups = {{1.5, "group"}};
-  figure.panels = {panel};
+  figure.panels = {{.x_label = "x",
+                    .y_label = "y",
+                    .height = 0.5,
+                    .series = {{.label = "much", .mark = Mark::cells, .x = {1, 2}, .y = {1, 1}, .color = "#123456"}},
+                    .x_tics = {{1, "ten_thousand"}, {2, "more"}},
+                    .y_tics = {{1, "a rather long name of a row"}},
+                    .x_groups = {{1.5, "group"}}}};
   const std::string script = plot_script(figure);
   EXPECT_TRUE(holds(script, "linecolor rgb '#123456'"));
   EXPECT_TRUE(holds(script, "with boxxyerror"));
   EXPECT_TRUE(holds(script, "set xrange [0.4:2.6]"));
   expect_drawn(figure);
   const std::string svg = read_text(folder / "heat.svg");
-  for (const char* text : {"ten_thousand", "a rather long name of a row", "group", "much"}) {
+  for (const char* text : {"ten_thousand", "a rather long name of a row", "group", "much"})
     EXPECT_TRUE(holds(svg, text));
-  }
 }
 
-TEST_F(DrawnPlot, is_drawn_in_every_format_from_one_script) {
-  for (const char* format : {"svg", "pdf", "tex"}) {
-    expect_drawn(two_panels(), format);
-    for (const std::string& file : drawn_files("probability", format))
-      EXPECT_FALSE(read_text(folder / file).empty()) << file;
-  }
-  EXPECT_TRUE(holds(read_text(folder / "probability-latex.tex"), "it's\\_@\\{a\\}")) << "as LaTeX wants it";
-  EXPECT_TRUE(holds(read_text(folder / "probability.svg"), "_@{a}")) << "as it is";
+TEST_F(DrawnPlot, is_drawn_for_latex_with_words_as_it_wants_them) {
+  expect_drawn(two_panels(), "tex");
+  EXPECT_TRUE(holds(read_text(folder / "probability-latex.tex"), "it's\\_@\\{a\\}"));
 }
 
 TEST(Plot, refuses_what_cannot_be_drawn) {
@@ -525,8 +500,7 @@ TEST(Plot, refuses_what_cannot_be_drawn) {
 TEST(PlotStyle, is_one_look_a_label) {
   Figure figure = two_panels();
   for (const char* label : {"a", "b", "c", "d"}) {
-    figure.panels[0].series.push_back(
-        {.label = label, .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}});
+    figure.panels[0].series.push_back({.label = label});
   }
   const auto styles = series_styles(figure);
   ASSERT_EQ(styles.size(), 6u);
@@ -573,7 +547,7 @@ TEST(InlineSvg, has_ids_of_its_own) {
             "<use xlink:href='#fig_p1'/><g id=\"fig_q\" filter=\"url(#fig_q)\"/></svg>");
 }
 
-TEST(Xml, takes_what_every_reader_takes) {
+TEST(Xml, takes_what_every_reader_takes_and_names_the_line_of_what_is_wrong) {
   for (
       const char* good : {
           "<a/>",
@@ -582,9 +556,6 @@ TEST(Xml, takes_what_every_reader_takes) {
       }) {
     EXPECT_EQ(xml_fault(good), "") << good;
   }
-}
-
-TEST(Xml, names_the_line_and_what_is_wrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"", "no element found"},
       {"<a>\n<b>\n</a>", "line 3, column 3: mismatched tag"},

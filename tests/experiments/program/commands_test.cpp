@@ -107,18 +107,16 @@ TEST_F(AdviseProgram, names_what_is_wrong) {
     expect_refusal(advise({"--step", bad}), "--step: '" + bad + "' is not allowed; a number > 0");
     expect_refusal(advise({"--fps", bad}), "--fps: '" + bad + "' is not allowed; a number >= 0.001");
   }
-  for (const std::string bad : {"90", "89.95", "-10", "nan"}) {
-    expect_refusal(advise({"--fps", "60", "--angle", bad}),
-                   "--angle: '" + bad + "' is not allowed; a number >= 0 and <= 89.9");
-  }
-  for (const std::string bad : {"1.01", "-0.1", "nan", "5%"}) {
-    expect_refusal(advise({"--fps", "60", "--miss", bad}),
-                   "--miss: '" + bad + "' is not allowed; a number >= 0 and <= 1");
-  }
+  const auto expect_no_value = [](const std::string& option, const std::string& bad, const std::string& allowed) {
+    expect_refusal(advise({"--fps", "60", option, bad}),
+                   option + ": '" + bad + "' is not allowed; a number " + allowed);
+  };
+  for (const char* bad : {"90", "89.95", "-10", "nan"}) expect_no_value("--angle", bad, ">= 0 and <= 89.9");
+  for (const char* bad : {"1.01", "-0.1", "nan", "5%"}) expect_no_value("--miss", bad, ">= 0 and <= 1");
+  expect_no_value("--late", "-1", ">= 0 [m]");
   expect_refusal(
       ToyProgram::call({"advise", "--speed", "1e-300", "--radius", "1", "--thickness", "1", "--step", "1e-5"}),
       "--speed 1e-300: in a step of 1e-05 s the ball moves 1e-305 m; at least 1e-30 m is needed");
-  expect_refusal(advise({"--fps", "60", "--late", "-1"}), "--late: '-1' is not allowed; a number >= 0 [m]");
   expect_refusal(advise({"--fps", "60", "--toml", ""}), "--toml: ''");
   expect_refusal(advise({"--fps", "60", "--toml", "-", "--json"}), "--toml - and --json");
   expect_refusal(advise({"--fps", "60", "--toml", folder.path().string()}),
@@ -154,10 +152,12 @@ TEST_F(CiteTest, cites_a_result_as_its_folder_does) {
 TEST_F(CiteTest, replies_in_json) {
   ASSERT_EQ(run({"--seed", "3"}).status, 0);
   const auto json = nlohmann::json::parse(call({"cite", out, "--json"}).out);
-  EXPECT_EQ(json.at("result").at("title"), "What is a square?");
-  EXPECT_EQ(json.at("result").at("run_id"), manifest().at("run_id"));
-  EXPECT_EQ(json.at("result").at("commit"), manifest().at("program").at("commit"));
-  EXPECT_EQ(json.at("result").at("date"), manifest().at("finished").get<std::string>().substr(0, 10));
+  expect_members(json.at("result"), {{"experiment", "toy"},
+                                     {"title", "What is a square?"},
+                                     {"run_id", manifest().at("run_id")},
+                                     {"seed", 3},
+                                     {"commit", manifest().at("program").at("commit")},
+                                     {"date", manifest().at("finished").get<std::string>().substr(0, 10)}});
   EXPECT_FALSE(nlohmann::json::parse(call({"cite", "--json"}).out).contains("result"));
 }
 
@@ -342,6 +342,12 @@ TEST_F(MannersTest, every_command_has_a_help_that_begins_with_examples_of_itself
     EXPECT_LT(reply.out.find(std::string("thinwall ") + command.name), reply.out.find("Usage: thinwall ")) << reply.out;
     EXPECT_EQ(reply.err, "");
   }
+  for (const char* help : {"--help", "-h"}) {
+    const Reply reply = call({help});
+    EXPECT_EQ(reply.status, 0);
+    EXPECT_LT(reply.out.find("Examples:"), reply.out.find("Usage:")) << reply.out;
+  }
+  EXPECT_TRUE(call({"--version"}).out.starts_with("thinwall "));
 }
 
 TEST_F(MannersTest, lists_every_unit_and_writes_nothing) {
@@ -350,8 +356,7 @@ TEST_F(MannersTest, lists_every_unit_and_writes_nothing) {
   EXPECT_TRUE(reply.out.starts_with("          10  cell 0\n          10  cell 1\n")) << reply.out;
   EXPECT_EQ(std::ranges::count(reply.out, '\n'), 20);
   const auto json = nlohmann::json::parse(run({"--list-cells", "--json", "--trials", "7"}).out);
-  EXPECT_EQ(json.at("units"), 20);
-  EXPECT_EQ(json.at("trials"), 140);
+  expect_members(json, {{"units", 20}, {"trials", 140}});
   EXPECT_EQ(json.at("cells").size(), 20u);
   EXPECT_EQ(json.at("cells").at(19), nlohmann::json({{"key", "cell 19"}, {"trials", 7}}));
   EXPECT_EQ(ToyControl::computed, 0);
@@ -412,34 +417,17 @@ TEST_F(BadInputTest, command_lines) {
   expect_refused({"run", "thin_wall", "--json=yes"}, {"--json: takes no value"});
 }
 
-TEST_F(BadInputTest, help_is_no_error_and_opens_with_examples) {
-  for (const Words& words : {Words{"--help"}, {"run", "--help"}, {"-h"}}) {
-    const ProcessResult result = run_process(joined({THINWALL_PROGRAM}, words), folder.path());
-    EXPECT_EQ(result.status, 0);
-    EXPECT_LT(result.output.find("Examples:"), result.output.find("Usage:")) << result.output;
-  }
-  const ProcessResult version = run_process({THINWALL_PROGRAM, "--version"}, folder.path());
-  EXPECT_EQ(version.status, 0);
-  EXPECT_TRUE(version.output.starts_with("thinwall ")) << version.output;
-}
-
 Progress at(std::int64_t done, std::int64_t all, std::int64_t resumed = 0) {
   return {.units_done = 1, .units = 2, .trials_done = done, .trials = all, .trials_resumed = resumed};
 }
 
-TEST(ProgressLine, shows_share_count_rate_and_time_left) {
+TEST(ProgressLine, shows_share_count_the_rate_of_what_was_computed_now_and_time_left) {
   EXPECT_EQ(progress_line(at(0, 100), 0), "[                        ]   0 %  0 trials");
   EXPECT_EQ(progress_line(at(2500000, 10000000), 2),
             "[======                  ]  25 %  2.5 M trials  1.2 M/s  6 s left");
   EXPECT_EQ(progress_line(at(100, 100), 1), "[========================] 100 %  100 trials  100/s  0 s left");
-}
-
-TEST(ProgressLine, takes_the_rate_from_what_was_computed_now) {
   EXPECT_EQ(progress_line(at(900, 1000, 800), 1), "[=====================   ]  90 %  900 trials  100/s  1 s left");
   EXPECT_EQ(progress_line(at(800, 1000, 800), 1), "[===================     ]  80 %  800 trials");
-}
-
-TEST(ProgressLine, fits_a_terminal_and_survives_an_empty_run) {
   EXPECT_LE(progress_line(at(123456789012, 1234567890123), 0.001).size(), 79u);
   EXPECT_EQ(progress_line({}, 0), "[========================] 100 %  0 trials");
 }
