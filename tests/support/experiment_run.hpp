@@ -17,6 +17,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/table_text.hpp>
 
 #include "support/said.hpp"
 
@@ -28,8 +29,7 @@ namespace thinwall {
 inline void expect_narrow(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    const auto letters =
-        std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+    const auto letters = std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; });  // not bytes, in UTF-8
     EXPECT_LE(letters, 100) << line;
   }
 }
@@ -121,20 +121,17 @@ inline const Outcome& small_outcome(const Experiment& experiment) {
 // ---- What is in a result.
 
 inline const Table& table_of(const Outcome& outcome, const std::string& name) {
-  return *std::find_if(outcome.tables.begin(), outcome.tables.end(), [&](const Table& t) { return t.name == name; });
+  return *std::ranges::find(outcome.tables, name, &Table::name);
 }
 
 inline const Value& value_of(const Table& table, std::size_t row, const std::string& column) {
-  const auto found =
-      std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == column; });
-  return table.rows[row][static_cast<std::size_t>(found - table.columns.begin())];
+  return table.rows[row][place_of(table, column)];
 }
 
 /// Of the row that starts with `first`, in a table with one such row.
 inline const Value& value_of(const Table& table, const std::string& first, const std::string& column) {
-  const auto row =
-      std::find_if(table.rows.begin(), table.rows.end(), [&](const auto& r) { return r[0] == Value(first); });
-  return value_of(table, static_cast<std::size_t>(row - table.rows.begin()), column);
+  const auto row = std::ranges::find_if(table.rows, [&](const auto& r) { return r[0] == Value(first); });
+  return (*row)[place_of(table, column)];
 }
 
 }  // namespace thinwall

@@ -34,6 +34,12 @@ inline Reply call_program(const Words& words, const std::vector<Experiment>& exp
   return {status, out.str(), err.str()};
 }
 
+/// It ended so, and what it said on stdout and stderr holds every part of `said`.
+inline void expect_reply(const Reply& reply, int status, const Words& said) {
+  EXPECT_EQ(reply.status, status) << reply.err;
+  for (const std::string& part : said) EXPECT_TRUE(holds(reply.out + reply.err, part));
+}
+
 /// The one line on stderr, with its end, of what is refused: exit code 2, and nothing on stdout.
 inline const std::string& refusal(const Reply& reply) {
   EXPECT_EQ(reply.status, 2) << reply.err;

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,7 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/experiment.hpp>
+#include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
 
 #include "support/program.hpp"
 #include "support/reply.hpp"
@@ -29,71 +31,64 @@ struct ToyControl {
   static inline std::string removes;                   ///< not empty: the folder that every unit removes
 };
 
-class ToyRun final : public Run {
- public:
-  ToyRun(std::int64_t cells, std::int64_t trials, std::uint64_t seed, std::vector<double> speeds)
-      : cells_(cells), trials_(trials), seed_(seed), speeds_(std::move(speeds)) {}
-
-  std::vector<Unit> units() const override {
-    std::vector<Unit> out;
-    for (int i = 0; i < cells_; ++i) {
-      out.push_back({"cell " + std::to_string(i), trials_, [i, seed = seed_] {
-                       ++ToyControl::computed;
-                       if (ToyControl::fail_at == i + 1) throw std::runtime_error("no luck");
-                       if (!ToyControl::removes.empty()) std::filesystem::remove_all(ToyControl::removes);
-                       if (ToyControl::interrupt_after > 0 && --ToyControl::interrupt_after == 0) std::raise(SIGINT);
-                       return std::to_string(static_cast<std::uint64_t>(i * i) + seed);
-                     }});
-    }
-    return out;
-  }
-
-  Outcome finish(const std::vector<std::string>& results, const std::vector<double>& seconds) const override {
-    Outcome out;
-    Table cells{.name = "cells", .description = "Squares, and the seed.", .columns = {}, .rows = {}, .in_report = true};
-    cells.columns = {{"cell", ColumnType::integer, "1", "Its number."},
-                     {"square", ColumnType::integer, "m^2", "Its square, plus the seed."},
-                     {"name", ColumnType::text, "", "Awkward, to be quoted."},
-                     {"root", ColumnType::number, "m", "Its square root; none for 0."},
-                     {"even", ColumnType::boolean, "", "If it is."}};
-    Table timings{.name = "timings", .description = "How long.", .columns = {}, .rows = {}, .is_timing = true};
-    timings.columns = {{"seconds", ColumnType::number, "s", "To compute a cell."}};
-    Series points{.label = "squares", .mark = Mark::points, .x = {}, .y = {}, .lower = {}, .upper = {}};
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      const auto number = static_cast<std::int64_t>(i);
-      const double x = static_cast<double>(i), y = std::stod(results[i]);
-      cells.rows.push_back(
-          {number, std::stoll(results[i]), std::string("a, \"b\""), i == 0 ? Value{} : Value{x / 3}, number % 2 == 0});
-      timings.rows.push_back({seconds[i]});
-      points.x.push_back(x);
-      points.y.push_back(y);
-      points.lower.push_back(y - 1);
-      points.upper.push_back(y + 1);
-    }
-    out.answer = "The squares & <their> sum.";
-    out.summary = "cells: " + std::to_string(results.size());
-    out.tables = {cells, timings};
-    out.figures = {{"squares", "Squares", "What a square is.", {{"x [m]", "y [m^2]", false, false, 1, {points}}}}};
-    out.figures.push_back({"cost", "Cost", "How long.", {{"x [m]", "t [s]", false, false, 1, {points}}}, true});
-    out.sections = {{"Method", "First.\n\nSecond."}, {"Limits", "None."}};
-    out.self_test_passed = ToyControl::pass;
-    return out;
-  }
-
- private:
-  std::int64_t cells_, trials_;
-  std::uint64_t seed_;
-  std::vector<double> speeds_;
+struct ToyRow {
+  std::int64_t cell, square;
+  double seconds;
 };
+
+inline Outcome toy_outcome(const Done<std::int64_t>& done) {
+  std::vector<ToyRow> rows;
+  Series points{.label = "squares"};
+  for (const std::int64_t square : done.results) {
+    const auto y = static_cast<double>(square);
+    points.add(static_cast<double>(rows.size()), y);
+    points.lower.push_back(y - 1);
+    points.upper.push_back(y + 1);
+    rows.push_back({std::ssize(rows), square, done.seconds[rows.size()]});
+  }
+  const auto cells = columns_of<ToyRow>(
+      value("cell", "1", "Its number.", &ToyRow::cell),
+      value("square", "m^2", "Its square, plus the seed.", &ToyRow::square),
+      text("name", "Awkward, to be quoted.", [](const ToyRow&) { return "a, \"b\""; }),
+      value("root", "m", "A third of it; none of 0.",
+            [](const ToyRow& r) { return r.cell > 0 ? std::optional(static_cast<double>(r.cell) / 3) : std::nullopt; }),
+      value("even", "", "If it is.", [](const ToyRow& r) { return r.cell % 2 == 0; }));
+  const auto seconds = columns_of<ToyRow>(value("seconds", "s", "To compute a cell.", &ToyRow::seconds));
+  return {
+      .answer = "The squares & <their> sum.",
+      .summary = "cells: " + std::to_string(rows.size()),
+      .tables = {in_report(table("cells", "Squares, and the seed.", cells, rows)),
+                 timing(table("timings", "How long.", seconds, rows))},
+      .figures = {{"squares",
+                   "Squares",
+                   "What a square is.",
+                   {{.x_label = "x [m]", .y_label = "y [m^2]", .series = {points}}}},
+                  {"cost", "Cost", "How long.", {{.x_label = "x [m]", .y_label = "t [s]", .series = {points}}}, true}},
+      .sections = {{"Method", "First.\n\nSecond."}, {"Limits", "None."}},
+      .self_test_passed = ToyControl::pass};
+}
+
+inline std::int64_t toy_square(std::int64_t cell, std::uint64_t seed) {
+  ++ToyControl::computed;
+  if (ToyControl::fail_at == cell + 1) throw std::runtime_error("no luck");
+  if (!ToyControl::removes.empty()) std::filesystem::remove_all(ToyControl::removes);
+  if (ToyControl::interrupt_after > 0 && --ToyControl::interrupt_after == 0) std::raise(SIGINT);
+  return cell * cell + static_cast<std::int64_t>(seed);
+}
 
 inline Experiment toy_experiment() {
   return {.name = "toy",
           .question = "What is a square?",
           .default_toml = "experiment = \"toy\"\ncells = 20\ntrials = 10\nspeed = [1, 10]  # [m/s]\n",
-          .configure = [](const Settings& settings, const RunOptions& options) -> std::unique_ptr<Run> {
-            return std::make_unique<ToyRun>(settings.integer("cells", 1, 1000),
-                                            options.trials.value_or(settings.integer("trials", 1, 1000)), options.seed,
-                                            settings.numbers("speed", {.lower = 0, .lower_open = true, .unit = "m/s"}));
+          .configure = [](const Settings& settings, const RunOptions& options) {
+            const std::int64_t trials = options.trials.value_or(settings.integer("trials", 1, 1000));
+            settings.numbers("speed", {.lower = 0, .lower_open = true, .unit = "m/s"});
+            std::vector<Task<std::int64_t>> tasks;
+            for (std::int64_t cell = 0; cell < settings.integer("cells", 1, 1000); ++cell) {
+              const auto compute = [=, seed = options.seed] { return toy_square(cell, seed); };
+              tasks.push_back({"cell " + std::to_string(cell), trials, compute});
+            }
+            return make_run([](const Done<std::int64_t>& done) { return toy_outcome(done); }, std::move(tasks));
           }};
 }
 

@@ -21,6 +21,7 @@
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/shards.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
 
 #include "support/program.hpp"
 #include "support/said.hpp"
@@ -191,29 +192,18 @@ std::string compute_forever() {
   return "";
 }
 
+using Tasks = std::vector<Task<std::string>>;
+
 /// Ten units that trials cut, and some that they do not.
-class UnevenRun final : public Run {
- public:
-  UnevenRun(std::int64_t trials, std::vector<Unit> whole, std::string (*work)() = compute)
-      : trials_(trials), whole_(std::move(whole)), work_(work) {}
+std::unique_ptr<Run> uneven(std::int64_t trials, Tasks tasks, std::string (*work)() = compute) {
+  for (int i = 0; i < 10; ++i) tasks.push_back({"cut " + std::to_string(i), trials, work});
+  return make_run([](const Done<std::string>&) { return Outcome(); }, std::move(tasks));
+}
 
-  std::vector<Unit> units() const override {
-    std::vector<Unit> units = whole_;
-    for (int i = 0; i < 10; ++i) units.push_back({"cut " + std::to_string(i), trials_, work_});
-    return units;
-  }
-  Outcome finish(const std::vector<std::string>&, const std::vector<double>&) const override { return {}; }
-
- private:
-  std::int64_t trials_;
-  std::vector<Unit> whole_;
-  std::string (*work_)();
-};
-
-RunEstimate estimate_of(std::int64_t trials, const std::vector<Unit>& whole, double budget) {
+RunEstimate estimate_of(std::int64_t trials, const Tasks& whole, double budget) {
+  const auto run = uneven(trials, whole);
   return estimate(
-      UnevenRun(trials, whole).units(), [&](std::int64_t fewer) { return std::make_unique<UnevenRun>(fewer, whole); },
-      budget);
+      run->units(), [&](std::int64_t fewer) { return uneven(fewer, whole); }, budget);
 }
 
 TEST(Estimate, is_made_from_few_trials_and_by_another_process) {
@@ -242,10 +232,9 @@ TEST(Estimate, ends_where_a_unit_does_not) {
 }
 
 TEST(Estimate, says_what_it_knows_nothing_of) {
-  const auto endless = [](std::int64_t trials) {
-    return std::make_unique<UnevenRun>(trials, std::vector<Unit>(), compute_forever);
-  };
-  EXPECT_EQ(basis_text(estimate(endless(100)->units(), endless, 0.05)), "10 units too long to try");
+  const auto endless = [](std::int64_t trials) { return uneven(trials, {}, compute_forever); };
+  const auto run = endless(100);
+  EXPECT_EQ(basis_text(estimate(run->units(), endless, 0.05)), "10 units too long to try");
 }
 
 TEST(Estimate, tries_no_unit_that_says_how_long_it_takes) {
@@ -256,12 +245,12 @@ TEST(Estimate, tries_no_unit_that_says_how_long_it_takes) {
 }
 
 TEST(Estimate, passes_over_trials_that_are_too_few) {
-  const UnevenRun run(1000, {});
+  const auto run = uneven(1000, {});
   const auto again = [](std::int64_t trials) {
     if (trials < 10) throw UsageError("too few");
-    return std::make_unique<UnevenRun>(trials, std::vector<Unit>());
+    return uneven(trials, {});
   };
-  EXPECT_GE(estimate(run.units(), again, 0.2).trials, 16);
+  EXPECT_GE(estimate(run->units(), again, 0.2).trials, 16);
 }
 
 using std::chrono::milliseconds;

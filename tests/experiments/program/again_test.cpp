@@ -73,13 +73,10 @@ TEST_F(ReproduceTest, names_what_differs_and_what_may_explain_it) {
   change_manifest("/files/data~1cells.csv", sha256(cells));
   change_manifest("/program/compiler", "Another 1.0");
   change_manifest("/machine/cpu", "Another CPU");
-  const Reply reply = reproduce();
-  EXPECT_EQ(reply.status, 1);
-  EXPECT_TRUE(holds(reply.out, "differs: 1 of "));
-  EXPECT_TRUE(holds(reply.out, "  data/cells.csv: row 4, column 'square': recorded 8, rerun 9\n"));
-  EXPECT_TRUE(holds(reply.out, "What may explain it:\n  compiler: recorded Another 1.0, rerun "));
-  EXPECT_TRUE(holds(reply.out, "  CPU: recorded Another CPU, rerun "));
-  EXPECT_TRUE(holds(reply.out, "The rerun is kept in " + again));
+  expect_reply(reproduce(), 1,
+               {"differs: 1 of ", "  data/cells.csv: row 4, column 'square': recorded 8, rerun 9\n",
+                "What may explain it:\n  compiler: recorded Another 1.0, rerun ", "  CPU: recorded Another CPU, rerun ",
+                "The rerun is kept in " + again});
   EXPECT_TRUE(fs::exists(again + "/manifest.json"));
   fs::remove_all(again);
   const auto json = nlohmann::json::parse(reproduce({"--json"}).out);
@@ -93,30 +90,24 @@ TEST_F(ReproduceTest, says_when_nothing_recorded_explains_a_difference) {
   const std::string cells = read_text(out + "/data/cells.csv") + "20,400,,,true\n";
   write_text(out + "/data/cells.csv", cells);
   change_manifest("/files/data~1cells.csv", sha256(cells));
-  const Reply reply = reproduce();
-  EXPECT_EQ(reply.status, 1);
-  EXPECT_TRUE(holds(reply.out, "data/cells.csv: row 21: recorded 20,400,,,true, rerun nothing\n"));
-  EXPECT_TRUE(holds(reply.out, "Nothing recorded explains it"));
+  expect_reply(reproduce(), 1,
+               {"data/cells.csv: row 21: recorded 20,400,,,true, rerun nothing\n", "Nothing recorded explains it"});
 }
 
 TEST_F(ReproduceTest, names_files_that_were_changed_or_lost_since) {
   ASSERT_EQ(run().status, 0);
   write_text(out + "/plots/squares.gp", "# my own\n");
   fs::remove(out + "/tables/cells.md");
-  const Reply reply = reproduce();
-  EXPECT_EQ(reply.status, 1);
-  EXPECT_TRUE(holds(reply.err, out + "/plots/squares.gp: was changed since it was written\n"));
-  EXPECT_TRUE(holds(reply.err, out + "/tables/cells.md: was lost since it was written\n"));
-  EXPECT_TRUE(holds(reply.out, "differs: 2 of "));
-  EXPECT_TRUE(holds(reply.out, "as it was written, the result came out the same"));
+  expect_reply(reproduce(), 1,
+               {out + "/plots/squares.gp: was changed since it was written\n",
+                out + "/tables/cells.md: was lost since it was written\n", "differs: 2 of ",
+                "as it was written, the result came out the same"});
 }
 
 TEST_F(ReproduceTest, goes_on_after_an_interruption) {
   ASSERT_EQ(run().status, 0);
   ToyControl::interrupt_after = 8;
-  const Reply first = reproduce({"--threads", "1"});
-  EXPECT_EQ(first.status, 130);
-  EXPECT_TRUE(holds(first.err, "to continue:\nthinwall reproduce " + out));
+  expect_reply(reproduce({"--threads", "1"}), 130, {"to continue:\nthinwall reproduce " + out});
   ToyControl::computed = 0;
   EXPECT_EQ(reproduce({"--threads", "1"}).status, 0);
   EXPECT_EQ(ToyControl::computed, 12);
@@ -153,9 +144,8 @@ struct SceneProgram : ToyProgram {
 };
 
 TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
-  const Reply reply = call({"run", file, "--out", out, "--trace", "--threads", "1"});
-  ASSERT_EQ(reply.status, 0) << reply.err;
-  EXPECT_TRUE(holds(reply.out, "1 pair went through each other unseen"));
+  expect_reply(call({"run", file, "--out", out, "--trace", "--threads", "1"}), 0,
+               {"1 pair went through each other unseen"});
   for (const char* name :
        {"manifest.json", "report.html", "resolved.toml", "trace.jsonl", "data/steps.csv", "data/plan.csv",
         "data/events.csv", "data/tunneled.csv", "data/timings.csv", "plots/tracks.gp"}) {

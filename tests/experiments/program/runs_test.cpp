@@ -38,9 +38,8 @@ TEST_F(ToyRunTest, leaves_a_whole_result_folder) {
   const auto files = files_in(out);
   for (const char* name :
        {"cite.bib", "data/cells.csv", "data/timings.csv", "datapackage.json", "manifest.json", "plots/squares.dat",
-        "plots/squares.gp", "report.html", "resolved.toml", "tables/cells.md", "tables/cells.tex"}) {
+        "plots/squares.gp", "report.html", "resolved.toml", "tables/cells.md", "tables/cells.tex"})
     EXPECT_TRUE(files.contains(name)) << name;
-  }
   for (const auto& [name, text] : files) EXPECT_TRUE(name.find("journal") == name.npos && name[0] != '.') << name;
   EXPECT_TRUE(holds(files.at("report.html"), "The squares &amp; &lt;their&gt; sum."));
   EXPECT_TRUE(holds(files.at("report.html"), "<p>First.</p>\n<p>Second.</p>"));
@@ -81,9 +80,7 @@ TEST_F(ToyRunTest, says_in_its_manifest_where_it_came_from) {
 
 TEST_F(ToyRunTest, reports_a_failed_self_test) {
   ToyControl::pass = false;
-  const Reply reply = run();
-  EXPECT_EQ(reply.status, 1);
-  EXPECT_TRUE(holds(reply.err, "the self-test failed"));
+  expect_reply(run(), 1, {"the self-test failed"});
   EXPECT_TRUE(holds(read_text(out + "/report.html"), "The self-test failed"));
   EXPECT_EQ(run().status, 1) << "and still does when asked again";
   EXPECT_EQ(call({"report", out, "--check"}).out, out + ": whole, but its self-test failed: do not cite its numbers\n");
@@ -95,8 +92,7 @@ TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
   ::setenv("PATH", folder.path().c_str(), 1);
   const Reply reply = run();
   ::setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(reply.status, 0);
-  EXPECT_TRUE(holds(reply.err, "figures were not drawn: gnuplot is not installed\n"));
+  expect_reply(reply, 0, {"figures were not drawn: gnuplot is not installed\n"});
   EXPECT_TRUE(holds(read_text(out + "/report.html"), "gnuplot is not installed"));
   EXPECT_TRUE(std::filesystem::exists(out + "/plots/squares.gp"));
 }

@@ -49,6 +49,17 @@ struct ShardProgram : ToyProgram {
     return folders;
   }
 
+  /// As if that program had computed those rows: whole to look at, but for what it holds.
+  static void reseal(const std::string& path, const Journal::Rows& rows, const std::string& program) {
+    RunRecord run;
+    static_cast<RunIdentity&>(run) = parse_seal(read_text(path + "/shard.json"))->identity;
+    std::filesystem::remove_all(path);
+    run.program = program;
+    ResultFolder other(path, run);
+    other.journal().add(rows);
+    seal_shard(other, run);
+  }
+
   /// One line that has all of `said`, and no result.
   void expect_refused(const Words& folders, const Words& said) const {
     expect_refusal(merge(folders), said);
@@ -110,9 +121,7 @@ TEST_F(ShardProgram, goes_on_where_it_was_and_is_finished_once) {
   ToyControl::computed = 0;
   EXPECT_EQ(run_shard(1, 2).status, 0);
   EXPECT_EQ(ToyControl::computed, 6);
-  const Reply again = run_shard(1, 2);
-  EXPECT_EQ(again.status, 0);
-  EXPECT_TRUE(holds(again.err, "finished already; nothing was computed"));
+  expect_reply(run_shard(1, 2), 0, {"finished already; nothing was computed"});
   EXPECT_EQ(ToyControl::computed, 6);
 }
 
@@ -154,14 +163,7 @@ TEST_F(ShardProgram, refuses_shards_that_do_not_go_together) {
 TEST_F(ShardProgram, refuses_shards_of_another_build) {
   run_shards(2);
   const auto rebuild = [&](const std::string& path) {  // as another build of the program would have left it
-    RunRecord run;
-    static_cast<RunIdentity&>(run) = parse_seal(read_text(path + "/shard.json"))->identity;
-    const Journal::Rows rows = read_journal(path + "/journal.tsv").rows;
-    std::filesystem::remove_all(path);
-    run.program = "another";
-    ResultFolder other(path, run);
-    other.journal().add(rows);
-    seal_shard(other, run);
+    reseal(path, read_journal(path + "/journal.tsv").rows, "another");
   };
   rebuild(shard(2, 2));
   expect_refused({shard(1, 2), shard(2, 2)},
@@ -206,37 +208,27 @@ TEST_F(ShardProgram, refuses_damage_which_running_the_shard_again_mends) {
 
 TEST_F(ShardProgram, refuses_a_shard_with_the_wrong_units) {
   run_shards(2);
-  const auto reseal = [&](const Journal::Rows& rows) {  // whole to look at, but for what it holds
-    RunRecord run;
-    static_cast<RunIdentity&>(run) = parse_seal(read_text(shard(1, 2) + "/shard.json"))->identity;
-    std::filesystem::remove_all(shard(1, 2));
-    ResultFolder other(shard(1, 2), run);
-    other.journal().add(rows);
-    seal_shard(other, run);
-  };
   Journal::Rows rows = read_journal(shard(1, 2) + "/journal.tsv").rows;
   const auto lost = rows.extract(rows.begin());
-  reseal(rows);
+  reseal(shard(1, 2), rows, this_program_sha256());
   expect_refused({shard(1, 2), shard(2, 2)}, {shard(1, 2) + ": lacks the unit '" + lost.key() + "'"});
   rows[lost.key()] = lost.mapped();
   rows["cell 1000"] = lost.mapped();
-  reseal(rows);
+  reseal(shard(1, 2), rows, this_program_sha256());
   expect_refused({shard(1, 2), shard(2, 2)}, {shard(1, 2) + ": has units that are not its own"});
 }
 
 TEST_F(ShardProgram, keeps_folders_apart) {
   const auto folders = run_shards(2);
-  EXPECT_TRUE(holds(call({"run", "toy", "--out", folders[0]}).err, "holds another run (shard = \"2/2\", not none)"));
-  EXPECT_TRUE(holds(call({"run", "toy", "--shard", "1/2", "--out", folders[0]}).err, "(shard = \"2/2\", not \"1/2\")"));
+  expect_refusal(call({"run", "toy", "--out", folders[0]}), {"holds another run (shard = \"2/2\", not none)"});
+  expect_refusal(call({"run", "toy", "--shard", "1/2", "--out", folders[0]}), {"(shard = \"2/2\", not \"1/2\")"});
   out = folders[0];
   EXPECT_EQ(merge(folders).status, 2);
   out = folder / "used";
   write_text(folder / "my.toml", "experiment = \"toy\"\ncells = 5\n");
   ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
   const auto before = files_in(out);
-  const Reply reply = merge(folders);
-  EXPECT_EQ(reply.status, 2);
-  EXPECT_TRUE(holds(reply.err, "--out " + out + ": holds another run (cells = 5, not 20)"));
+  expect_refusal(merge(folders), {"--out " + out + ": holds another run (cells = 5, not 20)"});
   EXPECT_EQ(files_in(out), before);
   EXPECT_EQ(call({"run", "toy", "--shard", "1/2", "--out", out}).status, 2);
   EXPECT_EQ(files_in(out), before);

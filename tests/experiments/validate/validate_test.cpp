@@ -99,8 +99,7 @@ TEST_F(ValidateTest, a_displacement_without_a_double_is_rounded_or_left) {
 TEST_F(ValidateTest, a_wrong_answer_is_status_1_and_is_named) {
   const std::string file = write("set/vertex-face/a.csv", falling("1,2", 1) + falling("1,2", 0));
   const Reply reply = call_validate(folder / "set");
-  EXPECT_EQ(reply.status, 1);
-  EXPECT_TRUE(holds(reply.out, "0 false negatives, 1 false positives"));
+  expect_reply(reply, 1, {"0 false negatives, 1 false positives"});
   EXPECT_EQ(reply.err, file + ":9: the file says miss, exact arithmetic hit; false positive\n");
 }
 
@@ -223,13 +222,10 @@ TEST_F(PublishedTurningFile, the_right_time_passes_and_a_wrong_one_is_noticed) {
     return validate_turning(write("a.csv", header + "\n" + row(answer) + "\r\n"));
   };
   const Reply right = reply_to({"hit", "0.625", ""});
-  EXPECT_EQ(right.status, 0) << right.err;
+  expect_reply(right, 0, {"Every method keeps what it claims."});
   EXPECT_EQ(right.err, "");
-  EXPECT_TRUE(holds(right.out, "Every method keeps what it claims."));
   const auto expect_wrong = [&](const testing::TurningAnswer& answer, const std::string& said) {
-    const Reply reply = reply_to(answer);
-    EXPECT_EQ(reply.status, 1);
-    EXPECT_TRUE(holds(reply.err, (folder / "a.csv") + ":2: " + said + "\n"));
+    expect_reply(reply_to(answer), 1, {(folder / "a.csv") + ":2: " + said + "\n"});
   };
   expect_wrong({"hit", "0.624", ""}, "conservative_advancement: late by 1.0e-03 of a step");
   expect_wrong({"hit", "0.624", ""}, "certified: late by 1.0e-03 of a step");
