@@ -20,48 +20,6 @@
 
 namespace thinwall {
 
-std::string file_text(const std::filesystem::path& file) {
-  std::error_code trouble;
-  const auto status = std::filesystem::status(file, trouble);
-  if (trouble && std::filesystem::status_known(status) && !std::filesystem::exists(status)) return {};
-  if (trouble) throw std::system_error(trouble, file.string());
-  if (!std::filesystem::is_regular_file(status)) return {};
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), file.string());
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_file(const std::filesystem::path& file, std::string_view text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string());
-}
-
-std::string sha256(std::string_view bytes) {
-  std::array<unsigned char, 32> digest{};
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("OpenSSL computes no SHA-256 here");
-  return fmt::format("{:02x}", fmt::join(digest, ""));
-}
-
-std::string sha256_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return in && !content.bad() ? sha256(content.view()) : std::string();
-}
-
-void flush_to_disk(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);  // EINVAL: it keeps nothing
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!done) throw std::system_error(error, std::generic_category(), path.string());
-}
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,7 +29,63 @@ constexpr std::size_t check_length = 16;
 
 std::string checksum(std::string_view name) { return sha256(name).substr(0, check_length); }
 
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw std::system_error(error, std::generic_category(), path.string());
+}
+
+/// Those that are there now.
+struct Workshops {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+Workshops& workshops() {
+  static Workshops all;
+  return all;
+}
+
 }  // namespace
+
+std::string file_text(const fs::path& file) {
+  std::error_code trouble;
+  const auto status = fs::status(file, trouble);
+  if (trouble && fs::status_known(status) && !fs::exists(status)) return {};
+  if (trouble) throw std::system_error(trouble, file.string());
+  if (!fs::is_regular_file(status)) return {};
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, errno != 0 ? errno : EIO);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) fail(file, errno != 0 ? errno : EIO);
+}
+
+std::string sha256(std::string_view bytes) {
+  std::array<unsigned char, 32> digest{};
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("OpenSSL computes no SHA-256 here");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+std::string sha256_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return in && !content.bad() ? sha256(content.view()) : std::string();
+}
+
+void flush_to_disk(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);  // EINVAL: it keeps nothing
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!done) fail(path, error);
+}
 
 std::string temporary_name() {
   std::random_device random;  // of the system: no seed to guess
@@ -94,23 +108,8 @@ void remove_leftovers(const fs::path& folder) {
   for (const fs::path& leftover : leftovers) fs::remove_all(leftover);
 }
 
-namespace {
-
-/// Those that are there now.
-struct Workshops {
-  std::mutex mutex;
-  std::set<fs::path> paths;
-};
-Workshops& workshops() {
-  static Workshops all;
-  return all;
-}
-
-}  // namespace
-
 Workshop::Workshop(const fs::path& folder) : path_(folder / temporary_name()) {
-  if (::mkdir(path_.c_str(), 0700) != 0)  // fails if anything is there, be it a link
-    throw std::system_error(errno, std::generic_category(), path_.string());
+  if (::mkdir(path_.c_str(), 0700) != 0) fail(path_, errno);  // also if anything is there, be it a link
   const std::scoped_lock lock(workshops().mutex);
   workshops().paths.insert(path_);
 }

@@ -119,6 +119,12 @@ class ProgramProcess : boost::noncopyable {
   bool ended_ = false;
 };
 
+/// The number in `12 of 34 units were read from the journal`, which a run that goes on says on a line of its own; 0 if it does not.
+inline long units_read(const std::string& said) {
+  const auto note = said.find(" units were read from the journal");
+  return note == std::string::npos ? 0 : std::stol(said.substr(said.rfind('\n', note) + 1));
+}
+
 // ---- The headline experiment in small, for tests of the program as it is: many units, every kind of file, in half a second.
 
 inline constexpr const char* small_wall = R"(experiment = "thin_wall"

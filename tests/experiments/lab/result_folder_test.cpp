@@ -96,16 +96,6 @@ TEST_F(ResultFolderTest, refuses_the_folder_of_another_run) {
   EXPECT_EQ(run({"--trials", "5"}).status, 2);
 }
 
-TEST_F(ResultFolderTest, refuses_a_folder_that_holds_things_of_others) {
-  std::filesystem::create_directories(out + "/data");
-  EXPECT_EQ(refusal(run()), "--out " + out + ": holds 'data', which is not ours; name another folder\n");
-  write_text(out + "/manifest.json", "{}");
-  EXPECT_EQ(run().err,
-            "--out " + out +
-                ": holds a manifest.json that is not ours (manifest.json: key 'thinwall_manifest': missing); "
-                "name another folder\n");
-}
-
 TEST_F(ResultFolderTest, refuses_a_folder_where_another_run_is_at_work) {
   FolderLock other;
   std::filesystem::create_directories(out);

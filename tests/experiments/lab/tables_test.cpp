@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/check/check.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
@@ -19,7 +18,6 @@
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/files.hpp>
-#include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
@@ -285,22 +283,6 @@ TEST(Csv, spells_what_is_no_finite_number_and_refuses_rows_that_do_not_fit_the_c
   EXPECT_THROW(csv_text(table), std::logic_error);
 }
 
-TEST(Datapackage, describes_every_column) {
-  Table timings = small_table();
-  timings.name = "timings";
-  timings.is_timing = true;
-  const std::vector<Table> tables = {small_table(), timings};
-  const auto json = nlohmann::json::parse(datapackage_text({"thinwall-toy", "title", "text", "1.0"}, tables));
-  expect_members(json, {{"profile", "tabular-data-package"}, {"name", "thinwall-toy"}});
-  const auto& cells = json.at("resources").at(0);
-  const std::string csv = csv_text(tables[0]);
-  expect_members(cells, {{"path", "data/cells.csv"}, {"hash", "sha256:" + sha256(csv)}, {"bytes", csv.size()}});
-  EXPECT_EQ(cells.at("schema").at("missingValues"), nlohmann::json::array({""}));
-  expect_members(cells.at("schema").at("fields").at(1),
-                 {{"name", "angle_deg"}, {"type", "number"}, {"unit", "deg"}, {"description", "Where."}});
-  EXPECT_FALSE(json.at("resources").at(1).contains("hash")) << "timings differ from run to run";
-}
-
 TEST(ShownTable, tells_a_constant_column_in_words) {
   const std::string markdown = markdown_table(small_table());
   EXPECT_EQ(markdown,
@@ -352,16 +334,6 @@ TEST(ShownTable, refuses_an_interval_whose_end_is_no_column) {
   Table table = table_with_intervals();
   table.columns[1].upper = "most";
   EXPECT_THROW(markdown_table(table), std::logic_error);
-}
-
-TEST(ResolvedToml, resolves_to_itself) {
-  RunRecord run;
-  run.experiment = "toy";
-  run.config =
-      R"({"experiment":"toy","list":[1,0.1,1e-9],"text":"a \"b\" \\","wall":{"deep":{"x":true},"thickness":2}})";
-  const std::string toml = resolved_toml(run);
-  EXPECT_EQ(Settings("", "", toml).resolved_json(), Settings(toml, "resolved.toml", toml).resolved_json());
-  EXPECT_EQ(nlohmann::json::parse(Settings("", "", toml).resolved_json()), nlohmann::json::parse(run.config));
 }
 
 // ---- Figures: their scripts and data, as gnuplot draws them; and whether what is drawn can be read.
