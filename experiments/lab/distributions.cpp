@@ -1,4 +1,5 @@
-/// The intervals that need quantiles of the binomial, beta and chi-squared distributions.
+/// The intervals that need quantiles of the binomial, beta and chi-squared distributions. Apart from statistics.cpp, which the page
+/// in the browser has too, and which these would make larger.
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -107,6 +107,13 @@ struct ToyProgram : ::testing::Test {
   static Reply call(const Words& words) { return call_program(words, {toy_experiment()}); }
   Reply run(const Words& more = {}) const { return call(joined({"run", "toy", "--out", out}, more)); }
 
+  /// In one line that holds every part of `said`, and nothing below `folder` is changed.
+  void expect_refused(const Words& words, const Words& said = {}) const {
+    const auto before = files_in(folder.path());
+    expect_refusal(call(words), said);
+    EXPECT_EQ(files_in(folder.path()), before);
+  }
+
   nlohmann::json manifest() const { return nlohmann::json::parse(read_text(out + "/manifest.json")); }
 };
 

@@ -218,12 +218,6 @@ TEST_F(ManifestTest, nested_deeper_than_anything_could_print_is_refused) {
 namespace fs = std::filesystem;
 
 struct ForeignFiles : ToyProgram {
-  /// And nothing below `folder` is changed.
-  void expect_refused(const Words& words) const {
-    const auto before = files_in(folder.path());
-    refusal(call(words));
-    EXPECT_EQ(files_in(folder.path()), before);
-  }
   void expect_refused_run() const { expect_refused({"run", "toy", "--out", out}); }
 };
 

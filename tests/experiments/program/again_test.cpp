@@ -26,11 +26,6 @@ struct ReproduceTest : ToyProgram {
     json[nlohmann::json::json_pointer(pointer)] = value;
     write_text(out + "/manifest.json", json.dump());
   }
-
-  void expect_refused(const Words& words, const std::string& said) const {
-    expect_refusal(call(words), {said});
-    EXPECT_FALSE(fs::exists(again));
-  }
 };
 
 TEST_F(ReproduceTest, finds_the_same_and_leaves_no_trace) {
@@ -114,21 +109,21 @@ TEST_F(ReproduceTest, goes_on_after_an_interruption) {
 }
 
 TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
-  expect_refused({"reproduce"}, "reproduce: the folder of a result is missing");
-  expect_refused({"reproduce", out}, out + ": there is no such folder");
-  expect_refused({"reproduce", out + std::string(300, 'x')}, "x: cannot be read: File name too long");
+  expect_refused({"reproduce"}, {"reproduce: the folder of a result is missing"});
+  expect_refused({"reproduce", out}, {out + ": there is no such folder"});
+  expect_refused({"reproduce", out + std::string(300, 'x')}, {"x: cannot be read: File name too long"});
   fs::create_directory(out);
-  expect_refused({"reproduce", out}, out + ": holds no manifest.json");
+  expect_refused({"reproduce", out}, {out + ": holds no manifest.json"});
   write_text(out + "/manifest.json", "{}");
-  expect_refused({"reproduce", out}, out + "/manifest.json: key 'thinwall_manifest': missing");
+  expect_refused({"reproduce", out}, {out + "/manifest.json: key 'thinwall_manifest': missing"});
   fs::remove_all(out);
   ASSERT_EQ(run().status, 0);
   const std::string good = read_text(out + "/manifest.json");
   change_manifest("/config/cels", 3);
-  expect_refused({"reproduce", out}, "key 'cels': unknown key; did you mean 'cells'?");
+  expect_refused({"reproduce", out}, {"key 'cels': unknown key; did you mean 'cells'?"});
   write_text(out + "/manifest.json", good);
   change_manifest("/experiment", "tyo");
-  expect_refused({"reproduce", out}, "'tyo' is not allowed; did you mean 'toy'?");
+  expect_refused({"reproduce", out}, {"'tyo' is not allowed; did you mean 'toy'?"});
 }
 
 // ---- Scenes from the command line: run, compare, plan; and what is said to what they cannot take.
@@ -136,11 +131,6 @@ TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
 struct SceneProgram : ToyProgram {
   std::string file = folder / "my.toml";
   SceneProgram() { write_text(file, bullet_text("policy = 'discrete'\n")); }
-
-  void expect_refused(const Words& words, const std::string& said) const {
-    expect_refusal(call(words), {said});
-    EXPECT_FALSE(std::filesystem::exists(out));
-  }
 };
 
 TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
@@ -201,22 +191,22 @@ TEST_F(SceneProgram, plan_prints_what_is_left_out) {
 }
 
 TEST_F(SceneProgram, refuses_what_is_no_scene_or_plan) {
-  expect_refused({"plan", file, "--plan", "fat"}, "--plan: 'fat' is not allowed");
+  expect_refused({"plan", file, "--plan", "fat"}, {"--plan: 'fat' is not allowed"});
   write_text(file, "experiment = 'toy'\n");
-  expect_refused({"compare", file, "--out", out}, "not a scene");
-  expect_refused({"plan", file}, "not a scene");
+  expect_refused({"compare", file, "--out", out}, {"not a scene"});
+  expect_refused({"plan", file}, {"not a scene"});
   write_text(file, "experiment = 'toy'\nscene = 'a'\n");
-  expect_refused({"plan", file}, "not a scene");
+  expect_refused({"plan", file}, {"not a scene"});
   write_text(file, "experiment = 3\nscene = 'a'\n");
-  expect_refused({"plan", file}, ":1: key 'experiment': 3 is not allowed");
-  expect_refused({"run", "toy", "--out", out, "--trace"}, "--trace: only a scene has a trace");
-  expect_refused({"run", "toy", "--out", out, "--plan", "full"}, "--plan: only a scene has a plan");
-  expect_refused({"plan", folder / "none.toml"}, "there is no such file");
-  expect_refused({"compare"}, "compare: the TOML file of a scene is missing");
-  expect_refused({"plan"}, "plan: the TOML file of a scene is missing");
+  expect_refused({"plan", file}, {":1: key 'experiment': 3 is not allowed"});
+  expect_refused({"run", "toy", "--out", out, "--trace"}, {"--trace: only a scene has a trace"});
+  expect_refused({"run", "toy", "--out", out, "--plan", "full"}, {"--plan: only a scene has a plan"});
+  expect_refused({"plan", folder / "none.toml"}, {"there is no such file"});
+  expect_refused({"compare"}, {"compare: the TOML file of a scene is missing"});
+  expect_refused({"plan"}, {"plan: the TOML file of a scene is missing"});
   write_text(file, "radius = 1\n");
-  expect_refused({"plan", file}, "key 'experiment': missing");
-  expect_refused({"run", file, "--out", out}, "key 'experiment': missing");
+  expect_refused({"plan", file}, {"key 'experiment': missing"});
+  expect_refused({"run", file, "--out", out}, {"key 'experiment': missing"});
 }
 
 }  // namespace

@@ -185,17 +185,17 @@ TEST_F(CiteTest, escapes_every_field) {
 }
 
 TEST_F(CiteTest, refuses_what_holds_no_result) {
-  const auto expect_refused = [](const std::string& target, const std::string& why) {
+  const auto expect_no_result = [](const std::string& target, const std::string& why) {
     expect_refusal(call({"cite", target}), {target + ": " + why});
   };
-  expect_refused(folder / "none", "there is no such folder");
-  expect_refused(folder / std::string(300, 'x'), "cannot be read: File name too long");
-  expect_refused(folder.path().string(), "holds no manifest.json");
+  expect_no_result(folder / "none", "there is no such folder");
+  expect_no_result(folder / std::string(300, 'x'), "cannot be read: File name too long");
+  expect_no_result(folder.path().string(), "holds no manifest.json");
   write_text(folder / "journal.tsv", "");
-  expect_refused(folder.path().string(), "holds a run that is not finished");
+  expect_no_result(folder.path().string(), "holds a run that is not finished");
   write_text(folder / "manifest.json", "{\"thinwall_manifest\": 1}");
   EXPECT_EQ(call({"cite", folder.path().string()}).err, folder / "manifest.json: key 'program': missing\n");
-  expect_refused(folder / "manifest.json", "is not a folder");
+  expect_no_result(folder / "manifest.json", "is not a folder");
   EXPECT_EQ(refusal(call({"cite", ""})), "cite: the folder of a result is empty; name one, or none\n");
 }
 

@@ -60,10 +60,8 @@ struct ShardProgram : ToyProgram {
     seal_shard(other, run);
   }
 
-  /// One line that has all of `said`, and no result.
   void expect_refused(const Words& folders, const Words& said) const {
-    expect_refusal(merge(folders), said);
-    EXPECT_FALSE(std::filesystem::exists(out));
+    ToyProgram::expect_refused(joined({"merge", "--out", out}, folders), said);
   }
 };
 
