@@ -130,12 +130,7 @@ void wait_until_free(const std::string& folder) {
 /// The same call has the same folder, and another call another one.
 std::string folder_of(const RunWish& wish) {
   const ConfiguredRun chosen = configure_run(wish.target, wish.request, experiments());
-  RunIdentity identity;
-  identity.experiment = chosen.experiment.name;
-  identity.config = chosen.config;
-  identity.seed = wish.request.options.seed;
-  identity.trials = wish.request.options.trials;
-  return (fs::path("results") / (chosen.name + "-" + run_id(identity))).string();
+  return (fs::path("results") / (chosen.name + "-" + run_id(chosen.record))).string();
 }
 
 /// Returns the folder, and what there is to know of the run, line by line.
