@@ -18,19 +18,17 @@ struct AllPairs {
 /// The full loop: each pair from both sides, n^2 looks, one side kept. The half loop's foil.
 struct AllOrderedPairs {
   static constexpr std::string_view name = "all_ordered_pairs";
-  struct Memory {
-    static std::size_t bytes() { return 0; }
-  };
+  using Memory = AllPairs::Memory;
 };
 
-inline void find_pairs(const AllPairs&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,
-                       std::size_t max_pairs, AllPairs::Memory&) {
+inline void look_at_all(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs,
+                        bool from_both_sides) {
   pairs.clear();
   require_valid(proxies);
   const auto count = static_cast<std::uint32_t>(proxies.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    for (std::uint32_t j = i + 1; j < count; ++j) {
-      if (!boxes_touch(proxies[i], proxies[j]) || !may_meet(proxies[i], proxies[j])) continue;
+    for (std::uint32_t j = from_both_sides ? 0 : i + 1; j < count; ++j) {
+      if (!boxes_touch(proxies[i], proxies[j]) || j <= i || !may_meet(proxies[i], proxies[j])) continue;
       if (pairs.size() == max_pairs) {
         pairs.clear();
         throw TooManyPairs(max_pairs);
@@ -40,22 +38,13 @@ inline void find_pairs(const AllPairs&, std::span<const Proxy> proxies, std::vec
   }
 }
 
+inline void find_pairs(const AllPairs&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,
+                       std::size_t max_pairs, AllPairs::Memory&) {
+  look_at_all(proxies, pairs, max_pairs, false);
+}
 inline void find_pairs(const AllOrderedPairs&, std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs,
                        std::size_t max_pairs, AllOrderedPairs::Memory&) {
-  pairs.clear();
-  require_valid(proxies);
-  const auto count = static_cast<std::uint32_t>(proxies.size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    for (std::uint32_t j = 0; j < count; ++j) {
-      if (i == j || !boxes_touch(proxies[i], proxies[j]) || !may_meet(proxies[i], proxies[j])) continue;
-      if (i > j) continue;
-      if (pairs.size() == max_pairs) {
-        pairs.clear();
-        throw TooManyPairs(max_pairs);
-      }
-      pairs.push_back({i, j});
-    }
-  }
+  look_at_all(proxies, pairs, max_pairs, true);
 }
 
 }  // namespace thinwall
