@@ -195,6 +195,7 @@ std::string draw(const std::filesystem::path& folder, const std::string& name, c
   if (!gnuplot.found) return "gnuplot is not installed";
   const auto is_whole = [&](const std::string& file) { return ends_as_it_should(folder / file); };
   if (gnuplot.status == 0 && std::ranges::all_of(drawn_files(name, format), is_whole)) return {};
+  if (gnuplot.status == -1) return "gnuplot was ended by a signal";
   const std::string first = gnuplot.output.substr(0, gnuplot.output.find_last_not_of(" \n") + 1);
   return fmt::format("gnuplot ended with {}: {}", gnuplot.status, one_line(first));
 }

@@ -4,9 +4,7 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
-#include <mutex>
 #include <random>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -31,16 +29,6 @@ std::string checksum(std::string_view name) { return sha256(name).substr(0, chec
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw std::system_error(error, std::generic_category(), path.string());
-}
-
-/// Those that are there now.
-struct Workshops {
-  std::mutex mutex;
-  std::set<fs::path> paths;
-};
-Workshops& workshops() {
-  static Workshops all;
-  return all;
 }
 
 }  // namespace
@@ -110,22 +98,11 @@ void remove_leftovers(const fs::path& folder) {
 
 Workshop::Workshop(const fs::path& folder) : path_(folder / temporary_name()) {
   if (::mkdir(path_.c_str(), 0700) != 0) fail(path_, errno);  // also if anything is there, be it a link
-  const std::scoped_lock lock(workshops().mutex);
-  workshops().paths.insert(path_);
 }
 
 Workshop::~Workshop() {
-  const std::scoped_lock lock(workshops().mutex);
   std::error_code none;
   fs::remove_all(path_, none);
-  workshops().paths.erase(path_);
-}
-
-void Workshop::remove_all() {
-  const std::unique_lock lock(workshops().mutex, std::try_to_lock);
-  if (!lock) return;  // one is being made or removed, by a disk that may never answer
-  std::error_code none;
-  for (const fs::path& path : workshops().paths) fs::remove_all(path, none);
 }
 
 }  // namespace thinwall

@@ -44,7 +44,6 @@ void remove_leftovers(const std::filesystem::path& folder);
 class Workshop : boost::noncopyable {
  public:
   explicit Workshop(const std::filesystem::path& folder);
-  static void remove_all();  ///< of a process that ends without leaving its scopes
   ~Workshop();
   const std::filesystem::path& path() const { return path_; }
 

@@ -104,9 +104,9 @@ JournalText parse_journal(const std::string& text, const std::filesystem::path& 
       out.rows[fields->front()] = {parsed<double>((*fields)[1]).value_or(0), fields->back()};
       out.good_rows.append(row).append("\n");
     } else {
-      const std::string key = tsv_unescaped(row.substr(0, row.find('\t')));
+      const std::string key = tsv_unescaped(row.substr(0, std::min<std::size_t>(row.find('\t'), 256)));
       out.damage.push_back(fmt::format("{}:{}: the row of '{}' is damaged, or of another run", one_line(file.string()),
-                                       line, one_line(key)));
+                                       line, clipped(one_line(key), 80)));
     }
   }
   return out;

@@ -1,6 +1,7 @@
 #include <thinwall/experiments/lab/runner.hpp>
 
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -19,7 +20,8 @@ namespace {
 int number_in(const char* open_mpi, const char* others, int without) {
   for (const char* name : {open_mpi, others}) {
     const char* const text = std::getenv(name);
-    if (const auto number = parse_count(text ? text : "")) return static_cast<int>(*number);
+    const auto number = parse_count(text ? text : "");
+    if (number && *number >= 0 && *number <= std::numeric_limits<int>::max()) return static_cast<int>(*number);
   }
   return without;
 }
@@ -27,9 +29,10 @@ int number_in(const char* open_mpi, const char* others, int without) {
 }  // namespace
 
 Launch launch_of_this_process() {
-  return {.rank = number_in("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0),
-          .count = number_in("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1),
-          .neighbors = number_in("OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", 1)};
+  const Launch launch = {.rank = number_in("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0),
+                         .count = number_in("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1),
+                         .neighbors = number_in("OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", 1)};
+  return launch.rank < launch.count ? launch : Launch{};  // what somebody left in the environment
 }
 
 #ifdef THINWALL_MPI
@@ -40,6 +43,11 @@ Ranks::Ranks(const Launch& launch) : launch_(launch) {
   joined_ = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &launch_.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &launch_.count);
+  if (launch_.count == launch.count) return;
+  MPI_Finalize();
+  throw UsageError(
+      fmt::format("started as one of {} processes, but MPI as built in counts {}: start it by that MPI's own mpirun",
+                  launch.count, launch_.count));
 }
 
 Ranks::~Ranks() {

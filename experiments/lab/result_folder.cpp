@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -115,15 +116,27 @@ FolderLock::~FolderLock() {
 bool FolderLock::take(const fs::path& folder, bool shared) {
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
-  return ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0;
+  const int how = (shared ? LOCK_SH : LOCK_EX) | LOCK_NB;
+  int failed = ::flock(descriptor_, how);
+  while (failed != 0 && errno == EINTR) failed = ::flock(descriptor_, how);
+  if (failed != 0 && errno != EWOULDBLOCK)  // a file system that is mounted without locks
+    throw UsageError(fmt::format("{}: cannot be locked: {}; name a folder on another disk", one_line(folder.string()),
+                                 std::generic_category().message(errno)));
+  return failed == 0;
 }
 
-ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(std::move(path)) {
+bool FolderLock::holds(const fs::path& folder) const {
+  struct stat ours = {}, named = {};
+  return ::fstat(descriptor_, &ours) == 0 && ::stat(folder.c_str(), &named) == 0 && ours.st_dev == named.st_dev &&
+         ours.st_ino == named.st_ino;
+}
+
+ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(std::move(path)), identity_(identity) {
   try {
     fs::create_directories(path_);
     if (!lock_.take(path_)) refuse("another run is at work here; wait for it or name another folder");
-    look_at_manifest(identity);
-    if (!complete_) look_at_journal(identity);
+    look_at_manifest();
+    if (!complete_) look_at_journal();
     remove_leftovers(path_);
   } catch (const std::system_error& error) {
     const std::string why = "cannot be written: " + error.code().message();
@@ -151,7 +164,20 @@ std::optional<Manifest> ResultFolder::manifest_in(const char* name) const {
   }
 }
 
-void ResultFolder::look_at_manifest(const RunIdentity& identity) {
+void ResultFolder::refuse_foreign_results(bool seal_is_ours) const {
+  for (const char* name : result_names) {
+    if (!seal_is_ours || name != std::string_view(seal_name)) refuse_foreign(name);
+  }
+}
+
+void ResultFolder::require_own() const {
+  if (lock_.holds(path_)) return;
+  throw std::runtime_error(fmt::format(
+      "{}: was moved, replaced or removed while the run was at work; what was finished is in its {}, wherever it is",
+      one_line(path_.string()), journal_name));
+}
+
+void ResultFolder::look_at_manifest() {
   for (const char* name : result_names) {
     if (fs::is_symlink(path_ / name)) refuse_foreign(name);
   }
@@ -159,7 +185,7 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
   const bool half_replaced = !manifest;  // if there is an old one
   if (half_replaced) manifest = manifest_in(old_manifest_name);
   if (!manifest) return;
-  if (const auto difference = identity_difference(manifest->run, identity); !difference.empty()) {
+  if (const auto difference = identity_difference(manifest->run, identity_); !difference.empty()) {
     refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
   }
   if (half_replaced) {
@@ -179,12 +205,13 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
   for (const std::string& file : manifest->unhashed) {
     if (!fs::exists(path_ / file)) missing = file;
   }
-  const bool ours = manifest->run.program == identity.program;
-  if (ours && missing.empty() && fs::exists(path_ / "report.html")) {
+  const bool ours = manifest->run.program == identity_.program;
+  if (ours && missing.empty() && holds_file(path_, "report.html") && !fs::is_empty(path_ / "report.html")) {
     complete_ = manifest;
     clear_up();  // after a run that was killed while it did
-    notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", one_line(path_.string()),
-                                 changed.empty() ? "" : " (" + changed + " was changed since)"));
+    const std::string remedy =
+        changed.empty() ? "" : fmt::format(" ({} was changed since: thinwall report DIR --check says more)", changed);
+    notes_.push_back(fmt::format("{}: complete already; nothing was computed{}", one_line(path_.string()), remedy));
     return;
   }
   manifest_in(old_manifest_name);  // which would be overwritten
@@ -194,52 +221,61 @@ void ResultFolder::look_at_manifest(const RunIdentity& identity) {
                                ours ? "incomplete" : "computed by another build of the program"));
 }
 
-void ResultFolder::look_at_journal(const RunIdentity& identity) {
-  const fs::path file = path_ / journal_name;
+void ResultFolder::look_at_journal() {
+  const fs::path file = path_ / journal_name, old = path_ / old_journal_name;
+  const std::string ours = identity_text(identity_);
   for (const char* name : {journal_name, old_journal_name}) {
     if (!Journal::is_one(path_ / name)) refuse_foreign(name);
   }
-  const JournalText found = read_journal(file);
-  if (fs::exists(file)) {
-    const auto theirs = parse_identity(found.identity);
-    const bool is_unreadable = !theirs && !found.identity.empty();
-    const std::string difference = is_unreadable ? "something that cannot be read"
-                                   : theirs      ? identity_difference(*theirs, identity)
-                                                 : "";
-    if (!difference.empty()) {
-      refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
-    }
-    if (theirs) gather_rank_journals(found.identity);
-    if (!theirs || theirs->program != identity.program) {
-      fs::rename(file, path_ / old_journal_name);
-      notes_.push_back(fmt::format("{}: {}; it is kept as {} until this run ends", one_line(file.string()),
-                                   theirs ? "begun by another build of the program" : "its first row is damaged",
-                                   old_journal_name));
-    }
+  const JournalText found = read_journal(file), before = read_journal(old);
+  const auto theirs = parse_identity(found.identity);
+  const bool is_unreadable = !theirs && !found.identity.empty();
+  const std::string difference = is_unreadable ? "something that cannot be read"
+                                 : theirs      ? identity_difference(*theirs, identity_)
+                                               : "";
+  if (!difference.empty())
+    refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
+  is_fresh_ = !replaced_ && !found.rows.contains(publishing_key) && !before.rows.contains(publishing_key);
+  if (is_fresh_) {
+    const auto seal = parse_seal(file_text(path_ / seal_name));
+    const bool seal_is_ours = found.identity == ours || (seal && identity_text(seal->identity) == ours);
+    refuse_foreign_results(!identity_.shard.empty() && seal_is_ours && holds_file(path_, seal_name));
   }
-  if (!replaced_ && !fs::exists(path_ / old_journal_name) && !found.rows.contains(publishing_key)) {
-    for (const char* name : result_names) {
-      if (identity.shard.empty() || name != std::string_view(seal_name)) refuse_foreign(name);
+  if (theirs) gather_rank_journals(found.identity);
+  if (fs::exists(file) && found.identity != ours) {
+    if (fs::exists(old)) {  // of ours it is gathered below, as that of a rank
+      if (before.identity != ours)
+        refuse(
+            fmt::format("holds what two other builds of the program have begun, in {} and {}; name another folder, or "
+                        "delete one of them",
+                        journal_name, old_journal_name));
+      fs::rename(old, rank_journal(path_, 0));
     }
+    fs::rename(file, old);
+    notes_.push_back(fmt::format("{}: {}; it is kept as {}{}", one_line(file.string()),
+                                 theirs ? "begun by another build of the program" : "its first row is damaged",
+                                 old_journal_name, theirs ? " until this run ends" : ""));
   }
-  journal_ = std::make_unique<Journal>(file, identity_text(identity));
+  journal_ = std::make_unique<Journal>(file, ours);
   for (const std::string& line : journal_->damage()) notes_.push_back(line);
+  gather_rank_journals(ours);
 }
 
 void ResultFolder::gather_rank_journals(const std::string& identity) {
+  require_own();
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(path_)) {
     if (!is_rank_journal(entry.path().filename().string())) continue;
     if (!Journal::is_one(entry.path())) refuse_foreign(entry.path().filename().c_str());
     files.push_back(entry.path());
   }
-  if (files.empty()) return;
   std::unique_ptr<Journal> other;
-  if (!journal_) other = std::make_unique<Journal>(path_ / journal_name, identity);
   for (const fs::path& file : files) {
     const JournalText text = read_journal(file);
+    if (text.identity != identity && !text.identity.empty()) continue;
     for (const std::string& line : text.damage) notes_.push_back(line + "; that unit is computed again");
-    if (text.identity == identity) (journal_ ? *journal_ : *other).add(text.rows);
+    if (!journal_ && !other) other = std::make_unique<Journal>(path_ / journal_name, identity);
+    (journal_ ? *journal_ : *other).add(text.rows);
     fs::remove(file);
   }
 }
@@ -247,8 +283,8 @@ void ResultFolder::gather_rank_journals(const std::string& identity) {
 void ResultFolder::seal(const std::string& text) {
   stage(seal_name, text);
   fs::rename(staging() / seal_name, path_ / seal_name);
-  if (Journal::is_one(path_ / old_journal_name)) fs::remove(path_ / old_journal_name);
   staging_.reset();
+  clear_up();
 }
 
 fs::path ResultFolder::rank_journal(const fs::path& folder, int rank) {
@@ -256,6 +292,7 @@ fs::path ResultFolder::rank_journal(const fs::path& folder, int rank) {
 }
 
 void ResultFolder::stage(const std::string& file, const std::string& text) {
+  require_own();
   if (!staging_) staging_.emplace(path_);
   const fs::path target = staging() / file;
   fs::create_directories(target.parent_path());
@@ -272,6 +309,10 @@ std::map<std::string, std::string> ResultFolder::staged_hashes() const {
 }
 
 void ResultFolder::publish() {
+  require_own();
+  for (const char* name : result_names) {  // what was put here meanwhile
+    if (is_fresh_ || fs::is_symlink(path_ / name)) refuse_foreign(name);
+  }
   const auto staged = staged_hashes();
   journal_->add({{publishing_key, {}}});
   std::set<fs::path> folders = {path_};
@@ -305,11 +346,22 @@ void ResultFolder::publish() {
   clear_up();
 }
 
-void ResultFolder::clear_up() const {
+/// A shard keeps its journal. One of another build goes, as was said, unless that build is at a run of its own, whose journal it is; one that
+/// cannot be read stays, and so does another run's.
+void ResultFolder::clear_up() {
   remove_leftovers(path_);
-  for (const char* name : {journal_name, old_journal_name}) {
-    if (Journal::is_one(path_ / name)) fs::remove(path_ / name);
-  }
+  const auto is_of = [&](const char* name, bool ours) {
+    const auto theirs = parse_identity(read_journal(path_ / name).identity);
+    return Journal::is_one(path_ / name) && theirs && identity_difference(*theirs, identity_).empty() &&
+           (theirs->program == identity_.program) == ours;
+  };
+  const bool is_ours = is_of(journal_name, true);
+  if (is_of(journal_name, false))
+    notes_.push_back(fmt::format("{}: begun by another build of the program, whose command continues it",
+                                 one_line((path_ / journal_name).string())));
+  if (is_ours && is_of(old_journal_name, false)) fs::remove(path_ / old_journal_name);
+  if (!identity_.shard.empty()) return;
+  if (is_ours) fs::remove(path_ / journal_name);
   try {
     if (manifest_in(old_manifest_name)) fs::remove(path_ / old_manifest_name);
   } catch (const UsageError&) {  // not ours

@@ -35,8 +35,11 @@ class FolderLock : boost::noncopyable {
   ~FolderLock();
 
   /// `shared`: beside others who share it. False if another process holds it. Throws std::system_error if there is no such
-  /// folder.
+  /// folder, or none that can be locked.
   bool take(const std::filesystem::path& folder, bool shared = false);
+
+  /// What was taken still has that name.
+  bool holds(const std::filesystem::path& folder) const;
 
  private:
   int descriptor_ = -1;
@@ -71,7 +74,7 @@ class ResultFolder : boost::noncopyable {
   /// Writes the seal of a finished shard, whose journal stays.
   void seal(const std::string& text);
 
-  /// Moves what other ranks of this run have finished from their journals into ours, and deletes theirs.
+  /// Moves what other ranks of this run have finished from their journals into ours, and deletes theirs. Those of another run stay.
   void gather_rank_journals(const std::string& identity);
 
   /// Where a rank keeps what it has finished until it is gathered.
@@ -81,15 +84,19 @@ class ResultFolder : boost::noncopyable {
   void publish();
 
  private:
-  void look_at_manifest(const RunIdentity& identity);
-  void look_at_journal(const RunIdentity& identity);
+  void look_at_manifest();
+  void look_at_journal();
+  void refuse_foreign_results(bool seal_is_ours) const;
+  void require_own() const;                                     // nobody has moved the folder away
   std::optional<Manifest> manifest_in(const char* name) const;  // nothing if there is no file
   void refuse_foreign(const char* name) const;                  // if it is there
-  void clear_up() const;                                        // of what a complete folder does not need
+  void clear_up();                                              // of what a complete folder does not need
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::filesystem::path path_;
   FolderLock lock_;
+  RunIdentity identity_;
+  bool is_fresh_ = false;  // no result of ours was here before
   std::vector<std::string> notes_;
   std::optional<Manifest> complete_, replaced_;
   std::unique_ptr<Journal> journal_;

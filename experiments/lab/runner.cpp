@@ -253,8 +253,9 @@ std::optional<RunEstimate> told_within(double seconds, const std::function<void(
 
 void watch_for_stop() {
   requested = 0;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (std::signal(signal, request_stop) == SIG_IGN) std::signal(signal, SIG_IGN);  // as whoever started us wants it
+  }
 }
 
 bool stop_requested() { return requested != 0; }

@@ -57,14 +57,14 @@ SealedFolder read_seal(const fs::path& path) try {
   const auto seal = parse_seal(file_text(path / seal_name));
   if (!seal) refuse_place(path, std::string("its shard.json is damaged, or not ours") + mend);
   return {path, *seal};
-} catch (const fs::filesystem_error& error) {
-  refuse_place(error.path1(), "cannot be read: " + error.code().message());
+} catch (const std::system_error& error) {
+  refuse_place(path, "cannot be read: " + error.code().message());
 }
 
-Journal::Rows read_rows(const SealedFolder& folder) {
+Journal::Rows read_rows(const SealedFolder& folder) try {
   const fs::path file = folder.path / journal_name;
-  if (!fs::exists(file))
-    refuse_place(folder.path, "its journal.tsv is lost; delete the folder and run the shard again");
+  if (!Journal::is_one(file))
+    refuse_place(folder.path, "its journal.tsv is lost, or none; delete the folder and run the shard again");
   JournalText text = read_journal(file);
   if (text.identity.empty())
     refuse_place(folder.path, fmt::format("the first row of its journal.tsv is damaged{}", mend));
@@ -73,6 +73,8 @@ Journal::Rows read_rows(const SealedFolder& folder) {
     refuse_place(folder.path, fmt::format("its journal.tsv was changed since the shard was finished{}", mend));
   }
   return std::move(text.rows);
+} catch (const std::system_error& error) {
+  refuse_place(folder.path, "cannot be read: " + error.code().message());
 }
 
 /// The identity of the run that a shard is a part of.
@@ -156,6 +158,8 @@ std::optional<ShardSeal> parse_seal(const std::string& text) {
 }
 
 void seal_shard(ResultFolder& folder, const RunRecord& run) {
+  // Somebody may have removed the file, or cut it off, while the run was at work: what it lacks is written again.
+  Journal(folder.path() / journal_name, identity_text(run)).add(folder.journal().finished());
   const ordered_json seal = {
       {"thinwall_shard", seal_version},
       {"run", ordered_json::parse(identity_text(run))},

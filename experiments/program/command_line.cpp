@@ -273,18 +273,19 @@ int run_program(const std::vector<std::string>& argv, std::span<const Experiment
                 std::ostream& to_stderr) {
   HarmlessBuffer harmless_out(to_stdout), harmless_err(to_stderr);
   std::ostream out(&harmless_out), err(&harmless_err), nowhere(nullptr);
-  const bool quiet = launch_of_this_process().rank > 0;  // of the ranks that mpirun started, one speaks
-  std::ostream& notes = quiet ? nowhere : err;
+  const Launch launch = launch_of_this_process();
+  const bool quiet = launch.rank > 0;  // of the ranks that mpirun started, one speaks, but of what went wrong
+  const std::string who = quiet ? fmt::format("rank {} of {}: ", launch.rank, launch.count) : "";
   try {
-    const int status = parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, notes});
+    const int status = parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, quiet ? nowhere : err});
     if (out.flush()) return status;
-    notes << "failed: stdout cannot be written" << std::endl;  // a full disk, where it goes to a file
+    err << who << "failed: stdout cannot be written" << std::endl;  // a full disk, where it goes to a file
     return exit_failed;
   } catch (const UsageError& error) {
-    notes << error.what() << std::endl;
+    err << who << error.what() << std::endl;
     return exit_bad_input;
   } catch (const std::exception& error) {
-    notes << "failed: " << one_line(error.what()) << std::endl;
+    err << who << "failed: " << one_line(error.what()) << std::endl;
     return exit_failed;
   }
 }

@@ -182,10 +182,7 @@ class Crew : boost::noncopyable {
   /// A crew of one needs no MPI. Throws UsageError as Ranks does.
   Crew(const Launch& launch, std::span<const Unit> units) : ranks_(launch), units_(units) {}
   ~Crew() {  // sends home ranks that still wait for rank 0
-    if (!leads() || told_) return;
-    std::vector<std::uint8_t> nothing(units_.size());
-    ranks_.share(nothing);
-    ranks_.worst(finished);
+    if (leads() && !told_) is_one_run("");
   }
 
   bool leads() const { return ranks_.rank() == 0; }
@@ -197,12 +194,27 @@ class Crew : boost::noncopyable {
   int assist(const std::filesystem::path& folder, const std::string& identity, const RunnerOptions& options);
 
  private:
+  /// Whether all ranks were started with the same configuration, seed and program: none if rank 0 has nothing to do.
+  std::optional<bool> is_one_run(const std::string& identity);
   std::vector<Unit> share_of(const std::vector<std::uint8_t>& open) const;  // this rank's
 
   Ranks ranks_;
   std::span<const Unit> units_;
   bool told_ = false;  // the others know what to do
 };
+
+std::optional<bool> Crew::is_one_run(const std::string& identity) {
+  const std::string ours = identity.empty() ? std::string(64, ' ') : sha256(identity);
+  std::vector<std::uint8_t> of_rank_0(ours.begin(), ours.end());
+  ranks_.share(of_rank_0);
+  told_ = true;
+  if (of_rank_0.front() == ' ') return std::nullopt;
+  const bool is_same = std::ranges::equal(of_rank_0, ours);
+  if (!is_same)
+    std::cerr << fmt::format("rank {} of {} was started with another configuration, seed or program than rank 0\n",
+                             ranks_.rank(), ranks_.count());
+  return ranks_.worst(is_same ? finished : failed) == finished;
+}
 
 std::vector<Unit> Crew::share_of(const std::vector<std::uint8_t>& open) const {
   std::vector<Unit> left;
@@ -215,11 +227,12 @@ std::vector<Unit> Crew::share_of(const std::vector<std::uint8_t>& open) const {
 UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, const RunnerOptions& options) {
   Journal& journal = folder.journal();
   if (ranks_.count() == 1) return compute_units(units_, journal, options);
+  if (!is_one_run(identity).value_or(true))
+    throw std::runtime_error("the ranks do not work on one run, as the line of another says; nothing was computed");
   std::vector<std::uint8_t> open;
   for (const Unit& unit : units_) open.push_back(journal.finished().contains(unit.key) ? 0 : 1);
   const auto known = static_cast<std::size_t>(std::ranges::count(open, 0));
   ranks_.share(open);
-  told_ = true;
 
   Ending ending = finished;
   std::exception_ptr why;
@@ -234,11 +247,17 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
   if (why) std::rethrow_exception(why);
   if (worst == failed) throw std::runtime_error("another rank failed, as its own line says; what was finished is kept");
   UnitResults all = compute_units(units_, journal, {.threads = 1, .stop = [] { return true; }, .on_progress = {}});
+  if (worst == finished && !all.complete)
+    throw std::runtime_error(
+        "another rank kept what it finished where rank 0 does not find it: all must see the same --out");
   all.resumed = known;
   return all;
 }
 
 int Crew::assist(const std::filesystem::path& folder, const std::string& identity, const RunnerOptions& options) {
+  const auto one_run = is_one_run(identity);
+  if (!one_run) return exit_done;
+  if (!*one_run) return exit_failed;
   std::vector<std::uint8_t> open(units_.size());
   ranks_.share(open);
   Ending ending = finished;
@@ -345,8 +364,7 @@ int perform_run(RunWish wish, const Call& call) try {
     watch_for_stop();
     guard.emplace(patience, [&] {
       if (stderr_is_terminal()) ProgressBar::erase();
-      Workshop::remove_all();
-      std::_Exit(interrupted(wish, call));
+      std::_Exit(interrupted(wish, call));  // what was staged is the next run's to remove: this one may still write
     });
   }
   for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
@@ -382,7 +400,9 @@ int perform_run(RunWish wish, const Call& call) try {
   return reply(wish, record, outcome, call);
 } catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
   const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
-  const std::string why = file ? file->path1().string() + ": " + error.code().message() : error.what();
+  const std::string why = !file                   ? error.what()
+                          : file->path2().empty() ? file->path1().string() + ": " + error.code().message()
+                                                  : file->path2().string() + ": " + error.code().message();
   std::error_code none;  // somebody may have deleted the folder
   const bool is_kept = std::filesystem::exists(std::filesystem::path(wish.out) / journal_name, none);
   throw std::runtime_error(why +

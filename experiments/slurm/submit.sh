@@ -18,8 +18,11 @@ shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export THINWALL=${THINWALL:-thinwall}
 
-# A mistake costs nothing here, and an array of failed tasks there.
-"$THINWALL" run "$@" --shard "1/$shards" --out "$out.shards/1-of-$shards" --dry-run
+for word in "$@"; do
+  case $word in --dry-run | --list-cells) echo "submit.sh: $word computes nothing; leave it out" >&2; exit 2 ;; esac
+done
+# A mistake costs nothing here, and an array of failed tasks there: asked as shard.sh asks.
+"$THINWALL" run "$@" --shard "1/$shards" --out "$out.shards/1-of-$shards" --threads 1 --dry-run
 
 # Slurm's default MaxArraySize of 1001 allows the tasks 1 to 1000: more shards are several arrays.
 mkdir -p "$out.shards"

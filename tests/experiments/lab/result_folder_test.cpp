@@ -103,14 +103,65 @@ TEST_F(ResultFolderTest, refuses_a_folder_where_another_run_is_at_work) {
   EXPECT_EQ(refusal(run()), "--out " + out + ": another run is at work here; wait for it or name another folder\n");
 }
 
-TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_work) {
+/// As another build of the program leaves it that was interrupted at the same run.
+void begin_by(const std::string& program, const std::string& journal) {
   const RunIdentity theirs{"toy", R"({"cells":20,"experiment":"toy","speed":[1,10],"trials":10})", 0, std::nullopt,
-                           "another"};
-  std::filesystem::create_directories(out);
-  Journal(out + "/journal.tsv", identity_text(theirs)).add("cell 1", {0.1, "777000"});
+                           program};
+  std::filesystem::create_directories(std::filesystem::path(journal).parent_path());
+  Journal(journal, identity_text(theirs)).add("cell 1", {0.1, "777000"});
+}
+
+TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_work) {
+  begin_by("another", out + "/journal.tsv");
   expect_reply(run(), 0, {"begun by another build of the program; it is kept as journal.old.tsv"});
   EXPECT_FALSE(holds(read_text(out + "/data/cells.csv"), "777000"));
   EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
+}
+
+TEST_F(ResultFolderTest, goes_on_with_its_own_journal_that_another_build_has_set_aside) {
+  ToyControl::interrupt_after = 8;
+  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  std::filesystem::rename(out + "/journal.tsv", out + "/journal.old.tsv");
+  begin_by("another", out + "/journal.tsv");
+  ToyControl::interrupt_after = 1;
+  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  EXPECT_TRUE(holds(read_text(out + "/journal.old.tsv"), "777000")) << "the other's";
+  expect_reply(run({"--threads", "1"}), 0, {"9 of 20 units were read from the journal\n"});
+  EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
+}
+
+TEST_F(ResultFolderTest, refuses_to_set_aside_a_journal_in_the_place_of_a_third_builds) {
+  begin_by("another", out + "/journal.tsv");
+  begin_by("a third", out + "/journal.old.tsv");
+  expect_refused({"run", "toy", "--out", out}, {"holds what two other builds of the program have begun"});
+}
+
+TEST_F(ResultFolderTest, leaves_what_another_build_has_begun_beside_a_complete_result) {
+  ASSERT_EQ(run().status, 0);
+  begin_by("another", out + "/journal.tsv");
+  const auto before = files_in(out);
+  expect_reply(run(), 0, {"complete already", "begun by another build of the program, whose command continues it"});
+  EXPECT_EQ(files_in(out), before);
+}
+
+TEST_F(ResultFolderTest, computes_nothing_into_a_folder_that_has_taken_the_place_of_its_own) {
+  RunIdentity ours{"toy", "{}", 0, std::nullopt, "program"};
+  ResultFolder result(out, ours);
+  std::filesystem::rename(out, out + ".moved");
+  ResultFolder other(out, ours);
+  const auto said = [&](const auto& act) -> std::string {
+    try {
+      act();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  for (const std::string& line : {said([&] { result.stage("report.html", "a page"); }), said([&] { result.publish(); }),
+                                  said([&] { result.gather_rank_journals(""); })}) {
+    EXPECT_TRUE(holds(line, out + ": was moved, replaced or removed while the run was at work"));
+  }
+  EXPECT_EQ(files_in(out).size(), 1u) << "the journal of the other";
 }
 
 TEST_F(ResultFolderTest, leaves_a_journal_alone_whose_run_it_cannot_read) {  // as one of a later version may be
@@ -127,8 +178,8 @@ TEST_F(ResultFolderTest, starts_over_where_the_first_row_of_the_journal_is_damag
   std::string journal = read_text(out + "/journal.tsv");
   journal[journal.find("toy")] ^= 1;
   write_text(out + "/journal.tsv", journal);
-  expect_reply(run(), 0, {"its first row is damaged; it is kept as journal.old.tsv until this run ends"});
-  EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
+  expect_reply(run(), 0, {"its first row is damaged; it is kept as journal.old.tsv\n"});
+  EXPECT_EQ(read_text(out + "/journal.old.tsv"), journal) << "it may be another run's";
 }
 
 TEST_F(ResultFolderTest, clears_what_a_run_left_that_was_killed_while_it_wrote) {
@@ -308,6 +359,38 @@ TEST_F(ForeignFiles, that_a_run_would_write_over_are_refused_while_it_is_unfinis
     expect_refused_run();
     fs::remove_all(out);
   }
+}
+
+TEST_F(ForeignFiles, beside_what_another_build_has_begun_are_not_written_over) {
+  begin_by("another", out + "/journal.tsv");
+  write_text(out + "/report.html", "mine\n");
+  run();
+  EXPECT_EQ(read_text(out + "/report.html"), "mine\n");
+}
+
+TEST_F(ForeignFiles, that_come_while_a_run_is_at_work_are_not_written_over) {
+  RunIdentity ours{"toy", "{}", 0, std::nullopt, "program"};
+  fs::create_directories(folder / "mine");
+  for (const bool is_link : {false, true}) {
+    ResultFolder result(out, ours);
+    result.stage("tables/cells.md", "ours\n");
+    if (is_link) {
+      fs::create_directory_symlink(folder / "mine", out + "/tables");
+    } else {
+      fs::create_directory(out + "/tables");
+      write_text(out + "/tables/cells.md", "mine\n");
+    }
+    EXPECT_THROW(result.publish(), UsageError);
+    if (!is_link) EXPECT_EQ(read_text(out + "/tables/cells.md"), "mine\n");
+    fs::remove_all(out);
+  }
+  EXPECT_TRUE(fs::is_empty(folder / "mine"));
+}
+
+TEST_F(ForeignFiles, in_the_place_of_a_shards_seal_are_kept) {
+  fs::create_directories(out);
+  write_text(out + "/shard.json", "{\"mine\": 1}\n");
+  expect_refused({"run", "toy", "--out", out, "--shard", "1/2"}, {"holds 'shard.json', which is not ours"});
 }
 
 TEST_F(ForeignFiles, are_not_followed_where_they_are_links) {

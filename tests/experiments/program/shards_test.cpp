@@ -204,6 +204,27 @@ TEST_F(ShardProgram, refuses_damage_which_running_the_shard_again_mends) {
   expect_damage("its shard.json is damaged, or not ours");
 }
 
+TEST_F(ShardProgram, seals_all_rows_even_if_their_file_was_removed_or_cut_off_meanwhile) {
+  ASSERT_EQ(run_shard(1, 2).status, 0);
+  const Journal::Rows rows = read_journal(shard(1, 2) + "/journal.tsv").rows;
+  RunRecord run;
+  static_cast<RunIdentity&>(run) = parse_seal(read_text(shard(1, 2) + "/shard.json"))->identity;
+  for (const bool is_cut : {true, false}) {
+    std::filesystem::remove_all(shard(1, 2));
+    ResultFolder result(shard(1, 2), run);
+    result.journal().add(rows);
+    const std::string file = shard(1, 2) + "/journal.tsv";
+    if (is_cut) {
+      std::filesystem::resize_file(file, std::filesystem::file_size(file) - 30);
+    } else {
+      std::filesystem::remove(file);
+    }
+    seal_shard(result, run);
+    EXPECT_EQ(read_journal(file).rows.size(), rows.size());
+    EXPECT_TRUE(is_sealed(result, run));
+  }
+}
+
 TEST_F(ShardProgram, refuses_a_shard_with_the_wrong_units) {
   run_shards(2);
   Journal::Rows rows = read_journal(shard(1, 2) + "/journal.tsv").rows;
@@ -329,6 +350,25 @@ TEST_F(Mpi, a_folder_of_another_run_is_refused_once_and_no_rank_is_left_waiting)
   EXPECT_EQ(refused.output.find(line), refused.output.rfind(line)) << refused.output;
   EXPECT_EQ(files_in(folder / "used"), before);
   EXPECT_EQ(on_ranks(2, {"run", "wall.toml", "--out", "used"}).status, 0) << "complete already";
+}
+
+TEST_F(Mpi, ranks_of_different_runs_compute_nothing_and_say_so) {
+  Words words = mpirun(1, {"run", "wall.toml", "--out", "mixed"});
+  words = joined(words, {":", "-n", "1", THINWALL_PROGRAM, "run", "wall.toml", "--seed", "7", "--out", "mixed"});
+  const ProcessResult mixed = run_process(words, folder.path());
+  EXPECT_EQ(mixed.status, 1) << mixed.output;
+  EXPECT_TRUE(holds(mixed.output, "ank 1 of 2 was started with another configuration, seed or program than rank 0"));
+}
+
+TEST_F(Mpi, a_rank_says_what_is_wrong_with_its_own_words) {
+  Words words = mpirun(1, {"run", "wall.toml", "--out", "mixed"});
+  words = joined(words, {":", "-n", "1", THINWALL_PROGRAM, "run", "none.toml", "--out", "mixed"});
+  EXPECT_TRUE(holds(run_process(words, folder.path()).output, "ank 1 of 2: none.toml: there is no such file"));
+}
+
+TEST_F(LeavingOneMachine, what_is_left_in_the_environment_of_no_mpirun_is_passed_over) {
+  const Words words = {"/usr/bin/env", "OMPI_COMM_WORLD_RANK=1", THINWALL_PROGRAM, "list"};
+  EXPECT_TRUE(holds(run_process(words, folder.path()).output, "thin_wall"));
 }
 
 TEST_F(Mpi, other_commands_run_once) {
