@@ -1,16 +1,199 @@
 #pragma once
-/// A ball is dropped from a height onto a floor: the conditions, and what each policy does to the energy of its flight, in one bounce
-/// after another or on and on.
+/// A ball is dropped from a height onto a floor: the conditions, the ways to take a step, and what each does to the energy of the
+/// ball's flight, in one bounce after another or on and on; what theory says of that, exactly and not only to first order, and whether
+/// what was measured agrees. Only heights and vertical speeds differ from zero. Derived in docs/bouncing.md.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/bouncing/policies.hpp>
+#include <thinwall/discrete/aabb.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
+
+// A ball above a floor, and the exact arc of its flight.
+
+struct BouncingWorld {
+  double gravity;      ///< [m/s^2] > 0, downward
+  double restitution;  ///< [1] in [0, 1]: speed after over speed before
+  double step;         ///< [s] > 0
+  Aabb<double> floor;  ///< its top is at height 0
+};
+
+struct BouncingBall {
+  Sphere<double> body;
+  double velocity;           ///< [m/s] upward, as the integrator keeps it
+  double time = 0;           ///< [s] since the start
+  std::int64_t bounces = 0;  ///< impacts so far
+};
+
+/// A floor so deep that nothing gets through: its top is exactly at 0.
+inline Aabb<double> floor_of_depth(double depth) { return {{0, -depth / 2, 0}, {depth / 2, depth / 2, depth / 2}}; }
+
+inline BouncingBall ball_at(double gap, double velocity, double radius) {
+  return {{{0, radius + gap, 0}, radius}, velocity};
+}
+
+/// [m] Between ball and floor; negative inside.
+inline double gap_of(const BouncingBall& ball) { return ball.body.center.y() - ball.body.radius; }
+
+/// An approaching ball leaves with its speed times the restitution.
+inline void bounce(const BouncingWorld& world, BouncingBall& ball) {
+  if (!(ball.velocity < 0)) return;
+  ball.velocity = world.restitution * -ball.velocity;
+  ++ball.bounces;
+}
+
+/// [s] When gap + v t - g t^2 / 2 = 0, for gap >= 0 and g > 0: the root that is not negative. Neither branch subtracts, so
+/// that no digit is lost, whether the ball rises or falls. Zero gap and zero speed: 0.
+inline double landing_time(double gap, double velocity, double gravity) {
+  const double speed = std::sqrt(velocity * velocity + 2 * gravity * gap);  // at landing
+  if (velocity > 0) return (velocity + speed) / gravity;
+  return speed > 0 ? 2 * gap / (speed - velocity) : 0;
+}
+
+/// Follows the arc through one step, and calls at_bounce(time) at each impact. Bounces pile up towards a limit where the
+/// restitution is below 1; the ball is at rest from the one on whose flight is too short to move the clock. No tolerance.
+/// Degenerate: at rest on the floor it stays, to the bit.
+template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBall& ball, const AtBounce& at_bounce) {
+  const double g = world.gravity, start = ball.time;
+  double gap = std::max(0.0, gap_of(ball)), left = world.step;
+  while (left > 0) {
+    const double end = gap + left * (ball.velocity - g * left / 2);
+    if (end > 0) {  // the arc is concave: above the floor at both ends, it is so between
+      gap = end;
+      ball.velocity -= g * left;
+      break;
+    }
+    const double speed = std::sqrt(ball.velocity * ball.velocity + 2 * g * gap);
+    left = std::max(0.0, left - landing_time(gap, ball.velocity, g));
+    gap = 0;
+    ball.velocity = -speed;
+    bounce(world, ball);
+    const double clock = start + (world.step - left), flight = 2 * ball.velocity / g;
+    if (speed > 0) at_bounce(clock);
+    if (!(clock + flight > clock)) {
+      ball.velocity = 0;
+      break;
+    }
+  }
+  ball.body.center.y() = ball.body.radius + gap;
+  ball.time += world.step;
+}
+
+// The policies: the ways to take a step.
+
+/// Semi-implicit Euler: first the speed, then the height with the new speed.
+inline void kick_and_drift(const BouncingWorld& world, BouncingBall& ball) {
+  ball.velocity -= world.gravity * world.step;
+  ball.body.center.y() += ball.velocity * world.step;
+  ball.time += world.step;
+}
+
+/// The exact arc, as if there were no floor.
+inline void fly_on(const BouncingWorld& world, BouncingBall& ball) {
+  const double kick = world.gravity * world.step;
+  ball.body.center.y() += (ball.velocity - kick / 2) * world.step;
+  ball.velocity -= kick;
+  ball.time += world.step;
+}
+
+/// Tests the pose, pushes the ball out and turns its speed.
+inline void push_out(const BouncingWorld& world, BouncingBall& ball) {
+  const auto touch = contact(ball.body, world.floor);
+  if (!touch) return;
+  ball.body.center -= touch->normal * touch->penetration;
+  bounce(world, ball);
+}
+
+/// The game loop's way.
+inline void project_flip(const BouncingWorld& world, BouncingBall& ball) {
+  kick_and_drift(world, ball);
+  push_out(world, ball);
+}
+
+/// The same without pushing out.
+inline void flip_only(const BouncingWorld& world, BouncingBall& ball) {
+  kick_and_drift(world, ball);
+  if (overlaps(ball.body, world.floor)) bounce(world, ball);
+}
+
+/// Semi-implicit Euler, whose straight path in a step is split where the library finds first contact. A ball that touches
+/// at the start of a step is carried by the floor: gravity does not push it in.
+inline void linear_toi(const BouncingWorld& world, BouncingBall& ball) {
+  const double before = ball.velocity, kick = world.gravity * world.step;
+  double left = world.step;
+  ball.velocity = before - kick;
+  const Vec3<double> path = {0, ball.velocity * left, 0};
+  const Toi<double> toi = time_of_impact(Moving<Sphere<double>>{ball.body, path}, at_rest(world.floor));
+  if (toi.status == ToiStatus::overlapping) {
+    ball.velocity = before < 0 ? before : std::max(0.0, ball.velocity);
+    bounce(world, ball);
+  } else if (toi.status == ToiStatus::hit) {
+    ball.body.center += path * toi.time;
+    left *= 1 - toi.time;
+    bounce(world, ball);
+  }
+  ball.body.center.y() += ball.velocity * left;
+  ball.time += world.step;
+}
+
+/// The exact arc, and the pose at the end of the step pushed out.
+inline void exact_project(const BouncingWorld& world, BouncingBall& ball) {
+  fly_on(world, ball);
+  push_out(world, ball);
+}
+
+/// The exact arc, split where it meets the floor: tested at the end of the step, which is enough since an arc is concave and
+/// the floor deeper than a step, and solved if it ends inside.
+inline void parabola_toi(const BouncingWorld& world, BouncingBall& ball) {
+  BouncingBall end = ball;
+  fly_on(world, end);
+  if (overlaps(end.body, world.floor)) return follow_arc(world, ball, [](double) {});
+  ball = end;
+}
+
+struct BouncePolicy {
+  using Step = void (*)(const BouncingWorld&, BouncingBall&);
+  std::string_view name;
+  bool staggered;  ///< its speeds are half a step early
+  Step step;
+  Step to_the_apex;  ///< steps up to the apex after the next impact: what is timed, so nothing stands between its steps
+
+  bool operator==(const BouncePolicy&) const = default;
+};
+
+template <BouncePolicy::Step step> constexpr BouncePolicy bounce_policy(std::string_view name, bool staggered) {
+  return {name, staggered, step, [](const BouncingWorld& world, BouncingBall& ball) {
+            for (const std::int64_t before = ball.bounces; ball.bounces == before;) step(world, ball);
+            while (ball.velocity > world.gravity * world.step) step(world, ball);
+          }};
+}
+
+/// In the order of the tables.
+inline const std::vector<BouncePolicy> all_bounce_policies = {
+    bounce_policy<project_flip>("project_flip", true), bounce_policy<flip_only>("flip_only", true),
+    bounce_policy<linear_toi>("linear_toi", true), bounce_policy<exact_project>("exact_project", false),
+    bounce_policy<parabola_toi>("parabola_toi", false)};
+
+/// [J/kg] Energy of the flight: gravity times the height that the ball will rise to. Semi-implicit Euler's positions lie on an exact
+/// parabola, and its velocities are that parabola's half a step earlier. Derived in docs/bouncing.md.
+inline double flight_energy(const BouncePolicy& policy, const BouncingWorld& world, const BouncingBall& ball) {
+  const double v = policy.staggered ? ball.velocity - world.gravity * world.step / 2 : ball.velocity;
+  return v * v / 2 + world.gravity * gap_of(ball);
+}
+
+// What is asked of them.
 
 struct BounceCell {
   double gravity;      ///< [m/s^2] > 0
@@ -18,23 +201,30 @@ struct BounceCell {
   double radius;       ///< [m] > 0
   double step;         ///< [s] > 0
   double restitution;  ///< [1] in [0, 1]
+  BouncePolicy policy;
 };
 
-const Factors<BounceCell>& bounce_factors();
+const Factors<BounceCell>& bounce_factors();  ///< but for the policy
 
-/// Every combination of step and restitution, steps from coarse to fine; `each` units come of one. Throws UsageError.
-std::vector<BounceCell> make_bounce_cells(const Settings& settings, std::size_t each = 1);
+/// Every combination of step, restitution and policy: steps from coarse to fine, policies fastest and in the order of the tables.
+/// Throws UsageError.
+std::vector<BounceCell> make_bounce_cells(const Settings& settings);
 
-double impact_speed(const BounceCell& c);  ///< [m/s] V, of the true flight
-double fall_time(const BounceCell& c);     ///< [s] V / g
-double delta(const BounceCell& c);         ///< [1] g h / V: speed that gravity adds in a step, over the impact's
+/// [m/s] V, of the true flight.
+inline double impact_speed(const BounceCell& c) { return std::sqrt(2 * c.gravity * c.height); }
+/// [s] V / g.
+inline double fall_time(const BounceCell& c) { return impact_speed(c) / c.gravity; }
+/// [1] g h / V: speed that gravity adds in a step, over the impact's.
+inline double delta(const BounceCell& c) { return c.gravity * c.step / impact_speed(c); }
 /// The floor is deeper than what a ball falls in a step after `bounces` of which each adds a whole g h to its speed, so that
 /// a test of the pose at the end of a step sees it.
 BouncingWorld world_of(const BounceCell& c, std::int64_t bounces = 1);
 /// [g h / V] More than what rounding does to the energy of a flight of this many steps.
 double rounding_of(const BounceCell& c);
 
-/// The change of energy over the trials of one cell and policy, in the order of the trials.
+// What is measured: bounces each of its own phase, and balls that bounce on and on.
+
+/// The change of energy over the trials of one cell, in the order of the trials.
 struct BounceTally {
   std::int64_t trials = 0;
   double mean = 0;     ///< [g h / V]
@@ -53,34 +243,110 @@ struct BounceTally {
 };
 
 /// [g h / V] Change of the flight's energy when a ball of `cell` meets the floor `phase` in (0, 1) of a step after it began.
-double error_at(const BouncePolicy& policy, const BounceCell& cell, double phase);
+double error_at(const BounceCell& cell, double phase);
+
+/// `trials` bounces at random phases: independent, the same for every policy.
+BounceTally random_bounces(const BounceCell& cell, std::uint64_t seed, std::int64_t trials);
 
 /// One ball that bounces on and on: energy of the flight after each bounce over that of the first flight, until `bounces` or
 /// until a flight has become shorter than two steps. The run begins `elapsed` in [0, 1) of a step after the drop.
-std::vector<double> energies(const BouncePolicy& policy, const BounceCell& cell, double elapsed, std::int64_t bounces);
+std::vector<double> energies(const BounceCell& cell, double elapsed, std::int64_t bounces);
 
 /// [m] The gap at the start of such a run, and after each step.
-std::vector<double> heights(const BouncePolicy& policy, const BounceCell& cell, double elapsed, std::int64_t steps);
+std::vector<double> heights(const BounceCell& cell, double elapsed, std::int64_t steps);
 
-/// `trials` bounces at random phases: independent, the same for every policy.
-BounceTally random_bounces(const BouncePolicy& policy, const BounceCell& cell, std::uint64_t seed, std::int64_t trials);
-
-/// One ball that bounces on and on, whose phases are not random: each follows from the one before.
+/// Balls that bounce on and on, whose phases are not random: each follows from the one before.
 struct LongRunPoint {
-  std::int64_t bounces = 0;
-  std::int64_t runs = 0;
-  double mean = 0, sigma = 0;  ///< [1]
+  std::int64_t bounces = 0, runs = 0;
+  double mean = 0, random_mean = 0, sigma = 0, random_sigma = 0;
 
   static constexpr auto fields() {
     using P = LongRunPoint;
     return record(kept("bounces", &P::bounces, "1", "Bounces so far."), kept("runs", &P::runs, "1", "Balls."),
                   kept("mean", &P::mean, "1", "Mean energy over the first."),
-                  kept("sigma", &P::sigma, "1", "Standard deviation over the runs."));
+                  kept("random_mean", &P::random_mean, "1", "The same at random phases, to first order."),
+                  kept("sigma", &P::sigma, "1", "Standard deviation over the runs."),
+                  kept("random_sigma", &P::random_sigma, "1", "The same at random phases, to first order."));
   }
 };
 
 /// After 1, 2, 4, ... bounces, as long as every run lasts. Each run begins at a time of its own within the first step.
-std::vector<LongRunPoint> long_run(const BouncePolicy& policy, const BounceCell& cell, std::uint64_t seed,
-                                   std::int64_t runs, std::int64_t bounces);
+std::vector<LongRunPoint> long_run(const BounceCell& cell, std::uint64_t seed, std::int64_t runs, std::int64_t bounces);
+
+// What theory says.
+
+/// With delta = g h / V, where V is the speed at which the true flight meets the floor, and u = 1 - 2 tau, where tau in [0, 1] is
+/// the phase: the share of the step that has passed then. The energy after the bounce, over that before, less the
+/// restitution's square, is (c0 + c1 u + c2 u^2) * delta.
+struct BounceTheory {
+  Vec3<double> c = Vec3<double>::Zero();  ///< [g h / V]
+  double at(double u) const { return c[0] + u * (c[1] + u * c[2]); }
+  double mean() const;      ///< [g h / V] over uniform phases
+  double sigma() const;     ///< [g h / V] standard deviation over them
+  double kurtosis() const;  ///< [1] fourth moment about the mean over the variance's square; 9/5 if c2 is 0
+};
+
+/// Requires one of the five policies' names.
+BounceTheory bounce_theory(std::string_view policy, double delta, double restitution);
+
+/// [1] Energy over the first after so many bounces without loss, and its standard deviation, if every phase were random; to first order.
+struct RandomPhases {
+  double mean, sigma;
+};
+RandomPhases at_random_phases(const BounceCell& cell, double bounces);
+
+// Whether the two agree.
+
+/// A cell, what was measured and what theory expects.
+struct BounceRow {
+  BounceCell cell;
+  BounceTally tally;
+  BounceTheory theory = bounce_theory(cell.policy.name, delta(cell), cell.restitution);
+};
+
+Measured measured_mean(const BounceRow& row);  ///< [g h / V] with its 95 % normal interval
+/// Standard errors between the mean and theory, where the two differ by more than rounding; nothing where every bounce is the same.
+std::optional<double> mean_residual(const BounceRow& row);
+/// The same of the variance, whose standard error follows from the kurtosis; nothing below 100 trials.
+std::optional<double> variance_residual(const BounceRow& row);
+
+/// The verdict on one policy. A right theory fails by chance about once in 300 times for each.
+struct BounceTest {
+  std::string_view policy;
+  std::int64_t certain_cells = 0;    ///< every bounce must give what theory says, to rounding
+  std::int64_t certain_wrong = 0;    ///< ... and does not
+  std::int64_t covered = 0;          ///< of the judged means, those whose 95 % interval holds the theory
+  ResidualTest means = {};           ///< of cells with at least 30 bounces, and phases that matter
+  ResidualTest variances = {};       ///< of those with at least 100
+  std::int64_t other_cells = 0;      ///< too few bounces to judge
+  Interval covered_allowed() const;  ///< central 99.9 % of Binomial(judged, 0.95); requires that some are
+  bool passed() const;
+};
+std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows);  ///< by policy
+
+// Impacts that come in crowds: at one instant, without end, or in tens of millions. Each has an answer of its own to be held against.
+
+struct BounceScenario {
+  std::string name;      ///< what is done
+  std::string must;      ///< what must happen
+  std::string happened;  ///< what did
+  bool passed = false;
+  std::string group = {};  ///< the kind that it is of
+
+  static constexpr auto fields() {
+    using S = BounceScenario;
+    return record(kept("group", &S::group, "", "Kind of scenario."), kept("scenario", &S::name, "", "What is done."),
+                  kept("must", &S::must, "", "What must happen."), kept("happened", &S::happened, "", "What did."),
+                  kept("passed", &S::passed, "", "It is what must."));
+  }
+};
+
+/// What happens in each, and what must, is told in docs/bouncing.md.
+inline constexpr std::array<std::string_view, 7> scenario_groups = {"zeno",   "rest",   "walls", "gap",
+                                                                    "masses", "cradle", "digits"};
+
+/// All of one group: masses `mass_ratios` apart, and up to `digits` <= 7 digits of pi after its first, in float at most 5.
+std::vector<BounceScenario> bounce_scenarios(std::string_view group, const std::vector<double>& mass_ratios,
+                                             int digits);
 
 }  // namespace thinwall
