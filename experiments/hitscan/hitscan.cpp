@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/hitscan/theory.hpp>
+#include <thinwall/experiments/hitscan/model.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/race.hpp>
@@ -41,7 +39,8 @@ constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 std::optional<double> missed_share(const auto& row) { return share_of(missed(row), true_hits(row)); }
 std::optional<double> missed_share_theory(const Row& row) { return share_of(row.expected.missed, row.expected.touch); }
 
-double steps_late(const Row& row) { return row.tally.lateness.mean(time_unit(row.cell)) / row.cell.step; }
+double radius_of(const Row& row) { return row.cell.radius; }
+double steps_late(const Row& row) { return row.tally.lateness.mean() / row.cell.step; }
 
 Rows of_rule(const Rows& rows, const HitscanRule& rule) {
   return only(rows, [&](const Row& row) { return row.rule.name == rule.name; });
@@ -69,17 +68,17 @@ Columns<Row> row_columns() {
       value("false_theory", "1", "The share by theory.",
             [](const Row& r) { return share_of(r.expected.false_hits, r.expected.reported); }),
       value("path_error_mean", "m", "From the rule's path to the arc, where they cross the plane of the target.",
-            [](const Row& r) { return r.tally.path_error.mean(length_unit(r.cell)); }),
+            [](const Row& r) { return r.tally.path_error.mean(); }),
       value("path_error_theory", "m", "The same by theory.", [](const Row& r) { return r.expected.path_error.mean; }),
       value("path_error_max", "m", "The largest.", [](const Row& r) { return r.tally.path_error.most; }),
       value("path_error_bound", "m", "The largest possible, by theory.",
-            [](const Row& r) { return r.expected.path_error_most; }),
+            [](const Row& r) { return r.expected.path_error_possible.upper; }),
       where(is_timed,
             columns_of<Row>(
                 value("point_error_mean", "m",
                       "From the reported point on the target to the true one, of the true hits it reports; missing if "
                       "there are none.",
-                      [](const Row& r) { return r.tally.point_error.mean(length_unit(r.cell)); }),
+                      [](const Row& r) { return r.tally.point_error.mean(); }),
                 value("point_error_max", "m", "The largest.", [](const Row& r) { return r.tally.point_error.most; }),
                 value("lateness_mean", "step", "From first contact to the report, of the same hits; < 0 is early.",
                       steps_late))),
@@ -212,12 +211,6 @@ Plot drawn(const Rows& rows) {
   return plot(columns, rows);
 }
 
-std::set<double> radii_of(const Rows& rows) {
-  std::set<double> radii;
-  for (const Row& row : rows) radii.insert(row.cell.radius);
-  return radii;
-}
-
 /// Of hitscan, all with some deflection and the same target.
 Figure missed_figure(const Rows& rays, double target) {
   const auto over_deflection = [&](const char* y, const char* label, double height) {
@@ -229,7 +222,7 @@ Figure missed_figure(const Rows& rays, double target) {
   };
   Plot unseen = over_deflection("missed_share", "true hits missed [1]", 1.3);
   Plot wrong = over_deflection("false_share", "hits that are false [1]", 1.3);
-  for (const double radius : radii_of(rays)) {
+  for (const double radius : distinct(rays, radius_of)) {
     unseen.curve("theory, flat fire", [=](double off) { return flat_missed(target, radius, off * target); });
     wrong.curve("theory, flat fire", [=](double off) { return flat_false(target, radius, off * target); });
   }
@@ -314,7 +307,7 @@ std::string ray_answer(const Rows& rows) {
   const Rows rays =
       only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
   if (rays.empty()) return "";
-  const double thin = *radii_of(rays).begin();
+  const double thin = std::ranges::min(distinct(rays, radius_of));
   double good = 0, bad = std::numeric_limits<double>::infinity();
   for (const Row& row : rays) {
     if (row.cell.radius != thin) continue;
@@ -387,11 +380,9 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  std::vector<std::string_view> names;
-  std::ranges::transform(hitscan_rules, std::back_inserter(names), &HitscanRule::name);
-  std::vector<HitscanRule> rules;
-  for (const std::string& name : settings.choices_or_all("rule", names))
-    rules.push_back(*std::ranges::find(hitscan_rules, name, &HitscanRule::name));
+  const auto names = settings.choices_or_all("rule", distinct(hitscan_rules, &HitscanRule::name));
+  const auto is_asked = [&](const HitscanRule& rule) { return std::ranges::find(names, rule.name) != names.end(); };
+  const std::vector<HitscanRule> rules = only(hitscan_rules, is_asked);
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::vector<Cell> cells = make_hitscan_cells(settings);
   std::vector<Task<std::vector<Tally>>> tasks;
@@ -400,7 +391,11 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
                      [rules, cell, shots, seed = options.seed] { return shoot(rules, cell, seed, shots); }});
   }
   const auto finish = [cells, rules](const Done<std::vector<Tally>>& done) {
-    return outcome_of(cells, hitscan_rows(cells, rules, done.results));
+    Rows rows;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (std::size_t k = 0; k < rules.size(); ++k) rows.push_back({cells[i], rules[k], done.results[i][k]});
+    }
+    return outcome_of(cells, rows);
   };
   return make_run(finish, std::move(tasks));
 }

@@ -42,29 +42,6 @@ void check(const Settings& settings, const HitscanCell& c) {
     refuse("step", fmt::format("a path of at least {} of target + radius a step", least_path));
 }
 
-using Real = long double;
-
-/// The arc, seen from the target's center: in its plane, and how far beside that plane the center is.
-struct ArcFromTarget {
-  Arc<Real> arc;
-  Real range, along, beside_squared, reach;
-
-  /// Of the distance from the target's center: its square less that of contact.
-  Real excess(const Real& x) const {
-    const Real s = at_distance(arc, x).s - along, ahead = x - range;
-    return ahead * ahead + s * s + beside_squared - reach * reach;
-  }
-  /// The sign of its slope.
-  Real slope(const Real& x) const {
-    const auto p = at_distance(arc, x);
-    return (x - range) + (p.s - along) * p.vs / p.vx;
-  }
-  bool passes_beside() const {
-    const Real low = at_distance(arc, Real(range - reach)).s, high = at_distance(arc, Real(range + reach)).s;
-    return beside_squared > reach * reach || along < low - reach || along > high + reach;
-  }
-};
-
 /// A straight bit of the way a rule takes the bullet to fly. A line takes no time.
 struct FlightPiece {
   Vec3<double> start, displacement;  ///< [m]
@@ -78,10 +55,8 @@ std::vector<FlightPiece> flight_pieces(FlightPath path, const HitscanCell& c, do
   const auto in_plane = [pull = pull_direction(c)](double x, double s) -> Vec3<double> {
     return Vec3<double>(1, 0, 0) * x + pull * s;
   };
-  const std::vector<double> frames = frames_near_target(c, phase);
   std::vector<FlightPiece> pieces;
-  for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
-    const double from = frames[i], until = frames[i + 1];
+  for (const auto& [from, until] : steps_near_target(c, phase)) {
     const auto here = after(arc, from), next = after(arc, until);
     const Vec3<double> start = in_plane(here.x, here.s);
     const Vec3<double> tangent = in_plane(here.vx, here.vs) * (until - from), chord = in_plane(next.x, next.s) - start;
@@ -96,15 +71,6 @@ std::optional<RayHit<double>> hit_on(const FlightPiece& piece, const HitscanRule
   const auto toi = time_of_impact(Moving{Sphere{piece.start, c.radius}, piece.displacement}, at_rest(target));
   if (toi.status != ToiStatus::hit && toi.status != ToiStatus::overlapping) return std::nullopt;
   return RayHit<double>{toi.time, toi.point, toi.normal};
-}
-
-double report_time(ReportTime report, const FlightPiece& piece, double part) {
-  switch (report) {
-    case ReportTime::firing: return 0;
-    case ReportTime::end_of_step: return piece.until;
-    case ReportTime::in_step: break;
-  }
-  return piece.from + part * (piece.until - piece.from);
 }
 
 }  // namespace
@@ -158,20 +124,25 @@ double disc_radius(const HitscanCell& c) {
   return c.aim * reach(c) * std::hypot(1.0, there.vs / there.vx);  // a ball's shadow along a steep arc is an ellipse
 }
 
-HitscanWindow contact_window(const HitscanCell& c) {
+Interval contact_window(const HitscanCell& c) {
   const auto arc = arc_of<double>(c);
   return {time_to(arc, c.range - reach(c)), time_to(arc, c.range + reach(c))};
 }
 
-std::vector<double> frames_near_target(const HitscanCell& c, double phase) {
-  const HitscanWindow window = contact_window(c);
-  double frame = std::max(0.0, std::floor(window.from / c.step + phase) - 1);
-  std::vector<double> times;
-  do {
-    times.push_back(frame > 0 ? (frame - phase) * c.step : 0);
-    frame += 1;
-  } while (times.back() < window.until);
-  return times;
+Interval step_after(const HitscanCell& c, double phase, double frames) {
+  return {frames > 0 ? (frames - phase) * c.step : 0, (frames + 1 - phase) * c.step};
+}
+
+double frames_before(const HitscanCell& c, double phase, double time) {
+  return std::max(0.0, std::floor(time / c.step + phase) - 1);
+}
+
+std::vector<Interval> steps_near_target(const HitscanCell& c, double phase) {
+  const Interval window = contact_window(c);
+  double frames = frames_before(c, phase, window.lower);
+  std::vector<Interval> steps = {step_after(c, phase, frames)};
+  while (steps.back().upper < window.upper) steps.push_back(step_after(c, phase, ++frames));
+  return steps;
 }
 
 std::vector<HitscanCell> make_hitscan_cells(const Settings& settings) {
@@ -207,21 +178,30 @@ Placement random_placement(const HitscanCell& c, const RandomStream& stream, std
 }
 
 TrueImpact true_impact(const HitscanCell& c, const Vec3<double>& target_center) {
+  using Real = long double;
+  const auto arc = arc_of<Real>(c);
   const Vec3<Real> pull = pull_direction(c).cast<Real>(), center(0, target_center[1], target_center[2]);
-  const Real along = center.dot(pull), reach = Real(c.target) + Real(c.radius);
-  const ArcFromTarget seen = {arc_of<Real>(c), target_center[0], along, (center - pull * along).squaredNorm(), reach};
-  if (seen.passes_beside()) return {false};
-  const Real first = seen.range - reach, last = seen.range + reach;
-  Real closest = seen.slope(first) >= 0 ? first : last;
-  if (seen.slope(first) < 0 && seen.slope(last) > 0) {
-    closest = root([&](const Real& x) { return seen.slope(x); }, first, last);
-  }
-  if (seen.excess(closest) > 0) return {false};
-  const Real entry =
-      seen.excess(first) <= 0 ? first : root([&](const Real& x) { return seen.excess(x); }, first, closest);
-  const Real s = at_distance(seen.arc, entry).s;
-  const Vec3<Real> bullet = Vec3<Real>(entry, 0, 0) + pull * s;
-  return {true, static_cast<double>(time_to(seen.arc, entry)), bullet.cast<double>()};
+  const Real range = target_center[0], reach = Real(c.target) + Real(c.radius), first = range - reach,
+             last = range + reach;
+  const Real along = center.dot(pull),
+             beside = (center - pull * along).squaredNorm();  // in the arc's plane; squared, off it
+  if (beside > reach * reach || along < at_distance(arc, first).s - reach || along > at_distance(arc, last).s + reach)
+    return {false};
+  // Of the distance from the target's center: its square less that of contact, and the sign of its slope.
+  const auto excess = [&](const Real& x) -> Real {
+    const Real s = at_distance(arc, x).s - along, ahead = x - range;
+    return ahead * ahead + s * s + beside - reach * reach;
+  };
+  const auto slope = [&](const Real& x) -> Real {
+    const auto p = at_distance(arc, x);
+    return (x - range) + (p.s - along) * p.vs / p.vx;
+  };
+  Real closest = slope(first) >= 0 ? first : last;
+  if (slope(first) < 0 && slope(last) > 0) closest = root(slope, first, last);
+  if (excess(closest) > 0) return {false};
+  const Real entry = excess(first) <= 0 ? first : root(excess, first, closest);
+  const Vec3<Real> bullet = Vec3<Real>(entry, 0, 0) + pull * at_distance(arc, entry).s;
+  return {true, static_cast<double>(time_to(arc, entry)), bullet.cast<double>()};
 }
 
 Vec3<double> contact_point(const HitscanCell& c, const TrueImpact& truth, const Vec3<double>& target_center) {
@@ -240,7 +220,7 @@ HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Pla
     const auto hit = hit_on(piece, rule, c, placement.target);
     if (!hit) continue;
     answer.hit = true;
-    answer.time = report_time(rule.report, piece, hit->t);
+    answer.time = rule.path == FlightPath::tangents ? piece.until : piece.from + hit->t * (piece.until - piece.from);
     answer.point = hit->point;
   }
   return answer;
@@ -248,25 +228,25 @@ HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Pla
 
 constexpr int sum_bits = 30;
 
-void HitscanSpread::add(double x, double unit) {
+void HitscanSpread::add(double x) {
   ++count;
   sum += std::llround(std::ldexp(x / unit, sum_bits));
   least = std::min(least, x);
   most = std::max(most, x);
 }
 
-double HitscanSpread::mean(double unit) const {
+double HitscanSpread::mean() const {
   return std::ldexp(static_cast<double>(sum), -sum_bits) * unit / static_cast<double>(count);
 }
 
-double time_unit(const HitscanCell& c) { return contact_window(c).until + c.step; }
-double length_unit(const HitscanCell& c) { return deflection(c) + reach(c); }
-
-std::vector<HitscanTally> shoot(std::span<const HitscanRule> rules, const HitscanCell& c, std::uint64_t seed,
+std::vector<HitscanTally> shoot(const std::vector<HitscanRule>& rules, const HitscanCell& c, std::uint64_t seed,
                                 std::int64_t shots) {
   const RandomStream stream = random_stream(c, seed);
   const Vec3<double> arc_at_range = Vec3<double>(c.range, 0, 0) + pull_direction(c) * deflection(c);
-  std::vector<HitscanTally> tallies(rules.size());
+  HitscanTally none;
+  none.lateness.unit = contact_window(c).upper + c.step;
+  none.path_error.unit = none.point_error.unit = deflection(c) + reach(c);
+  std::vector<HitscanTally> tallies(rules.size(), none);
   for (std::int64_t i = 0; i < shots; ++i) {
     const Placement placement = random_placement(c, stream, static_cast<std::uint64_t>(i));
     const Vec3<double>& center = placement.target.center;
@@ -278,10 +258,10 @@ std::vector<HitscanTally> shoot(std::span<const HitscanRule> rules, const Hitsca
       tally.touching += truth.touches ? 1 : 0;
       tally.missed += truth.touches && !answer.hit ? 1 : 0;
       tally.false_hits += !truth.touches && answer.hit ? 1 : 0;
-      tally.path_error.add((answer.at_range - arc_at_range).norm(), length_unit(c));
+      tally.path_error.add((answer.at_range - arc_at_range).norm());
       if (!truth.touches || !answer.hit) continue;
-      tally.lateness.add(answer.time - truth.time, time_unit(c));
-      tally.point_error.add((answer.point - contact_point(c, truth, center)).norm(), length_unit(c));
+      tally.lateness.add(answer.time - truth.time);
+      tally.point_error.add((answer.point - contact_point(c, truth, center)).norm());
     }
   }
   return tallies;

@@ -1,20 +1,98 @@
 #pragma once
-/// A bullet fired level from the origin along +x, and a ball for a target: the conditions, the shots, whether and when the bullet
-/// truly touches, and the rules that guess it. y is up; the wind blows along +z.
+/// A bullet fired level from the origin along +x, and a ball for a target: the arc, the conditions, the shots, whether and when the
+/// bullet truly touches, and the rules that guess it; what geometry expects of that, and whether what was counted and measured agrees.
+/// y is up; the wind blows along +z. Derived in docs/hitscan.md.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <span>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <boost/icl/interval_set.hpp>
+#include <boost/math/special_functions/log1p.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+
 #include <thinwall/discrete/sphere.hpp>
-#include <thinwall/experiments/hitscan/arc.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
+#include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
+
+// The arc of a bullet with a drag that grows as the speed: dv/dt = -k (v - wind) + gravity. A constant wind acts as a constant pull
+// k * wind, so gravity and wind add up to one pull `a`, and the arc lies in one plane:
+//
+//   tau = (1 - exp(-k t)) / k,   x = v tau,   s = a (t - tau) / k.
+
+template <class Real> struct Arc {
+  Real speed;  ///< [m/s] > 0, at the muzzle
+  Real drag;   ///< [1/s] >= 0
+  Real pull;   ///< [m/s^2] >= 0, across the line of fire
+};
+
+/// [s] tau: the time in which a bullet without drag would get as far. t >= 0.
+template <class Real> Real undragged_time(const Real& drag, const Real& t) {
+  using std::expm1;
+  const Real kt = drag * t;
+  return kt < std::numeric_limits<Real>::epsilon() ? t : Real(-expm1(-kt) / drag);
+}
+
+/// [s] The other way round. 0 <= drag * tau < 1.
+template <class Real> Real dragged_time(const Real& drag, const Real& tau) {
+  using std::log1p;
+  const Real y = drag * tau;
+  return y < std::numeric_limits<Real>::epsilon() ? tau : Real(-log1p(-y) / drag);
+}
+
+/// [s^2] (t - tau) / k as a function of tau: the deflection of a pull of 1. With y = k tau it is (-log(1 - y) - y) /
+/// k^2, a sum of positive terms tau^2 (1/2 + y/3 + ...), so that it loses no digits where the subtraction would.
+/// Error: a few units of round-off for 0 <= y <= 0.99.
+template <class Real> Real pull_factor(const Real& drag, const Real& tau) {
+  using std::log1p;
+  const Real y = drag * tau;
+  if (y < std::numeric_limits<Real>::epsilon()) return tau * tau / 2;
+  if (y < Real(1) / 2) return -boost::math::log1pmx(Real(-y)) / (drag * drag);
+  return (-log1p(-y) - y) / (drag * drag);
+}
+
+/// Where the bullet is, and how it moves, after a time or at a distance: along the line of fire, and across, along the
+/// pull.
+template <class Real> struct ArcPoint {
+  Real x, s;    ///< [m]
+  Real vx, vs;  ///< [m/s]
+};
+
+template <class Real> ArcPoint<Real> after_undragged(const Arc<Real>& arc, const Real& tau) {
+  return {arc.speed * tau, arc.pull * pull_factor(arc.drag, tau), arc.speed * (1 - arc.drag * tau), arc.pull * tau};
+}
+template <class Real> ArcPoint<Real> after(const Arc<Real>& arc, const Real& t) {
+  return after_undragged(arc, undragged_time(arc.drag, t));
+}
+/// Requires drag * x < speed.
+template <class Real> ArcPoint<Real> at_distance(const Arc<Real>& arc, const Real& x) {
+  return after_undragged(arc, Real(x / arc.speed));
+}
+/// [s] From the muzzle to distance x >= 0. Requires drag * x < speed.
+template <class Real> Real time_to(const Arc<Real>& arc, const Real& x) {
+  return dragged_time(arc.drag, Real(x / arc.speed));
+}
+
+/// Where a function that is negative at the one end and positive at the other is zero, to so many binary digits.
+template <class Real, class Function>
+Real root(const Function& f, const Real& lower, const Real& upper,
+          unsigned digits = std::numeric_limits<Real>::digits - 2) {
+  const boost::math::tools::eps_tolerance<Real> tolerance(digits);
+  std::uintmax_t most = 200;
+  const auto bracket = boost::math::tools::toms748_solve(f, lower, upper, tolerance, most);
+  return bracket.first + (bracket.second - bracket.first) / 2;
+}
+
+// The conditions.
 
 struct HitscanCell {
   double range;    ///< [m] > 2 (target + radius): x of the target's center
@@ -62,15 +140,16 @@ double deflection(const HitscanCell& c);   ///< [m] of the arc from the line of 
 double flight_time(const HitscanCell& c);  ///< [s] from the muzzle to the range
 double disc_radius(const HitscanCell& c);  ///< [m] of the two discs that the target's center is drawn from
 
-/// The times [s] at which the bullet is as near to the target's plane as contact needs.
-struct HitscanWindow {
-  double from, until;
-};
-HitscanWindow contact_window(const HitscanCell& c);
+Interval contact_window(
+    const HitscanCell& c);  ///< [s] when the bullet is as near to the target's plane as contact needs
 
-/// The bounds [s] of the steps from the last but one before the window to the one that ends it. The gun goes off
-/// `phase` [1], in [0, 1), of a step after a frame, so that the first step is shorter. Time counts from there.
-std::vector<double> frames_near_target(const HitscanCell& c, double phase);
+/// [s] Since firing: the step after so many frames. The gun goes off `phase` [1], in [0, 1), of a step after a frame, so that the
+/// first step is shorter.
+Interval step_after(const HitscanCell& c, double phase, double frames);
+double frames_before(const HitscanCell& c, double phase,
+                     double time);  ///< before the last step but one that ends by then
+/// From the last but one before the window of contact to the one that ends it.
+std::vector<Interval> steps_near_target(const HitscanCell& c, double phase);
 
 // The shots and the oracle: no rule is in here.
 
@@ -93,32 +172,25 @@ TrueImpact true_impact(const HitscanCell& c, const Vec3<double>& target_center);
 /// [m] Where on the target the bullet touches it.
 Vec3<double> contact_point(const HitscanCell& c, const TrueImpact& truth, const Vec3<double>& target_center);
 
-// The rules: which way the bullet is taken to fly, whether it has a radius, and when a hit is reported.
+// The rules: which way the bullet is taken to fly, and with it when a hit is reported, and whether the bullet has a radius.
 
 enum class FlightPath {
-  line,      ///< along the line of fire, at once and without end
-  tangents,  ///< every step along the velocity at its start, as far as the bullet would get in the step
-  chords,    ///< every step straight to where the bullet is at its end
-};
-
-enum class ReportTime {
-  firing,       ///< when the gun goes off
-  end_of_step,  ///< at the next frame
-  in_step,      ///< when the rule says that they touch
+  line,      ///< along the line of fire, at once and without end: a hit is reported when the gun goes off
+  tangents,  ///< every step along the velocity at its start, as far as the bullet would get in the step: at the next frame
+  chords,  ///< every step straight to where the bullet is at its end: when the rule says that they touch
 };
 
 struct HitscanRule {
   std::string_view name;
   FlightPath path;
   bool has_radius;  ///< the bullet is swept as a ball, by `time_of_impact`; otherwise its center, by `raycast`
-  ReportTime report;
 };
 
-inline constexpr HitscanRule hitscan_ray = {"hitscan", FlightPath::line, false, ReportTime::firing};
-inline constexpr HitscanRule hitscan_ball = {"hitscan_ball", FlightPath::line, true, ReportTime::firing};
-inline constexpr HitscanRule next_frame = {"next_frame", FlightPath::tangents, false, ReportTime::end_of_step};
-inline constexpr HitscanRule swept_steps = {"swept_steps", FlightPath::chords, true, ReportTime::in_step};
-inline constexpr std::array hitscan_rules = {hitscan_ray, hitscan_ball, next_frame, swept_steps};
+inline constexpr HitscanRule hitscan_ray = {"hitscan", FlightPath::line, false};
+inline constexpr HitscanRule hitscan_ball = {"hitscan_ball", FlightPath::line, true};
+inline constexpr HitscanRule next_frame = {"next_frame", FlightPath::tangents, false};
+inline constexpr HitscanRule swept_steps = {"swept_steps", FlightPath::chords, true};
+inline const std::vector<HitscanRule> hitscan_rules = {hitscan_ray, hitscan_ball, next_frame, swept_steps};
 
 struct HitscanAnswer {
   bool hit = false;
@@ -130,18 +202,18 @@ HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Pla
 
 // What is counted.
 
-/// A sum and the extremes of a quantity. The sum is kept in 2^-30 of a unit that the cell sets: it does not add up over cells.
+/// The mean and the extremes of a quantity. The sum is kept in 2^-30 of a unit that the cell sets: it does not add up over cells.
 struct HitscanSpread {
   std::int64_t count = 0, sum = 0;
-  double least = no_least, most = no_most;  ///< in its own unit
+  double least = no_least, most = no_most, unit = 0;  ///< in the unit of what is measured
 
-  void add(double x, double unit);  ///< |x| <= 2 `unit`, so that 2^30 of them add up without overflow
-  double mean(double unit) const;   ///< requires count > 0
+  void add(double x);   ///< |x| <= 2 `unit`, so that 2^30 of them add up without overflow
+  double mean() const;  ///< requires count > 0
   static constexpr auto fields() {
     using S = HitscanSpread;
     return record(thinwall::sum("count", &S::count, "1", "How many."), kept("sum", &S::sum),
                   thinwall::least("least", &S::least, "1", "The least."),
-                  thinwall::most("most", &S::most, "1", "The largest."));
+                  thinwall::most("most", &S::most, "1", "The largest."), kept("unit", &S::unit));
   }
 };
 
@@ -162,12 +234,76 @@ struct HitscanTally {
   }
 };
 
-/// The units of a cell's sums.
-double time_unit(const HitscanCell& c);    ///< [s]
-double length_unit(const HitscanCell& c);  ///< [m]
-
 /// All shots of a cell, put to every rule; as long as `rules`.
-std::vector<HitscanTally> shoot(std::span<const HitscanRule> rules, const HitscanCell& c, std::uint64_t seed,
+std::vector<HitscanTally> shoot(const std::vector<HitscanRule>& rules, const HitscanCell& c, std::uint64_t seed,
                                 std::int64_t shots);
+
+// What geometry expects. First, which places of a ball a path meets, in a plane.
+
+/// A straight bit of path in the plane of the arc, x0 < x1.
+struct PathPiece {
+  double x0, s0, x1, s1;  ///< [m]
+};
+
+/// A set of places on a line.
+using Places = boost::icl::interval_set<double>;
+
+/// The places `p` for which some point of the pieces has (x - range)^2 + (s - p)^2 <= radius^2.
+Places shadow(const std::vector<PathPiece>& pieces, double range, double radius);
+
+/// [m^2] What two discs, their centers `apart`, have in common.
+double lens_area(double radius_a, double radius_b, double apart);
+
+/// Mean and spread of a quantity from shot to shot.
+struct HitscanMoments {
+  double mean = 0, sigma = 0;
+};
+
+/// What a rule should count, as shares of the shots, and measure.
+struct HitscanExpected {
+  double touch;                            ///< the bullet truly hits
+  double reported;                         ///< the rule says so
+  double missed;                           ///< the bullet hits, and the rule says no
+  double false_hits;                       ///< it does not, and the rule says so
+  HitscanMoments path_error;               ///< [m] from the rule's path to the arc at the range
+  Interval path_error_possible;            ///< [m]
+  std::optional<HitscanMoments> lateness;  ///< [s], of next_frame
+  Interval lateness_possible;              ///< [s] whatever the rule
+};
+HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c);
+
+/// The limit of flat fire: the shadows are discs, `deflection` [m] apart.
+double flat_missed(double target, double radius, double deflection);  ///< [1] of the true hits, by hitscan
+double flat_false(double target, double radius, double deflection);   ///< [1] of its hits
+
+/// [m] The range at which hitscan misses that share of the true hits, of a bullet without radius, in the limit of flat
+/// fire. The other factors are the cell's. Nothing where no range does: no pull, or the bullet does not get there.
+std::optional<double> range_of_missed(const HitscanCell& c, double share);
+
+// Whether the two agree.
+
+/// A cell, a rule, what was counted and measured and what theory expects.
+struct HitscanRow {
+  HitscanCell cell;
+  HitscanRule rule;
+  HitscanTally tally;
+  HitscanExpected expected = expected_of(rule, cell);
+};
+
+inline std::string_view rule_name(const HitscanRow& row) { return row.rule.name; }
+
+/// What is held against theory: of each rule "reported", "missed" and "false", of the oracle, "exact arc", "touching".
+std::vector<CellCount> counts_of(const std::vector<HitscanRow>& rows);
+
+/// A measured quantity of one rule, over all cells, against theory: means by chi-square, extremes by what geometry
+/// allows.
+struct HitscanMomentTest {
+  std::string rule, quantity;
+  std::int64_t cells = 0;          ///< with a measurement
+  std::int64_t out_of_bounds = 0;  ///< ... that is beyond what is possible, more than rounding explains
+  ResidualTest means = {};         ///< with an expected mean, and at least 50 shots
+  bool passed() const { return out_of_bounds == 0 && means.passed(); }
+};
+std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanRow>& rows);
 
 }  // namespace thinwall

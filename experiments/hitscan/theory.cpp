@@ -1,4 +1,5 @@
-#include <thinwall/experiments/hitscan/theory.hpp>
+/// What geometry expects of a cell, derived in docs/hitscan.md, and whether what was counted and measured agrees with it.
+#include <thinwall/experiments/hitscan/model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,15 +47,11 @@ HitscanMoments over_phases(const HitscanRule& rule, const HitscanCell& c, const 
   return {mean, std::sqrt(std::max(0.0, squares / moment_phases - mean * mean))};
 }
 
-struct FrameAt {
-  double begins, ends;  ///< [s] since firing
-};
-/// The first frame that covers(its start, time since then, its length) where the bullet is at `t`, or begins there.
-template <class Covers> FrameAt first_frame(const HitscanCell& c, double phase, double t, const Covers& covers) {
-  double frame = std::max(0.0, std::floor(t / c.step + phase) - 1);
-  for (;; frame += 1) {
-    const double begins = frame > 0 ? (frame - phase) * c.step : 0, ends = (frame + 1 - phase) * c.step;
-    if (begins >= t || covers(begins, t - begins, ends - begins)) return {begins, ends};
+/// The first step that covers(its start, time since then, its length) where the bullet is at `t`, or begins there.
+template <class Covers> Interval first_step(const HitscanCell& c, double phase, double t, const Covers& covers) {
+  for (double frames = frames_before(c, phase, t);; ++frames) {
+    const Interval step = step_after(c, phase, frames);
+    if (step.lower >= t || covers(step.lower, t - step.lower, step.upper - step.lower)) return step;
   }
 }
 
@@ -65,10 +62,10 @@ double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
   const double there = flight_time(c);
   const auto fallen = [&](double t) { return arc.pull * pull_factor(arc.drag, undragged_time(arc.drag, t)); };
   const bool is_tangent = rule.path == FlightPath::tangents;  // which gets as far as a bullet without drag
-  const FrameAt frame = first_frame(c, phase, there, [&](double, double since, double length) {
+  const Interval step = first_step(c, phase, there, [&](double, double since, double length) {
     return (is_tangent ? undragged_time(arc.drag, since) : since) <= length;
   });
-  const double since = there - frame.begins, length = frame.ends - frame.begins;
+  const double since = there - step.lower, length = step.upper - step.lower;
   if (is_tangent) return fallen(since);
   const double part = undragged_time(arc.drag, since) / undragged_time(arc.drag, length);
   return part * fallen(length) - fallen(since);
@@ -80,16 +77,13 @@ HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c) {
   return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
 }
 
-/// [m] No path error is larger.
-double path_error_bound(const HitscanRule& rule, const HitscanCell& c) {
+/// [m] No path error is beyond.
+Interval possible_path_error(const HitscanRule& rule, const HitscanCell& c) {
+  if (rule.path == FlightPath::line) return {deflection(c), deflection(c)};
   const auto arc = arc_of<double>(c);
-  switch (rule.path) {
-    case FlightPath::line: return deflection(c);
-    case FlightPath::tangents: return arc.pull * pull_factor(arc.drag, c.step);  // its own speed takes the ray that far
-    case FlightPath::chords: break;
-  }
+  if (rule.path == FlightPath::tangents) return {0, arc.pull * pull_factor(arc.drag, c.step)};  // by its own speed
   const double tau = undragged_time(arc.drag, c.step), longest = tau / (1 - arc.drag * tau);
-  return arc.pull * longest * longest / 8;  // the arc's curvature over tau is at most pull / (1 - drag * tau)^2
+  return {0, arc.pull * longest * longest / 8};  // the arc's curvature over tau is at most pull / (1 - drag * tau)^2
 }
 
 /// [s] What is left of the step in which the center gets to the target, and how much earlier the ball touches.
@@ -108,12 +102,12 @@ HitscanMoments next_frame_lateness(const HitscanCell& c) {
   }
   const double arrival = flight_time(c) - depth / speed;
   const HitscanMoments rest = over_phases(next_frame, c, [&](double phase) {
-    const FrameAt frame = first_frame(c, phase, arrival, [&](double begins, double since, double length) {
+    const Interval step = first_step(c, phase, arrival, [&](double begins, double since, double length) {
       const auto start = after(arc, begins);
       const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;
       return tau + arc.pull * start.vs / square * pull_factor(arc.drag, tau) <= length;  // along the ray
     });
-    return frame.ends - arrival;
+    return step.upper - arrival;
   });
   const double variance = std::max(0.0, ahead_squared - ahead * ahead) / (speed * speed);
   return {rest.mean + ahead / speed, std::hypot(rest.sigma, std::sqrt(variance))};
@@ -121,33 +115,26 @@ HitscanMoments next_frame_lateness(const HitscanCell& c) {
 
 constexpr int count_phases = 32;
 
-std::vector<PathPiece> pieces_of(FlightPath path, const HitscanCell& c, double phase) {
-  if (path == FlightPath::line) return {{0, 0, 2 * c.range, 0}};
-  const auto arc = arc_of<double>(c);
-  const std::vector<double> frames = frames_near_target(c, phase);
+/// The chords of the steps, or the tangents at their starts, as far as the bullet would get.
+std::vector<PathPiece> pieces_of(FlightPath path, const Arc<double>& arc, const std::vector<Interval>& steps) {
   std::vector<PathPiece> pieces;
-  for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
-    const auto a = after(arc, frames[i]), b = after(arc, frames[i + 1]);
-    const double step = frames[i + 1] - frames[i];
+  for (const auto& [from, until] : steps) {
+    const auto a = after(arc, from), b = after(arc, until);
     const bool chord = path == FlightPath::chords;
-    pieces.push_back({a.x, a.s, chord ? b.x : a.x + a.vx * step, chord ? b.s : a.s + a.vs * step});
+    pieces.push_back({a.x, a.s, chord ? b.x : a.x + a.vx * (until - from), chord ? b.s : a.s + a.vs * (until - from)});
   }
   return pieces;
 }
 
 /// The arc itself, as chords far finer than any rule's.
 std::vector<PathPiece> pieces_of_arc(const HitscanCell& c) {
-  const HitscanWindow window = contact_window(c);
-  const auto arc = arc_of<double>(c);
-  const int slices = 64 * (1 + static_cast<int>((window.until - window.from) / c.step));
-  std::vector<PathPiece> pieces;
-  auto here = after(arc, window.from);
-  for (int i = 1; i <= slices; ++i) {
-    const auto next = after(arc, window.from + (window.until - window.from) * i / slices);
-    pieces.push_back({here.x, here.s, next.x, next.s});
-    here = next;
-  }
-  return pieces;
+  const Interval window = contact_window(c);
+  const double across = window.upper - window.lower;
+  const int slices = 64 * (1 + static_cast<int>(across / c.step));
+  std::vector<Interval> steps;
+  for (int i = 0; i < slices; ++i)
+    steps.push_back({window.lower + across * i / slices, window.lower + across * (i + 1) / slices});
+  return pieces_of(FlightPath::chords, arc_of<double>(c), steps);
 }
 
 struct Areas {
@@ -161,7 +148,11 @@ Areas areas_of(const HitscanRule& rule, const HitscanCell& c) {
   const double outer = reach(c), inner = c.target, rule_reach = rule.has_radius ? outer : inner;
   const int phases = rule.path == FlightPath::line ? 1 : count_phases;
   std::vector<std::vector<PathPiece>> paths;
-  for (int i = 0; i < phases; ++i) paths.push_back(pieces_of(rule.path, c, phase_of(rule, c, i, phases)));
+  for (int i = 0; i < phases; ++i) {
+    const bool line = rule.path == FlightPath::line;
+    paths.push_back(line ? std::vector<PathPiece>{{0, 0, 2 * c.range, 0}}
+                         : pieces_of(rule.path, arc_of<double>(c), steps_near_target(c, phase_of(rule, c, i, phases))));
+  }
   const std::vector<PathPiece> arc = pieces_of_arc(c);
   constexpr int turns = 96;
   Areas sum;
@@ -192,27 +183,26 @@ double drawn_area(const HitscanCell& c) {
   return 2 * std::numbers::pi * disc * disc - lens_area(disc, disc, deflection(c));
 }
 
-void judge(HitscanMomentTest& test, const HitscanSpread& spread, double unit,
-           const std::optional<HitscanMoments>& theory, const Interval& allowed) {
+void judge(HitscanMomentTest& test, const HitscanSpread& spread, const std::optional<HitscanMoments>& theory,
+           const Interval& allowed) {
   if (spread.count == 0) return;
   ++test.cells;
   if (!allowed.contains(spread.least) || !allowed.contains(spread.most)) ++test.out_of_bounds;
   constexpr std::int64_t enough = 50;  // for a mean to be normal
   if (!theory || theory->sigma <= 0 || spread.count < enough) return;
   const double error = theory->sigma / std::sqrt(static_cast<double>(spread.count));
-  test.means.add((spread.mean(unit) - theory->mean) / error);
+  test.means.add((spread.mean() - theory->mean) / error);
 }
 
 /// [s] What the moment of a report can be after first contact, which is within the window.
-Interval possible_lateness(const HitscanRow& row) {
-  const HitscanCell& c = row.cell;
-  const HitscanWindow window = contact_window(c);
-  const double across = window.until - window.from;
-  switch (row.rule.report) {
-    case ReportTime::firing: return {-window.until, -window.from};
-    case ReportTime::end_of_step:  // a ray of a step may be some of the next step long, as the bullet slows down
+Interval possible_lateness(const HitscanRule& rule, const HitscanCell& c) {
+  const Interval window = contact_window(c);
+  const double across = window.upper - window.lower;
+  switch (rule.path) {
+    case FlightPath::line: return {-window.upper, -window.lower};
+    case FlightPath::tangents:  // a ray of a step may be some of the next step long, as the bullet slows down
       return {c.step - dragged_time(c.drag, c.step) - across, c.step + across};
-    case ReportTime::in_step: break;
+    case FlightPath::chords: break;
   }
   return {-across, across};
 }
@@ -246,9 +236,10 @@ HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c) {
                        .missed = share(areas.arc - areas.both),
                        .false_hits = share(areas.rule - areas.both),
                        .path_error = path_errors(rule, c),
-                       .path_error_most = path_error_bound(rule, c),
-                       .lateness = {}};
-  if (rule.report == ReportTime::end_of_step) e.lateness = next_frame_lateness(c);
+                       .path_error_possible = possible_path_error(rule, c),
+                       .lateness = {},
+                       .lateness_possible = possible_lateness(rule, c)};
+  if (rule.path == FlightPath::tangents) e.lateness = next_frame_lateness(c);
   return e;
 }
 
@@ -274,16 +265,6 @@ std::optional<double> range_of_missed(const HitscanCell& c, double share) {
   return root(too_many, 0.0, farthest, 40);
 }
 
-std::vector<HitscanRow> hitscan_rows(const std::vector<HitscanCell>& cells, const std::vector<HitscanRule>& rules,
-                                     const std::vector<std::vector<HitscanTally>>& tallies) {
-  std::vector<HitscanRow> rows;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    for (std::size_t k = 0; k < rules.size(); ++k)
-      rows.push_back({cells[i], rules[k], expected_of(rules[k], cells[i]), tallies[i][k]});
-  }
-  return rows;
-}
-
 std::vector<CellCount> counts_of(const std::vector<HitscanRow>& rows) {
   std::vector<CellCount> counts;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -305,13 +286,11 @@ std::vector<HitscanMomentTest> moment_tests(const std::vector<HitscanRow>& rows)
     const std::string rule(rule_name(*group[0]));
     HitscanMomentTest path = {.rule = rule, .quantity = "path error"}, late = {.rule = rule, .quantity = "lateness"};
     for (const HitscanRow* row : group) {
-      const HitscanCell& c = row->cell;
-      const double rounding = 64 * std::numeric_limits<double>::epsilon() * (c.range + length_unit(c));
-      const double least =
-          row->rule.path == FlightPath::line ? deflection(c) : 0;  // the ray's is the same in every shot
-      judge(path, row->tally.path_error, length_unit(c), row->expected.path_error,
-            {least - rounding, row->expected.path_error_most + rounding});
-      judge(late, row->tally.lateness, time_unit(c), row->expected.lateness, possible_lateness(*row));
+      const auto& [c, rule_of, t, e] = *row;
+      const double rounding = 64 * std::numeric_limits<double>::epsilon() * (c.range + t.path_error.unit);
+      const Interval possible = {e.path_error_possible.lower - rounding, e.path_error_possible.upper + rounding};
+      judge(path, t.path_error, e.path_error, possible);
+      judge(late, t.lateness, e.lateness, e.lateness_possible);
     }
     tests.insert(tests.end(), {path, late});
   }
