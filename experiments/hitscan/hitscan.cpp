@@ -1,7 +1,6 @@
 /// A ray stands for a bullet: how many hits does it miss, how many are false, and how far off is it, at what range and speed?
 /// See docs/hitscan.md.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -14,7 +13,6 @@
 #include <thinwall/experiments/hitscan/model.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
-#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
@@ -39,6 +37,7 @@ constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 std::optional<double> missed_share(const auto& row) { return share_of(missed(row), true_hits(row)); }
 std::optional<double> missed_share_theory(const Row& row) { return share_of(row.expected.missed, row.expected.touch); }
 
+bool is_of_known_shot(const Row& row) { return is_known(row.cell); }
 double radius_of(const Row& row) { return row.cell.radius; }
 double steps_late(const Row& row) { return row.tally.lateness.mean() / row.cell.step; }
 
@@ -48,12 +47,15 @@ Rows of_rule(const Rows& rows, const HitscanRule& rule) {
 
 // What the tables show.
 
+/// The factors of these names, in this order.
+auto columns_in_turn(auto cell, auto... names) { return together(hitscan_factors().columns(cell, {names})...); }
+
 Columns<Row> row_columns() {
-  const auto columns = columns_of<Row>(
+  return columns_of<Row>(
       text("rule", "How a hit is found.", rule_name),
       text("shot", "Which of the known shots it is; empty for the others.",
            [](const Row& r) { return known_name(r.cell); }),
-      hitscan_factors().columns(&Row::cell),
+      columns_in_turn(&Row::cell, "range", "speed", "radius", "wind", "drag", "gravity", "step", "target"),
       value("flight_time", "s", "From the muzzle to the range.", [](const Row& r) { return flight_time(r.cell); }),
       value("deflection", "m", "Of the arc from the line of fire, at the range, by gravity and wind.",
             [](const Row& r) { return deflection(r.cell); }),
@@ -74,7 +76,7 @@ Columns<Row> row_columns() {
       value("path_error_bound", "m", "The largest possible, by theory.",
             [](const Row& r) { return r.expected.path_error_possible.upper; }),
       where(is_timed,
-            columns_of<Row>(
+            together(
                 value("point_error_mean", "m",
                       "From the reported point on the target to the true one, of the true hits it reports; missing if "
                       "there are none.",
@@ -87,11 +89,10 @@ Columns<Row> row_columns() {
               if (!r.expected.lateness) return std::nullopt;
               return r.expected.lateness->mean / r.cell.step;
             }),
-      where(is_timed, columns_of<Row>(value("lateness_min", "step", "The earliest report.",
-                                            [](const Row& r) { return r.tally.lateness.least / r.cell.step; }),
-                                      value("lateness_max", "step", "The latest.",
-                                            [](const Row& r) { return r.tally.lateness.most / r.cell.step; }))));
-  return columns.without({"aim"});
+      where(is_timed, together(value("lateness_min", "step", "The earliest report.",
+                                     [](const Row& r) { return r.tally.lateness.least / r.cell.step; }),
+                               value("lateness_max", "step", "The latest.",
+                                     [](const Row& r) { return r.tally.lateness.most / r.cell.step; }))));
 }
 
 /// A rule over all of its cells.
@@ -129,10 +130,10 @@ Table rules_table(const std::vector<Total>& totals) {
       value("missed_expected", "1", "By theory.", &T::missed_theory),
       value("reported", "1", "Hits that the rule reports.", reported), fields(&T::tally, {"false_hits"}),
       value("false_expected", "1", "By theory.", &T::false_theory),
-      where(is_timed, columns_of<T>(value("lateness_mean", "step",
-                                          "From contact to the report, of the true hits it reports.", &T::lateness),
-                                    value("lateness_min", "step", "The earliest of all cells.", &T::earliest),
-                                    value("lateness_max", "step", "The latest of all cells.", &T::latest))),
+      where(is_timed, together(value("lateness_mean", "step",
+                                     "From contact to the report, of the true hits it reports.", &T::lateness),
+                               value("lateness_min", "step", "The earliest of all cells.", &T::earliest),
+                               value("lateness_max", "step", "The latest of all cells.", &T::latest))),
       value("path_error_max", "m", "Largest distance from the arc at the range, of all cells.",
             [](const T& t) { return t.tally.path_error.most; }),
       where(is_timed, value("point_error_max", "m", "Largest distance from the true point on the target, of all cells.",
@@ -143,19 +144,19 @@ Table rules_table(const std::vector<Total>& totals) {
 
 /// How far hitscan is good: by speed and air, the range at which it misses a share of the hits.
 Table reach_table(const std::vector<Cell>& cells) {
-  const auto bullet = [](const Cell& c) { return std::array{c.speed, c.drag, c.wind, c.gravity, c.target}; };
-  std::vector<Cell> bullets;
-  for (const Group<Cell>& group : group_by(cells, bullet)) bullets.push_back(*group[0]);
+  const auto bullet = [](Cell c) {
+    c.range = c.radius = c.step = c.aim = 0;
+    return c;
+  };
   const auto range = [](double share) { return [=](const Cell& c) { return range_of_missed(c, share); }; };
   const auto time = [](double share) {
     return [=](const Cell& c) -> std::optional<double> {
       const auto found = range_of_missed(c, share);
-      return found ? std::optional(time_to(arc_of<double>(c), *found)) : std::nullopt;
+      return found ? std::optional(arc_of<double>(c).time_to(*found)) : std::nullopt;
     };
   };
   const auto columns =
-      columns_of<Cell>(hitscan_factors().columns(std::identity(), {"speed", "drag"}),
-                       hitscan_factors().columns(std::identity(), {"wind", "gravity", "target"}),
+      columns_of<Cell>(columns_in_turn(std::identity(), "speed", "drag", "wind", "gravity", "target"),
                        value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
                        value("time_5_percent", "s", "Flight time to there.", time(0.05)),
                        value("range_50_percent", "m", "Range at which half of the hits are missed.", range(0.5)),
@@ -164,7 +165,7 @@ Table reach_table(const std::vector<Cell>& cells) {
       table("reach",
             "How far hitscan is good: the range at which the ray misses a share of the hits of a bullet without "
             "radius, in the limit of flat fire. Missing where the bullet slows to a tenth of its speed before.",
-            columns, bullets));
+            columns, distinct(cells, bullet)));
 }
 
 Table moments_table(const std::vector<HitscanMomentTest>& tests) {
@@ -182,31 +183,27 @@ Table moments_table(const std::vector<HitscanMomentTest>& tests) {
 
 // What the pictures show.
 
-double speed_there(const Row& row) {
-  const auto there = at_distance(arc_of<double>(row.cell), row.cell.range);
-  return std::hypot(there.vx, there.vs);
-}
-
-std::optional<double> missed_residual(const Row& row) {
-  if (!can_be_judged(row.tally.shots, row.expected.missed)) return std::nullopt;
-  return standard_residual(missed(row), row.tally.shots, row.expected.missed);
-}
-
-/// [step] Of next_frame.
-std::optional<Measured> lateness(const Row& row) {
-  if (!row.expected.lateness) return std::nullopt;
-  return normal_mean(steps_late(row), row.expected.lateness->sigma / row.cell.step, row.tally.lateness.count);
-}
-
 /// What is drawn of a row, with its bars.
 Plot drawn(const Rows& rows) {
+  const auto speed_there = [](const Row& r) {
+    const auto there = arc_of<double>(r.cell).at_distance(r.cell.range);
+    return std::hypot(there.vx, there.vs);
+  };
+  const auto missed_residual = [](const Row& r) -> std::optional<double> {
+    if (!can_be_judged(r.tally.shots, r.expected.missed)) return std::nullopt;
+    return standard_residual(missed(r), r.tally.shots, r.expected.missed);
+  };
+  const auto late = [](const Row& r) -> std::optional<Measured> {
+    if (!r.expected.lateness) return std::nullopt;
+    return normal_mean(steps_late(r), r.expected.lateness->sigma / r.cell.step, r.tally.lateness.count);
+  };
   const auto columns = columns_of<Row>(
       row_columns(),
       text("bullet", "", [](const Row& r) { return fmt::format("bullet radius {:g} mm", 1e3 * r.cell.radius); }),
       value("off", "", "", [](const Row& r) { return deflection(r.cell) / r.cell.target; }),
       value("speed_there", "", "", speed_there), value("residual", "", "", missed_residual),
-      where(is_timed, columns_of<Row>(measured("late", "", "", lateness, "late_"),
-                                      value("early", "", "", [](const Row& r) { return -steps_late(r); }))),
+      where(is_timed, together(measured("late", "", "", late, "late_"),
+                               value("early", "", "", [](const Row& r) { return -steps_late(r); }))),
       value("flight", "", "", [](const Row& r) { return flight_time(r.cell) / r.cell.step; }));
   return plot(columns, rows);
 }
@@ -274,7 +271,7 @@ Figure lateness_figure(const Rows& timed) {
 
 /// Those whose rule was asked. Of the known shots none, of several targets and steps the first.
 std::vector<Figure> figures_of(const Rows& rows) {
-  const Rows asked = only(rows, [](const Row& r) { return !is_known(r.cell); });
+  const Rows asked = only(rows, std::not_fn(is_of_known_shot));
   if (asked.empty()) return {};
   const Cell& one = asked.front().cell;
   const Rows alike = only(asked, [&](const Row& r) { return r.cell.target == one.target && r.cell.step == one.step; });
@@ -289,58 +286,52 @@ std::vector<Figure> figures_of(const Rows& rows) {
 
 // What it says.
 
-std::string meters(double x) { return rounded_text(x, 3) + " m"; }
-
 std::string known_answer(const Rows& rows) {
-  std::string text;
-  for (const Row& row : of_rule(rows, hitscan_ray)) {
-    if (!is_known(row.cell)) continue;
-    text += fmt::format("{}{} with a {} (theory {}, the arc {} off the line of fire)",
-                        text.empty() ? "Of the true hits the ray misses " : ", ", percent_text(missed_share(row)),
-                        known_name(row.cell), percent_text(missed_share_theory(row)), meters(deflection(row.cell)));
+  std::vector<std::string> shots;
+  for (const Row& row : only(of_rule(rows, hitscan_ray), is_of_known_shot)) {
+    shots.push_back(fmt::format("{} with a {} (theory {}, the arc {} m off the line of fire)",
+                                percent_text(missed_share(row)), known_name(row.cell),
+                                percent_text(missed_share_theory(row)), rounded_text(deflection(row.cell), 3)));
   }
-  return text.empty() ? text : text + ". ";
+  return shots.empty() ? "" : fmt::format("Of the true hits the ray misses {}.", fmt::join(shots, ", "));
 }
 
 /// From when on the ray is no longer good: of the settings' cells, those of the thinnest bullet.
 std::string ray_answer(const Rows& rows) {
   const Rows rays =
-      only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && r.tally.touching > 0; });
+      only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && true_hits(r) > 0; });
   if (rays.empty()) return "";
-  const double thin = std::ranges::min(distinct(rays, radius_of));
+  const double thin = std::ranges::min(rays, {}, radius_of).cell.radius;
   double good = 0, bad = std::numeric_limits<double>::infinity();
-  for (const Row& row : rays) {
-    if (row.cell.radius != thin) continue;
-    const double share = *missed_share(row);
-    if (share < 0.05) good = std::max(good, flight_time(row.cell));
-    if (share > 0.5) bad = std::min(bad, flight_time(row.cell));
+  for (const Row& row : only(rays, [&](const Row& r) { return r.cell.radius == thin; })) {
+    if (*missed_share(row) < 0.05) good = std::max(good, flight_time(row.cell));
+    if (*missed_share(row) > 0.5) bad = std::min(bad, flight_time(row.cell));
   }
   if (!(0 < good && good < bad)) return "";
   return fmt::format(
-      "The flight time decides: of bullets of radius {:g} mm the ray misses less than 5 % in flights of up to {} s{}. ",
+      "The flight time decides: of bullets of radius {:g} mm the ray misses less than 5 % in flights of up to {} s{}.",
       1e3 * thin, rounded_text(good, 2),
       std::isfinite(bad) ? fmt::format(" and more than half from {} s on", rounded_text(bad, 2)) : "");
 }
 
-std::string total_answer(const Total& t) {
-  if (t.rule == next_frame.name && is_timed(t)) {
-    return fmt::format(
-        "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; it "
-        "misses {} of the true hits, and {} of its own are false. ",
-        t.lateness(), t.latest, percent_text(missed_share(t)), percent_text(share_of(false_hits(t), reported(t))));
-  }
-  if (t.rule == swept_steps.name) {
-    return fmt::format(
-        "The ball swept along each step is wrong on {} of {} shots and at most {} off the arc at the range.",
-        grouped_text(missed(t) + false_hits(t)), grouped_text(t.tally.shots), meters(t.tally.path_error.most));
-  }
-  return "";
-}
-
 std::string answer_of(const Rows& rows, const std::vector<Total>& totals) {
-  std::string text = known_answer(rows) + ray_answer(rows);
-  for (const Total& total : totals) text += total_answer(total);
-  if (!text.empty()) return text;
+  std::vector<std::string> sentences = {known_answer(rows), ray_answer(rows)};
+  for (const Total& t : totals) {
+    if (t.rule == next_frame.name && is_timed(t)) {
+      sentences.push_back(fmt::format(
+          "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; "
+          "it misses {} of the true hits, and {} of its own are false.",
+          t.lateness(), t.latest, percent_text(missed_share(t)), percent_text(share_of(false_hits(t), reported(t)))));
+    }
+    if (t.rule == swept_steps.name) {
+      sentences.push_back(fmt::format(
+          "The ball swept along each step is wrong on {} of {} shots and at most {} m off the arc at the range.",
+          grouped_text(missed(t) + false_hits(t)), grouped_text(t.tally.shots),
+          rounded_text(t.tally.path_error.most, 3)));
+    }
+  }
+  std::erase(sentences, "");
+  if (!sentences.empty()) return fmt::format("{}", fmt::join(sentences, " "));
   const Total& first = totals.front();
   return fmt::format("{} misses {} of {} true hits and makes {} false ones.", first.rule, grouped_text(missed(first)),
                      grouped_text(true_hits(first)), grouped_text(false_hits(first)));
@@ -360,7 +351,7 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
             columns.without({"drag", "flight_time", "deflection", "touching", "touching_theory", "missed", "reported",
                              "false_hits", "path_error_max", "point_error_mean", "path_error_bound", "point_error_max",
                              "lateness_min", "lateness_max"}),
-            only(rows, [](const Row& r) { return is_known(r.cell); })));
+            only(rows, is_of_known_shot)));
   const Table rules = rules_table(totals);
   const Table counts_table =
       self_test_table(counts, "Counts of independent shots against theory, over all cells of a rule and event at once.",

@@ -20,8 +20,6 @@ constexpr double least_path = 0.01;          // [reach] a step
 constexpr double least_reach = 1e-6;         // [range] the oracle subtracts distances along the range
 constexpr double most_drag_in_a_step = 0.5;  // [1] drag * step: a ray of a step is at most two steps long
 
-bool arrives(const HitscanCell& c) { return c.drag * (c.range + reach(c)) <= (1 - least_speed_left) * c.speed; }
-
 void check(const Settings& settings, const HitscanCell& c) {
   const auto refuse = [&](std::string_view key, const std::string& allowed) {
     settings.complain(key, fmt::format("{}; not so at {}", allowed, hitscan_factors().key(c)));
@@ -31,7 +29,7 @@ void check(const Settings& settings, const HitscanCell& c) {
     refuse("target", fmt::format("such that target + radius is at least {} of the range", least_reach));
   if (c.drag * c.step > most_drag_in_a_step) refuse("step", fmt::format("drag * step at most {}", most_drag_in_a_step));
   const auto arc = arc_of<double>(c);
-  const auto there = at_distance(arc, c.range + reach(c));
+  const auto there = arc.at_distance(c.range + reach(c));
   if (reach(c) * arc.pull > most_bend * there.vx * there.vx) {
     refuse("speed",
            fmt::format("fast enough to fly nearly straight past a target: (target + radius) * (gravity and wind) "
@@ -57,7 +55,7 @@ std::vector<FlightPiece> flight_pieces(FlightPath path, const HitscanCell& c, do
   };
   std::vector<FlightPiece> pieces;
   for (const auto& [from, until] : steps_near_target(c, phase)) {
-    const auto here = after(arc, from), next = after(arc, until);
+    const auto here = arc.after(from), next = arc.after(until);
     const Vec3<double> start = in_plane(here.x, here.s);
     const Vec3<double> tangent = in_plane(here.vx, here.vs) * (until - from), chord = in_plane(next.x, next.s) - start;
     pieces.push_back({start, path == FlightPath::tangents ? tangent : chord, from, until});
@@ -81,33 +79,24 @@ std::string_view known_name(const HitscanCell& c) {
 }
 
 const Factors<HitscanCell>& hitscan_factors() {
-  const auto positive = [](double upper, std::string_view unit) {
-    return Range{.lower = 0, .upper = upper, .lower_open = true, .unit = unit};
-  };
   using C = HitscanCell;
-  static const Factors<C> all =
-      factors<C>(
-          numbers("range", &C::range, positive(1e6, "m"), "From the muzzle to the plane of the target's center."),
-          numbers("speed", &C::speed, positive(1e6, "m/s"), "At the muzzle."),
-          numbers("radius", &C::radius, {.lower = 0, .upper = 1e3, .unit = "m"}, "Of the bullet."),
-          numbers("wind", &C::wind, {.lower = 0, .upper = 1e3, .unit = "m/s"},
-                  "Across the line of fire; 0 where there is no drag."),
-          numbers("drag", &C::drag, {.lower = 0, .upper = 1e3, .unit = "1/s"},
-                  "Share of its speed, as seen from the air, that the bullet loses a second."),
-          number("gravity", &C::gravity, {.lower = 0, .upper = 1e3, .unit = "m/s^2"}, "Downward."),
-          numbers("step", &C::step, positive(1e3, "s"), "Time step of the frames."),
-          numbers("target", &C::target, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Radius of the target."),
-          number("aim", &C::aim, {.lower = 1.1, .upper = 100},
-                 "Size of the discs that the target's center is drawn from."))
-          .first_fastest();
+  static const Factors<C> all = factors<C>(
+      numbers("range", &C::range, {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"},
+              "From the muzzle to the plane of the target's center."),
+      numbers("speed", &C::speed, {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m/s"}, "At the muzzle."),
+      numbers("radius", &C::radius, {.lower = 0, .upper = 1e3, .unit = "m"}, "Of the bullet."),
+      numbers("wind", &C::wind, {.lower = 0, .upper = 1e3, .unit = "m/s"},
+              "Across the line of fire; 0 where there is no drag."),
+      numbers("drag", &C::drag, {.lower = 0, .upper = 1e3, .unit = "1/s"},
+              "Share of its speed, as seen from the air, that the bullet loses a second."),
+      numbers("step", &C::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"},
+              "Time step of the frames."),
+      numbers("target", &C::target, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Radius of the target."),
+      number("gravity", &C::gravity, {.lower = 0, .upper = 1e3, .unit = "m/s^2"}, "Downward."),
+      number("aim", &C::aim, {.lower = 1.1, .upper = 100},
+             "Size of the discs that the target's center is drawn from."));
   return all;
 }
-
-RandomStream random_stream(const HitscanCell& c, std::uint64_t seed) {
-  return {seed, stream_of(std::array{c.range, c.speed, c.radius, c.wind, c.drag, c.step, c.target, c.gravity, c.aim})};
-}
-
-double reach(const HitscanCell& c) { return c.target + c.radius; }
 
 Vec3<double> pull_direction(const HitscanCell& c) {
   const double pull = arc_of<double>(c).pull;
@@ -115,41 +104,37 @@ Vec3<double> pull_direction(const HitscanCell& c) {
   return {0, -c.gravity / pull, c.drag * c.wind / pull};
 }
 
-double deflection(const HitscanCell& c) { return at_distance(arc_of<double>(c), c.range).s; }
-
-double flight_time(const HitscanCell& c) { return time_to(arc_of<double>(c), c.range); }
-
 double disc_radius(const HitscanCell& c) {
-  const auto there = at_distance(arc_of<double>(c), c.range);
+  const auto there = arc_of<double>(c).at_distance(c.range);
   return c.aim * reach(c) * std::hypot(1.0, there.vs / there.vx);  // a ball's shadow along a steep arc is an ellipse
 }
 
 Interval contact_window(const HitscanCell& c) {
   const auto arc = arc_of<double>(c);
-  return {time_to(arc, c.range - reach(c)), time_to(arc, c.range + reach(c))};
+  return {arc.time_to(c.range - reach(c)), arc.time_to(c.range + reach(c))};
 }
 
-Interval step_after(const HitscanCell& c, double phase, double frames) {
-  return {frames > 0 ? (frames - phase) * c.step : 0, (frames + 1 - phase) * c.step};
-}
-
-double frames_before(const HitscanCell& c, double phase, double time) {
-  return std::max(0.0, std::floor(time / c.step + phase) - 1);
+std::vector<Interval> steps_from(double time, const HitscanCell& c, double phase,
+                                 const std::function<bool(const Interval&)>& is_last) {
+  std::vector<Interval> steps;
+  double frame = std::max(0.0, std::floor(time / c.step + phase) - 1);
+  do {
+    steps.push_back({frame > 0 ? (frame - phase) * c.step : 0, (frame + 1 - phase) * c.step});
+    frame += 1;
+  } while (!is_last(steps.back()));
+  return steps;
 }
 
 std::vector<Interval> steps_near_target(const HitscanCell& c, double phase) {
   const Interval window = contact_window(c);
-  double frames = frames_before(c, phase, window.lower);
-  std::vector<Interval> steps = {step_after(c, phase, frames)};
-  while (steps.back().upper < window.upper) steps.push_back(step_after(c, phase, ++frames));
-  return steps;
+  return steps_from(window.lower, c, phase, [&](const Interval& step) { return step.upper >= window.upper; });
 }
 
 std::vector<HitscanCell> make_hitscan_cells(const Settings& settings) {
   bool any = false;
-  const auto fired = hitscan_factors().cells(settings, 1, {}, [&](HitscanCell& c) {
+  const auto fired = hitscan_factors().first_fastest().cells(settings, 1, {}, [&](HitscanCell& c) {
     if (c.drag == 0) c.wind = 0;  // without drag a wind does nothing
-    if (!arrives(c)) return false;
+    if (c.drag * (c.range + reach(c)) > (1 - least_speed_left) * c.speed) return false;
     any = true;
     if (is_known(c)) return false;
     check(settings, c);
@@ -177,7 +162,7 @@ Placement random_placement(const HitscanCell& c, const RandomStream& stream, std
   }
 }
 
-TrueImpact true_impact(const HitscanCell& c, const Vec3<double>& target_center) {
+std::optional<TrueImpact> true_impact(const HitscanCell& c, const Vec3<double>& target_center) {
   using Real = long double;
   const auto arc = arc_of<Real>(c);
   const Vec3<Real> pull = pull_direction(c).cast<Real>(), center(0, target_center[1], target_center[2]);
@@ -185,43 +170,38 @@ TrueImpact true_impact(const HitscanCell& c, const Vec3<double>& target_center) 
              last = range + reach;
   const Real along = center.dot(pull),
              beside = (center - pull * along).squaredNorm();  // in the arc's plane; squared, off it
-  if (beside > reach * reach || along < at_distance(arc, first).s - reach || along > at_distance(arc, last).s + reach)
-    return {false};
+  if (beside > reach * reach || along < arc.at_distance(first).s - reach || along > arc.at_distance(last).s + reach)
+    return std::nullopt;
   // Of the distance from the target's center: its square less that of contact, and the sign of its slope.
   const auto excess = [&](const Real& x) -> Real {
-    const Real s = at_distance(arc, x).s - along, ahead = x - range;
+    const Real s = arc.at_distance(x).s - along, ahead = x - range;
     return ahead * ahead + s * s + beside - reach * reach;
   };
   const auto slope = [&](const Real& x) -> Real {
-    const auto p = at_distance(arc, x);
+    const auto p = arc.at_distance(x);
     return (x - range) + (p.s - along) * p.vs / p.vx;
   };
   Real closest = slope(first) >= 0 ? first : last;
   if (slope(first) < 0 && slope(last) > 0) closest = root(slope, first, last);
-  if (excess(closest) > 0) return {false};
+  if (excess(closest) > 0) return std::nullopt;
   const Real entry = excess(first) <= 0 ? first : root(excess, first, closest);
-  const Vec3<Real> bullet = Vec3<Real>(entry, 0, 0) + pull * at_distance(arc, entry).s;
-  return {true, static_cast<double>(time_to(arc, entry)), bullet.cast<double>()};
-}
-
-Vec3<double> contact_point(const HitscanCell& c, const TrueImpact& truth, const Vec3<double>& target_center) {
-  return target_center + (truth.bullet - target_center) * (c.target / reach(c));
+  const Vec3<Real> bullet = Vec3<Real>(entry, 0, 0) + pull * arc.at_distance(entry).s;
+  return TrueImpact{static_cast<double>(arc.time_to(entry)), bullet.cast<double>()};
 }
 
 HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Placement& placement) {
   HitscanAnswer answer;
-  bool crossed = false;
-  for (const FlightPiece& piece : flight_pieces(rule.path, c, placement.phase)) {
-    if (!crossed && piece.start[0] + piece.displacement[0] >= c.range) {
-      crossed = true;
-      answer.at_range = piece.start + piece.displacement * ((c.range - piece.start[0]) / piece.displacement[0]);
-    }
-    if (answer.hit) continue;
+  const std::vector<FlightPiece> pieces = flight_pieces(rule.path, c, placement.phase);
+  const auto crosses = [&](const FlightPiece& piece) { return piece.start[0] + piece.displacement[0] >= c.range; };
+  const FlightPiece& last = *std::ranges::find_if(pieces, crosses);
+  answer.at_range = last.start + last.displacement * ((c.range - last.start[0]) / last.displacement[0]);
+  for (const auto& piece : pieces) {
     const auto hit = hit_on(piece, rule, c, placement.target);
     if (!hit) continue;
     answer.hit = true;
     answer.time = rule.path == FlightPath::tangents ? piece.until : piece.from + hit->t * (piece.until - piece.from);
     answer.point = hit->point;
+    break;
   }
   return answer;
 }
@@ -241,7 +221,7 @@ double HitscanSpread::mean() const {
 
 std::vector<HitscanTally> shoot(const std::vector<HitscanRule>& rules, const HitscanCell& c, std::uint64_t seed,
                                 std::int64_t shots) {
-  const RandomStream stream = random_stream(c, seed);
+  const RandomStream stream = hitscan_factors().stream(c, seed);
   const Vec3<double> arc_at_range = Vec3<double>(c.range, 0, 0) + pull_direction(c) * deflection(c);
   HitscanTally none;
   none.lateness.unit = contact_window(c).upper + c.step;
@@ -250,18 +230,19 @@ std::vector<HitscanTally> shoot(const std::vector<HitscanRule>& rules, const Hit
   for (std::int64_t i = 0; i < shots; ++i) {
     const Placement placement = random_placement(c, stream, static_cast<std::uint64_t>(i));
     const Vec3<double>& center = placement.target.center;
-    const TrueImpact truth = true_impact(c, center);
+    const std::optional<TrueImpact> truth = true_impact(c, center);
     for (std::size_t k = 0; k < rules.size(); ++k) {
       const HitscanAnswer answer = answer_of(rules[k], c, placement);
       HitscanTally& tally = tallies[k];
       ++tally.shots;
-      tally.touching += truth.touches ? 1 : 0;
-      tally.missed += truth.touches && !answer.hit ? 1 : 0;
-      tally.false_hits += !truth.touches && answer.hit ? 1 : 0;
+      tally.touching += truth ? 1 : 0;
+      tally.missed += truth && !answer.hit ? 1 : 0;
+      tally.false_hits += !truth && answer.hit ? 1 : 0;
       tally.path_error.add((answer.at_range - arc_at_range).norm());
-      if (!truth.touches || !answer.hit) continue;
-      tally.lateness.add(answer.time - truth.time);
-      tally.point_error.add((answer.point - contact_point(c, truth, center)).norm());
+      if (!truth || !answer.hit) continue;
+      tally.lateness.add(answer.time - truth->time);
+      const Vec3<double> touched = center + (truth->bullet - center) * (c.target / reach(c));
+      tally.point_error.add((answer.point - touched).norm());
     }
   }
   return tallies;

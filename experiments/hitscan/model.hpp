@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,12 +29,6 @@ namespace thinwall {
 // k * wind, so gravity and wind add up to one pull `a`, and the arc lies in one plane:
 //
 //   tau = (1 - exp(-k t)) / k,   x = v tau,   s = a (t - tau) / k.
-
-template <class Real> struct Arc {
-  Real speed;  ///< [m/s] > 0, at the muzzle
-  Real drag;   ///< [1/s] >= 0
-  Real pull;   ///< [m/s^2] >= 0, across the line of fire
-};
 
 /// [s] tau: the time in which a bullet without drag would get as far. t >= 0.
 template <class Real> Real undragged_time(const Real& drag, const Real& t) {
@@ -67,20 +62,19 @@ template <class Real> struct ArcPoint {
   Real vx, vs;  ///< [m/s]
 };
 
-template <class Real> ArcPoint<Real> after_undragged(const Arc<Real>& arc, const Real& tau) {
-  return {arc.speed * tau, arc.pull * pull_factor(arc.drag, tau), arc.speed * (1 - arc.drag * tau), arc.pull * tau};
-}
-template <class Real> ArcPoint<Real> after(const Arc<Real>& arc, const Real& t) {
-  return after_undragged(arc, undragged_time(arc.drag, t));
-}
-/// Requires drag * x < speed.
-template <class Real> ArcPoint<Real> at_distance(const Arc<Real>& arc, const Real& x) {
-  return after_undragged(arc, Real(x / arc.speed));
-}
-/// [s] From the muzzle to distance x >= 0. Requires drag * x < speed.
-template <class Real> Real time_to(const Arc<Real>& arc, const Real& x) {
-  return dragged_time(arc.drag, Real(x / arc.speed));
-}
+template <class Real> struct Arc {
+  Real speed;  ///< [m/s] > 0, at the muzzle
+  Real drag;   ///< [1/s] >= 0
+  Real pull;   ///< [m/s^2] >= 0, across the line of fire
+
+  ArcPoint<Real> after_undragged(const Real& tau) const {
+    return {speed * tau, pull * pull_factor(drag, tau), speed * (1 - drag * tau), pull * tau};
+  }
+  ArcPoint<Real> after(const Real& t) const { return after_undragged(undragged_time(drag, t)); }
+  /// Both require 0 <= drag * x < speed.
+  ArcPoint<Real> at_distance(const Real& x) const { return after_undragged(Real(x / speed)); }
+  Real time_to(const Real& x) const { return dragged_time(drag, Real(x / speed)); }  ///< [s]
+};
 
 /// Where a function that is negative at the one end and positive at the other is zero, to so many binary digits.
 template <class Real, class Function>
@@ -124,31 +118,30 @@ std::string_view known_name(const HitscanCell& c);  ///< of a known shot; otherw
 inline bool is_known(const HitscanCell& c) { return !known_name(c).empty(); }
 
 const Factors<HitscanCell>& hitscan_factors();
-RandomStream random_stream(const HitscanCell& c, std::uint64_t seed);  ///< from the physical factors alone
 
 /// `known_shots` first, then every combination of the settings' factors in which the bullet arrives. Throws UsageError.
 std::vector<HitscanCell> make_hitscan_cells(const Settings& settings);
 
-double reach(const HitscanCell& c);                 ///< [m] target + radius: the centers' distance at contact
-Vec3<double> pull_direction(const HitscanCell& c);  ///< unit, across x; down if nothing pulls
+/// [m] The centers' distance at contact.
+inline double reach(const HitscanCell& c) { return c.target + c.radius; }
 template <class Real> Arc<Real> arc_of(const HitscanCell& c) {
   using std::hypot;
   return {Real(c.speed), Real(c.drag), hypot(Real(c.gravity), Real(c.drag) * Real(c.wind))};
 }
+/// [m] Of the arc from the line of fire, at the range.
+inline double deflection(const HitscanCell& c) { return arc_of<double>(c).at_distance(c.range).s; }
+/// [s] From the muzzle to the range.
+inline double flight_time(const HitscanCell& c) { return arc_of<double>(c).time_to(c.range); }
+Vec3<double> pull_direction(const HitscanCell& c);  ///< unit, across x; down if nothing pulls
+double disc_radius(const HitscanCell& c);           ///< [m] of the two discs that the target's center is drawn from
+/// [s] When the bullet is as near to the target's plane as contact needs.
+Interval contact_window(const HitscanCell& c);
 
-double deflection(const HitscanCell& c);   ///< [m] of the arc from the line of fire, at the range
-double flight_time(const HitscanCell& c);  ///< [s] from the muzzle to the range
-double disc_radius(const HitscanCell& c);  ///< [m] of the two discs that the target's center is drawn from
-
-Interval contact_window(
-    const HitscanCell& c);  ///< [s] when the bullet is as near to the target's plane as contact needs
-
-/// [s] Since firing: the step after so many frames. The gun goes off `phase` [1], in [0, 1), of a step after a frame, so that the
-/// first step is shorter.
-Interval step_after(const HitscanCell& c, double phase, double frames);
-double frames_before(const HitscanCell& c, double phase,
-                     double time);  ///< before the last step but one that ends by then
-/// From the last but one before the window of contact to the one that ends it.
+/// [s] Since firing: the steps in turn, from the last but one before `time` to the first that `is_last`. The gun goes off `phase` [1], in
+/// [0, 1), of a step after a frame, so that the first step is shorter.
+std::vector<Interval> steps_from(double time, const HitscanCell& c, double phase,
+                                 const std::function<bool(const Interval&)>& is_last);
+/// To the one that ends the window of contact.
 std::vector<Interval> steps_near_target(const HitscanCell& c, double phase);
 
 // The shots and the oracle: no rule is in here.
@@ -163,21 +156,17 @@ Placement random_placement(const HitscanCell& c, const RandomStream& stream, std
 
 /// The arc against the ball, in long double, as a function of the distance flown. Shares no code with any rule.
 struct TrueImpact {
-  bool touches;
-  double time = 0;                             ///< [s] of first contact, from the muzzle, if they touch
-  Vec3<double> bullet = Vec3<double>::Zero();  ///< [m] the bullet's center then
+  double time;          ///< [s] of first contact, from the muzzle
+  Vec3<double> bullet;  ///< [m] its center then
 };
-TrueImpact true_impact(const HitscanCell& c, const Vec3<double>& target_center);
+std::optional<TrueImpact> true_impact(const HitscanCell& c, const Vec3<double>& target_center);
 
-/// [m] Where on the target the bullet touches it.
-Vec3<double> contact_point(const HitscanCell& c, const TrueImpact& truth, const Vec3<double>& target_center);
-
-// The rules: which way the bullet is taken to fly, and with it when a hit is reported, and whether the bullet has a radius.
+// The rules: which way the bullet is taken to fly, and with that, when a hit is reported; and whether it has a radius.
 
 enum class FlightPath {
-  line,      ///< along the line of fire, at once and without end: a hit is reported when the gun goes off
-  tangents,  ///< every step along the velocity at its start, as far as the bullet would get in the step: at the next frame
-  chords,  ///< every step straight to where the bullet is at its end: when the rule says that they touch
+  line,      ///< along the line of fire, at once and without end; reported when the gun goes off
+  tangents,  ///< every step along the velocity at its start, as far as the bullet would get; reported at the next frame
+  chords,    ///< every step straight to where the bullet is at its end; reported when the two touch
 };
 
 struct HitscanRule {

@@ -11,19 +11,6 @@ namespace thinwall {
 
 namespace {
 
-/// Empty if the piece does not get there.
-Places::interval_type shadow_of(const PathPiece& piece, double range, double radius) {
-  const double from = std::max(piece.x0 - range, -radius), to = std::min(piece.x1 - range, radius);
-  if (from > to) return {};
-  const double slope = (piece.s1 - piece.s0) / (piece.x1 - piece.x0);
-  const auto path = [&](double x) { return piece.s0 + slope * (x + range - piece.x0); };
-  const auto rise = [&](double x) { return std::sqrt(std::max(0.0, radius * radius - x * x)); };
-  // Where a line of this slope touches the ball, or at the end nearest to that: rise is concave.
-  const double touch = slope * radius / std::hypot(1.0, slope);
-  const double low = std::clamp(-touch, from, to), high = std::clamp(touch, from, to);
-  return Places::interval_type::closed(path(low) - rise(low), path(high) + rise(high));
-}
-
 /// The i-th of evenly spaced phases, such that none of them is near where one step takes over from another at the
 /// target: there everything jumps. A ray along the velocity gets a little farther than the bullet, as that slows down.
 double phase_of(const HitscanRule& rule, const HitscanCell& c, int i, int phases) {
@@ -33,48 +20,37 @@ double phase_of(const HitscanRule& rule, const HitscanCell& c, int i, int phases
   return part < 1 ? part : 0;
 }
 
-constexpr int moment_phases = 2000;
-
 /// Mean and deviation over the phase, uniform over a step.
 HitscanMoments over_phases(const HitscanRule& rule, const HitscanCell& c, const std::function<double(double)>& f) {
+  constexpr int phases = 2000;
   double sum = 0, squares = 0;
-  for (int i = 0; i < moment_phases; ++i) {
-    const double x = f(phase_of(rule, c, i, moment_phases));
+  for (int i = 0; i < phases; ++i) {
+    const double x = f(phase_of(rule, c, i, phases));
     sum += x;
     squares += x * x;
   }
-  const double mean = sum / moment_phases;
-  return {mean, std::sqrt(std::max(0.0, squares / moment_phases - mean * mean))};
-}
-
-/// The first step that covers(its start, time since then, its length) where the bullet is at `t`, or begins there.
-template <class Covers> Interval first_step(const HitscanCell& c, double phase, double t, const Covers& covers) {
-  for (double frames = frames_before(c, phase, t);; ++frames) {
-    const Interval step = step_after(c, phase, frames);
-    if (step.lower >= t || covers(step.lower, t - step.lower, step.upper - step.lower)) return step;
-  }
-}
-
-/// [m] At the range, of a rule that goes step by step: seen from the start of a step the arc begins anew, so it is off
-/// the tangent by the pull's own factor.
-double path_error(const HitscanRule& rule, const HitscanCell& c, double phase) {
-  const auto arc = arc_of<double>(c);
-  const double there = flight_time(c);
-  const auto fallen = [&](double t) { return arc.pull * pull_factor(arc.drag, undragged_time(arc.drag, t)); };
-  const bool is_tangent = rule.path == FlightPath::tangents;  // which gets as far as a bullet without drag
-  const Interval step = first_step(c, phase, there, [&](double, double since, double length) {
-    return (is_tangent ? undragged_time(arc.drag, since) : since) <= length;
-  });
-  const double since = there - step.lower, length = step.upper - step.lower;
-  if (is_tangent) return fallen(since);
-  const double part = undragged_time(arc.drag, since) / undragged_time(arc.drag, length);
-  return part * fallen(length) - fallen(since);
+  const double mean = sum / phases;
+  return {mean, std::sqrt(std::max(0.0, squares / phases - mean * mean))};
 }
 
 /// [m] From the rule's path to the arc at the range.
 HitscanMoments path_errors(const HitscanRule& rule, const HitscanCell& c) {
   if (rule.path == FlightPath::line) return {deflection(c), 0};  // the same in every shot
-  return over_phases(rule, c, [&](double phase) { return path_error(rule, c, phase); });
+  const auto arc = arc_of<double>(c);
+  const double there = flight_time(c);
+  const bool is_tangent = rule.path == FlightPath::tangents;  // which gets as far as a bullet without drag
+  const auto covers = [&](const Interval& step) {
+    const double since = there - step.lower;
+    return since <= 0 || (is_tangent ? undragged_time(arc.drag, since) : since) <= step.upper - step.lower;
+  };
+  // Seen from the start of a step the arc begins anew, so it is off the tangent by the pull's own factor.
+  return over_phases(rule, c, [&](double phase) {
+    const Interval step = steps_from(there, c, phase, covers).back();
+    const double since = there - step.lower, length = step.upper - step.lower;
+    if (is_tangent) return arc.after(since).s;
+    const double part = undragged_time(arc.drag, since) / undragged_time(arc.drag, length);
+    return part * arc.after(length).s - arc.after(since).s;
+  });
 }
 
 /// [m] No path error is beyond.
@@ -89,7 +65,7 @@ Interval possible_path_error(const HitscanRule& rule, const HitscanCell& c) {
 /// [s] What is left of the step in which the center gets to the target, and how much earlier the ball touches.
 HitscanMoments next_frame_lateness(const HitscanCell& c) {
   const auto arc = arc_of<double>(c);
-  const auto there = at_distance(arc, c.range);
+  const auto there = arc.at_distance(c.range);
   const double speed = std::hypot(there.vx, there.vs), outer = reach(c);
   double ahead = 0, ahead_squared = 0, depth = 0;  // means over a disc, in rings of equal area
   constexpr int rings = 2000;
@@ -101,25 +77,25 @@ HitscanMoments next_frame_lateness(const HitscanCell& c) {
     depth += inner / rings;
   }
   const double arrival = flight_time(c) - depth / speed;
-  const HitscanMoments rest = over_phases(next_frame, c, [&](double phase) {
-    const Interval step = first_step(c, phase, arrival, [&](double begins, double since, double length) {
-      const auto start = after(arc, begins);
-      const double tau = undragged_time(arc.drag, since), square = start.vx * start.vx + start.vs * start.vs;
-      return tau + arc.pull * start.vs / square * pull_factor(arc.drag, tau) <= length;  // along the ray
-    });
-    return step.upper - arrival;
-  });
+  const auto covers = [&](const Interval& step) {
+    if (step.lower >= arrival) return true;
+    const auto start = arc.after(step.lower);
+    const double tau = undragged_time(arc.drag, arrival - step.lower),
+                 square = start.vx * start.vx + start.vs * start.vs;
+    return tau + arc.pull * start.vs / square * pull_factor(arc.drag, tau) <= step.upper - step.lower;  // along the ray
+  };
+  const HitscanMoments rest = over_phases(
+      next_frame, c, [&](double phase) { return steps_from(arrival, c, phase, covers).back().upper - arrival; });
   const double variance = std::max(0.0, ahead_squared - ahead * ahead) / (speed * speed);
   return {rest.mean + ahead / speed, std::hypot(rest.sigma, std::sqrt(variance))};
 }
 
-constexpr int count_phases = 32;
-
-/// The chords of the steps, or the tangents at their starts, as far as the bullet would get.
-std::vector<PathPiece> pieces_of(FlightPath path, const Arc<double>& arc, const std::vector<Interval>& steps) {
+/// The chords of the steps, or the tangents at their starts, as far as the bullet would get; or the line of fire.
+std::vector<PathPiece> pieces_of(FlightPath path, const HitscanCell& c, const std::vector<Interval>& steps) {
+  if (path == FlightPath::line) return {{0, 0, 2 * c.range, 0}};
   std::vector<PathPiece> pieces;
   for (const auto& [from, until] : steps) {
-    const auto a = after(arc, from), b = after(arc, until);
+    const auto a = arc_of<double>(c).after(from), b = arc_of<double>(c).after(until);
     const bool chord = path == FlightPath::chords;
     pieces.push_back({a.x, a.s, chord ? b.x : a.x + a.vx * (until - from), chord ? b.s : a.s + a.vs * (until - from)});
   }
@@ -134,7 +110,7 @@ std::vector<PathPiece> pieces_of_arc(const HitscanCell& c) {
   std::vector<Interval> steps;
   for (int i = 0; i < slices; ++i)
     steps.push_back({window.lower + across * i / slices, window.lower + across * (i + 1) / slices});
-  return pieces_of(FlightPath::chords, arc_of<double>(c), steps);
+  return pieces_of(FlightPath::chords, c, steps);
 }
 
 struct Areas {
@@ -146,13 +122,10 @@ struct Areas {
 /// away.
 Areas areas_of(const HitscanRule& rule, const HitscanCell& c) {
   const double outer = reach(c), inner = c.target, rule_reach = rule.has_radius ? outer : inner;
-  const int phases = rule.path == FlightPath::line ? 1 : count_phases;
+  const int phases = rule.path == FlightPath::line ? 1 : 32;
   std::vector<std::vector<PathPiece>> paths;
-  for (int i = 0; i < phases; ++i) {
-    const bool line = rule.path == FlightPath::line;
-    paths.push_back(line ? std::vector<PathPiece>{{0, 0, 2 * c.range, 0}}
-                         : pieces_of(rule.path, arc_of<double>(c), steps_near_target(c, phase_of(rule, c, i, phases))));
-  }
+  for (int i = 0; i < phases; ++i)
+    paths.push_back(pieces_of(rule.path, c, steps_near_target(c, phase_of(rule, c, i, phases))));
   const std::vector<PathPiece> arc = pieces_of_arc(c);
   constexpr int turns = 96;
   Areas sum;
@@ -177,12 +150,6 @@ Areas areas_of(const HitscanRule& rule, const HitscanCell& c) {
   return sum;
 }
 
-/// [m^2] Of the two discs together.
-double drawn_area(const HitscanCell& c) {
-  const double disc = disc_radius(c);
-  return 2 * std::numbers::pi * disc * disc - lens_area(disc, disc, deflection(c));
-}
-
 void judge(HitscanMomentTest& test, const HitscanSpread& spread, const std::optional<HitscanMoments>& theory,
            const Interval& allowed) {
   if (spread.count == 0) return;
@@ -198,20 +165,27 @@ void judge(HitscanMomentTest& test, const HitscanSpread& spread, const std::opti
 Interval possible_lateness(const HitscanRule& rule, const HitscanCell& c) {
   const Interval window = contact_window(c);
   const double across = window.upper - window.lower;
-  switch (rule.path) {
-    case FlightPath::line: return {-window.upper, -window.lower};
-    case FlightPath::tangents:  // a ray of a step may be some of the next step long, as the bullet slows down
-      return {c.step - dragged_time(c.drag, c.step) - across, c.step + across};
-    case FlightPath::chords: break;
-  }
-  return {-across, across};
+  if (rule.path == FlightPath::line) return {-window.upper, -window.lower};
+  if (rule.path == FlightPath::chords) return {-across, across};
+  // A ray of a step may be some of the next step long, as the bullet slows down.
+  return {c.step - dragged_time(c.drag, c.step) - across, c.step + across};
 }
 
 }  // namespace
 
 Places shadow(const std::vector<PathPiece>& pieces, double range, double radius) {
   Places all;
-  for (const PathPiece& piece : pieces) all += shadow_of(piece, range, radius);
+  for (const PathPiece& piece : pieces) {
+    const double from = std::max(piece.x0 - range, -radius), to = std::min(piece.x1 - range, radius);
+    if (from > to) continue;  // it does not get there
+    const double slope = (piece.s1 - piece.s0) / (piece.x1 - piece.x0);
+    const auto path = [&](double x) { return piece.s0 + slope * (x + range - piece.x0); };
+    const auto rise = [&](double x) { return std::sqrt(std::max(0.0, radius * radius - x * x)); };
+    // Where a line of this slope touches the ball, or at the end nearest to that: rise is concave.
+    const double touch = slope * radius / std::hypot(1.0, slope);
+    const double low = std::clamp(-touch, from, to), high = std::clamp(touch, from, to);
+    all += Places::interval_type::closed(path(low) - rise(low), path(high) + rise(high));
+  }
   return all;
 }
 
@@ -230,7 +204,9 @@ double lens_area(double radius_a, double radius_b, double apart) {
 
 HitscanExpected expected_of(const HitscanRule& rule, const HitscanCell& c) {
   const Areas areas = areas_of(rule, c);
-  const auto share = [drawn = drawn_area(c)](double area) { return std::max(0.0, area) / drawn; };
+  const double disc = disc_radius(c);
+  const double drawn = 2 * std::numbers::pi * disc * disc - lens_area(disc, disc, deflection(c));  // [m^2] both discs
+  const auto share = [&](double area) { return std::max(0.0, area) / drawn; };
   HitscanExpected e = {.touch = share(areas.arc),
                        .reported = share(areas.rule),
                        .missed = share(areas.arc - areas.both),
@@ -254,7 +230,7 @@ double flat_false(double target, double radius, double deflection) {
 
 std::optional<double> range_of_missed(const HitscanCell& c, double share) {
   const auto too_many = [&](double range) {
-    return flat_missed(c.target, 0, at_distance(arc_of<double>(c), range).s) - share;
+    return flat_missed(c.target, 0, arc_of<double>(c).at_distance(range).s) - share;
   };
   const auto arc = arc_of<double>(c);
   if (arc.pull == 0) return std::nullopt;
