@@ -171,6 +171,9 @@ TEST(HitscanConfig, answers_for_any_choice_of_rules) {
   const Outcome ball =
       outcome_of(hitscan_experiment(), "rule = ['hitscan_ball']\nrange = [3]\nspeed = [30]\nshots = 20");
   EXPECT_NE(ball.answer.find("hitscan_ball misses"), std::string::npos) << ball.answer;
+  const Outcome frames =
+      outcome_of(hitscan_experiment(), "rule = ['next_frame']\nrange = [3]\nspeed = [30]\nshots = 20");
+  EXPECT_TRUE(frames.answer.ends_with("of its own are false.")) << frames.answer;
   const Outcome still =
       outcome_of(hitscan_experiment(), "gravity = 0\nwind = [0]\nrange = [3]\nspeed = [30]\nradius = [0]\nshots = 200");
   EXPECT_TRUE(still.self_test_passed) << still.summary;
