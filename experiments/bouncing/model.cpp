@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss.hpp>
@@ -68,16 +67,17 @@ const Factors<BounceCell>& bounce_factors() {
 
 std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
   const auto names = settings.choices_or_all("policy", distinct(all_bounce_policies, &BouncePolicy::name));
+  const auto is_asked = [&](const BouncePolicy& p) { return std::ranges::find(names, p.name) != names.end(); };
   std::vector<BounceCell> drops = bounce_factors().cells(settings, names.size(), {}, [&](const BounceCell& c) {
     check(settings, c);
     return true;
   });
   std::ranges::stable_sort(drops, std::greater<>(), &BounceCell::step);
   std::vector<BounceCell> cells;
-  for (const BounceCell& c : drops) {
-    for (const std::string& name : names) {
-      const BouncePolicy& policy = *std::ranges::find(all_bounce_policies, name, &BouncePolicy::name);
-      cells.push_back({c.gravity, c.height, c.radius, c.step, c.restitution, policy});
+  for (BounceCell& drop : drops) {
+    for (const BouncePolicy& policy : only(all_bounce_policies, is_asked)) {
+      drop.policy = policy;
+      cells.push_back(drop);
     }
   }
   return cells;

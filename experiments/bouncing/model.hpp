@@ -116,15 +116,8 @@ inline void push_out(const BouncingWorld& world, BouncingBall& ball) {
   bounce(world, ball);
 }
 
-/// The game loop's way.
-inline void project_flip(const BouncingWorld& world, BouncingBall& ball) {
-  kick_and_drift(world, ball);
-  push_out(world, ball);
-}
-
 /// The same without pushing out.
-inline void flip_only(const BouncingWorld& world, BouncingBall& ball) {
-  kick_and_drift(world, ball);
+inline void turn_speed(const BouncingWorld& world, BouncingBall& ball) {
   if (overlaps(ball.body, world.floor)) bounce(world, ball);
 }
 
@@ -148,12 +141,6 @@ inline void linear_toi(const BouncingWorld& world, BouncingBall& ball) {
   ball.time += world.step;
 }
 
-/// The exact arc, and the pose at the end of the step pushed out.
-inline void exact_project(const BouncingWorld& world, BouncingBall& ball) {
-  fly_on(world, ball);
-  push_out(world, ball);
-}
-
 /// The exact arc, split where it meets the floor: tested at the end of the step, which is enough since an arc is concave and
 /// the floor deeper than a step, and solved if it ends inside.
 inline void parabola_toi(const BouncingWorld& world, BouncingBall& ball) {
@@ -169,22 +156,22 @@ struct BouncePolicy {
   bool staggered;  ///< its speeds are half a step early
   Step step;
   Step to_the_apex;  ///< steps up to the apex after the next impact: what is timed, so nothing stands between its steps
-
-  bool operator==(const BouncePolicy&) const = default;
 };
 
-template <BouncePolicy::Step step> constexpr BouncePolicy bounce_policy(std::string_view name, bool staggered) {
+/// A step is its parts, one after the other.
+template <BouncePolicy::Step... parts> constexpr BouncePolicy bounce_policy(std::string_view name, bool staggered) {
+  constexpr BouncePolicy::Step step = [](const BouncingWorld& world, BouncingBall& ball) { (parts(world, ball), ...); };
   return {name, staggered, step, [](const BouncingWorld& world, BouncingBall& ball) {
             for (const std::int64_t before = ball.bounces; ball.bounces == before;) step(world, ball);
             while (ball.velocity > world.gravity * world.step) step(world, ball);
           }};
 }
 
-/// In the order of the tables.
+/// In the order of the tables; the first is the game loop's way.
 inline const std::vector<BouncePolicy> all_bounce_policies = {
-    bounce_policy<project_flip>("project_flip", true), bounce_policy<flip_only>("flip_only", true),
-    bounce_policy<linear_toi>("linear_toi", true), bounce_policy<exact_project>("exact_project", false),
-    bounce_policy<parabola_toi>("parabola_toi", false)};
+    bounce_policy<kick_and_drift, push_out>("project_flip", true),
+    bounce_policy<kick_and_drift, turn_speed>("flip_only", true), bounce_policy<linear_toi>("linear_toi", true),
+    bounce_policy<fly_on, push_out>("exact_project", false), bounce_policy<parabola_toi>("parabola_toi", false)};
 
 /// [J/kg] Energy of the flight: gravity times the height that the ball will rise to. Semi-implicit Euler's positions lie on an exact
 /// parabola, and its velocities are that parabola's half a step earlier. Derived in docs/bouncing.md.
