@@ -37,7 +37,7 @@ constexpr auto reported = [](const auto& row) { return row.tally.reported(); };
 std::optional<double> missed_share(const auto& row) { return share_of(missed(row), true_hits(row)); }
 std::optional<double> missed_share_theory(const Row& row) { return share_of(row.expected.missed, row.expected.touch); }
 
-bool is_of_known_shot(const Row& row) { return is_known(row.cell); }
+bool is_of_known_shot(const Row& row) { return !known_name(row.cell).empty(); }
 double radius_of(const Row& row) { return row.cell.radius; }
 double steps_late(const Row& row) { return row.tally.lateness.mean() / row.cell.step; }
 
@@ -85,9 +85,8 @@ Columns<Row> row_columns() {
                 value("lateness_mean", "step", "From first contact to the report, of the same hits; < 0 is early.",
                       steps_late))),
       value("lateness_theory", "step", "The same by theory, of next_frame.",
-            [](const Row& r) -> std::optional<double> {
-              if (!r.expected.lateness) return std::nullopt;
-              return r.expected.lateness->mean / r.cell.step;
+            [](const Row& r) {
+              return r.expected.lateness ? std::optional(r.expected.lateness->mean / r.cell.step) : std::nullopt;
             }),
       where(is_timed, together(value("lateness_min", "step", "The earliest report.",
                                      [](const Row& r) { return r.tally.lateness.least / r.cell.step; }),
@@ -114,10 +113,9 @@ std::vector<Total> totals_of(const Rows& rows) {
       const Tally& t = row->tally;
       total.missed_theory += row->expected.missed * static_cast<double>(t.shots);
       total.false_theory += row->expected.false_hits * static_cast<double>(t.shots);
-      if (!is_timed(*row)) continue;
       total.latest = std::max(total.latest, t.lateness.most / row->cell.step);
       total.earliest = std::min(total.earliest, t.lateness.least / row->cell.step);
-      total.late_steps += steps_late(*row) * static_cast<double>(t.lateness.count);
+      if (is_timed(*row)) total.late_steps += steps_late(*row) * static_cast<double>(t.lateness.count);
     }
   }
   return totals;
@@ -189,8 +187,8 @@ Plot drawn(const Rows& rows) {
     const auto there = arc_of<double>(r.cell).at_distance(r.cell.range);
     return std::hypot(there.vx, there.vs);
   };
-  const auto missed_residual = [](const Row& r) -> std::optional<double> {
-    if (!can_be_judged(r.tally.shots, r.expected.missed)) return std::nullopt;
+  const auto is_judged = [](const Row& r) { return can_be_judged(r.tally.shots, r.expected.missed); };
+  const auto missed_residual = [](const Row& r) {
     return standard_residual(missed(r), r.tally.shots, r.expected.missed);
   };
   const auto late = [](const Row& r) -> std::optional<Measured> {
@@ -201,7 +199,7 @@ Plot drawn(const Rows& rows) {
       row_columns(),
       text("bullet", "", [](const Row& r) { return fmt::format("bullet radius {:g} mm", 1e3 * r.cell.radius); }),
       value("off", "", "", [](const Row& r) { return deflection(r.cell) / r.cell.target; }),
-      value("speed_there", "", "", speed_there), value("residual", "", "", missed_residual),
+      value("speed_there", "", "", speed_there), where(is_judged, value("residual", "", "", missed_residual)),
       where(is_timed, together(measured("late", "", "", late, "late_"),
                                value("early", "", "", [](const Row& r) { return -steps_late(r); }))),
       value("flight", "", "", [](const Row& r) { return flight_time(r.cell) / r.cell.step; }));
@@ -299,7 +297,7 @@ std::string known_answer(const Rows& rows) {
 /// From when on the ray is no longer good: of the settings' cells, those of the thinnest bullet.
 std::string ray_answer(const Rows& rows) {
   const Rows rays =
-      only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_known(r.cell) && true_hits(r) > 0; });
+      only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_of_known_shot(r) && true_hits(r) > 0; });
   if (rays.empty()) return "";
   const double thin = std::ranges::min(rays, {}, radius_of).cell.radius;
   double good = 0, bad = std::numeric_limits<double>::infinity();

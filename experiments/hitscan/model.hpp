@@ -115,7 +115,6 @@ inline constexpr std::array<KnownShot, 4> known_shots = {{
     {"textbook bullet at 1 m", {1, 10, 0.02, 0, 0, 1.0 / 60, 0.15, 9.81, 1.25}},
 }};
 std::string_view known_name(const HitscanCell& c);  ///< of a known shot; otherwise empty
-inline bool is_known(const HitscanCell& c) { return !known_name(c).empty(); }
 
 const Factors<HitscanCell>& hitscan_factors();
 

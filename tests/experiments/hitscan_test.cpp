@@ -85,6 +85,8 @@ TEST(Hitscan, nothing_differs_where_nothing_pulls) {
     EXPECT_NEAR(e.false_hits, 0, 1e-12);
     EXPECT_EQ(e.path_error_possible.upper, 0);
   }
+  const HitscanCell thick = weightless(some_shot(30, 100, 0.02));  // both know where on the target a ball touches it
+  EXPECT_LT(shoot({hitscan_ball}, thick, 1, 2000)[0].point_error.most, 1e-6);
 }
 
 TEST(Hitscan, agrees_with_theory_and_says_what_the_ray_misses) {
