@@ -50,7 +50,7 @@ struct WorkRow {
   }
   Tally bounce() const {  ///< the tally of the last time: all are alike
     Tally tally;
-    for (std::int64_t i = 0; i < bounces(); ++i) {
+    for (std::int64_t i = 0, all = bounces(); i < all; ++i) {
       if (i % phases == 0) tally = {};
       tally.add(error_at(cell, (static_cast<double>(i % phases) + 0.5) / phases));
     }

@@ -20,37 +20,11 @@ BouncingBall falling(const BounceCell& cell, double elapsed) {
   return ball_at(cell.height - cell.gravity * elapsed * elapsed / 2, -cell.gravity * (elapsed - early), cell.radius);
 }
 
-void check(const Settings& settings, const BounceCell& c) {
-  if (c.radius < 1e-3 * c.height || c.radius > 10 * c.height)
-    settings.complain("radius", "0.001 to 10 times the height, whose digits it shares");
-  if (!(delta(c) >= 1e-4 && delta(c) <= 0.5)) {
-    settings.complain("step", fmt::format("steps in which gravity adds 0.0001 to 0.5 of the impact speed: {} s to {} s",
-                                          rounded_text(1e-4 * fall_time(c), 3), rounded_text(0.5 * fall_time(c), 3)));
-  }
-}
-
 constexpr double normal_95 = 1.959963984540054;
 constexpr std::int64_t least_for_mean = 30, least_for_spread = 100;
 
 /// Phases differ by no more than rounding: every bounce is the same.
 bool is_certain(const BounceRow& row) { return row.theory.sigma() <= rounding_of(row.cell); }
-
-void add(BounceTest& test, const BounceRow& row) {
-  if (is_certain(row)) {
-    const double expected = row.theory.mean(), allowed = rounding_of(row.cell) + 4 * row.theory.sigma();
-    ++test.certain_cells;
-    if (!(row.tally.most - expected <= allowed && expected - row.tally.least <= allowed)) ++test.certain_wrong;
-    return;
-  }
-  const auto mean = mean_residual(row), variance = variance_residual(row);
-  if (row.tally.trials < least_for_mean || !mean) {
-    ++test.other_cells;
-    return;
-  }
-  test.means.add(*mean);
-  if (std::abs(*mean) <= normal_95) ++test.covered;
-  if (variance) test.variances.add(*variance);
-}
 
 }  // namespace
 
@@ -69,7 +43,13 @@ std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
   const auto names = settings.choices_or_all("policy", distinct(all_bounce_policies, &BouncePolicy::name));
   const auto is_asked = [&](const BouncePolicy& p) { return std::ranges::find(names, p.name) != names.end(); };
   std::vector<BounceCell> drops = bounce_factors().cells(settings, names.size(), {}, [&](const BounceCell& c) {
-    check(settings, c);
+    if (c.radius < 1e-3 * c.height || c.radius > 10 * c.height)
+      settings.complain("radius", "0.001 to 10 times the height, whose digits it shares");
+    if (!(delta(c) >= 1e-4 && delta(c) <= 0.5)) {
+      settings.complain("step",
+                        fmt::format("steps in which gravity adds 0.0001 to 0.5 of the impact speed: {} s to {} s",
+                                    rounded_text(1e-4 * fall_time(c), 3), rounded_text(0.5 * fall_time(c), 3)));
+    }
     return true;
   });
   std::ranges::stable_sort(drops, std::greater<>(), &BounceCell::step);
@@ -231,7 +211,20 @@ std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
   std::vector<BounceTest> tests;
   for (const Group<BounceRow>& group : group_by(rows, [](const BounceRow& row) { return row.cell.policy.name; })) {
     BounceTest& test = tests.emplace_back(BounceTest{group[0]->cell.policy.name});
-    for (const BounceRow* row : group) add(test, *row);
+    for (const BounceRow* row : group) {
+      const auto mean = mean_residual(*row), variance = variance_residual(*row);
+      if (!mean) {  // every bounce must be the same
+        const double expected = row->theory.mean(), allowed = rounding_of(row->cell) + 4 * row->theory.sigma();
+        ++test.certain_cells;
+        if (!(row->tally.most - expected <= allowed && expected - row->tally.least <= allowed)) ++test.certain_wrong;
+      } else if (row->tally.trials < least_for_mean) {
+        ++test.other_cells;
+      } else {
+        test.means.add(*mean);
+        if (std::abs(*mean) <= normal_95) ++test.covered;
+        if (variance) test.variances.add(*variance);
+      }
+    }
   }
   return tests;
 }

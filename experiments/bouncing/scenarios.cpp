@@ -87,28 +87,23 @@ BounceScenario zeno() {
           exact && rests};
 }
 
-/// [m] How deep a ball is after `steps` that only turns its speed. From rest, its speed after step k is v (1 - (-e)^k) with
-/// v = e g h / (1 + e), and it sinks by (g h - the speed before) h in each. Derived in docs/bouncing.md.
-double depth_of_flip_only(const BounceCell& c, double steps) {
-  const double e = c.restitution, kick = c.gravity * c.step, speed = e * kick / (1 + e);
-  return c.step * (steps * kick - speed * (steps - (1 - std::pow(-e, steps)) / (1 + e)));
-}
-
 BounceScenario rest(const BouncePolicy& policy) {
-  constexpr std::int64_t steps = 100000;
+  constexpr int steps = 100000;
   const bool sinks = policy.name == "flip_only";
   const BounceCell cell = {9.81, sinks ? 1024.0 : 1.0, 0.5, 1.0 / 60, 0.25, policy};
   const BouncingWorld world = world_of(cell);
   BouncingBall ball = ball_at(0, 0, cell.radius);
   double lowest = 0, highest = 0;
-  for (std::int64_t i = 0; i < steps; ++i) {
+  for (int i = 0; i < steps; ++i) {
     policy.step(world, ball);
     lowest = std::min(lowest, gap_of(ball));
     highest = std::max(highest, gap_of(ball));
   }
   const std::string name = fmt::format("rest on the floor, {}", policy.name);
   if (sinks) {
-    const double depth = depth_of_flip_only(cell, static_cast<double>(steps));
+    // Its speed after step k is v (1 - (-e)^k) with v = e g h / (1 + e), and it sinks by (g h - the speed before) h in each.
+    const double e = cell.restitution, kick = cell.gravity * cell.step, speed = e * kick / (1 + e);
+    const double depth = cell.step * (steps * kick - speed * (steps - (1 - std::pow(-e, steps)) / (1 + e)));
     return {name, fmt::format("sinks: nothing pushes it out; {:.3f} m in 100 000 steps", depth),
             fmt::format("{:.3f} m", -gap_of(ball)), std::abs(gap_of(ball) + depth) <= 1e-9 * depth};
   }
@@ -194,12 +189,6 @@ BounceScenario closing_gap() {
 
 // Bodies that hit each other head-on: masses far apart, a cradle, and the billiard that counts the digits of pi.
 
-/// Units of round-off between an answer and what it should be.
-double rounds_off(double answer, long double expected) {
-  return static_cast<double>(
-      std::abs((static_cast<long double>(answer) - expected) / (expected * static_cast<long double>(u))));
-}
-
 /// A ball of mass `a` at 1 m/s hits one of mass `b` at rest; the library says when.
 BounceScenario head_on(double a, double b) {
   std::vector<FlyingBall> balls = {{{{-1, 0, 0}, 0.5}, {1, 0, 0}, a}, {{{0.5, 0, 0}, 0.5}, {0, 0, 0}, b}};
@@ -207,10 +196,11 @@ BounceScenario head_on(double a, double b) {
   const double after_a = balls[0].velocity.x(), after_b = balls[1].velocity.x();
   const long double la = a, lb = b;
   const long double back = (la - lb) / (la + lb), on = 2 * la / (la + lb);
+  const auto units_off = [](double answer, long double truth) {
+    return static_cast<double>(std::abs(answer - truth)) / u;
+  };
   // v' = 1 - 2 b / (a + b): three roundings of a number up to 2 beside an answer that may be small; V' has three of its own.
-  const double off =
-      std::max(a == b ? std::abs(after_a) : rounds_off(after_a, back) * std::abs(static_cast<double>(back)) / 2,
-               rounds_off(after_b, on));
+  const double off = std::max(units_off(after_a, back) / 2, units_off(after_b, on) / static_cast<double>(on));
   return {fmt::format("masses {} : {}, elastic", exact_text(a), exact_text(b)),
           fmt::format("v' = {}, V' = {}, within 4 u", rounded_text(static_cast<double>(back), 10),
                       rounded_text(static_cast<double>(on), 10)),
