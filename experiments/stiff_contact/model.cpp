@@ -2,23 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/random.hpp>
-#include <thinwall/experiments/stiff_contact/theory.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
 
 namespace {
-
-struct Ball {
-  Sphere<double> shape;
-  Vec3<double> velocity;  ///< [m/s]
-};
 
 /// One slab, wide enough that the nearest face is always the front or the back.
 Aabb<double> wall_of(const Approach& e) {
@@ -26,73 +24,56 @@ Aabb<double> wall_of(const Approach& e) {
   return {{0, 0, 0}, {e.thickness / 2, side, side}};
 }
 
-/// In continuous time a bounce takes at most (pi + 4 zeta) / omega; this is sixteen times as long, and more.
-std::int64_t most_steps(const PenaltyContact& c) {
-  return 1024 + static_cast<std::int64_t>(64 * (1 + c.damping_ratio) / c.step);
-}
+}  // namespace
 
-struct Stepper {
-  Scheme scheme;
-  Spring spring;
-  Aabb<double> wall;
+double frequency(const Approach& e, const PenaltyContact& c) { return frequency(spring_of(e.mass, c.stiffness, 0)); }
+double step_path(const Approach& e, const PenaltyContact& c) { return e.speed * (c.step / frequency(e, c)); }
 
-  /// A step [s] against the wall, which lies along `normal` and is `depth` deep.
-  void push(Ball& ball, const Vec3<double>& normal, double depth, double step) const {
-    const Motion old = {depth, ball.velocity.dot(normal)};
-    const Motion next = stepped(scheme, spring, Pull::push_only, step, old);
-    ball.shape.center += normal * (next.depth - old.depth);
-    ball.velocity += normal * (next.speed - old.speed);
-  }
-
+Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
+  const Spring spring = spring_of(e.mass, c.stiffness, c.damping_ratio);
+  const Aabb<double> wall = wall_of(e);
+  const double step = c.step / frequency(spring);  // [s]
+  Sphere<double> ball = {{-e.reach() - phase * e.speed * step, 0, 0}, e.radius};
+  Vec3<double> velocity = {e.speed, 0, 0};
+  /// For a time [s], against the wall, which lies along `normal` and is `depth` deep.
+  const auto push = [&](const Vec3<double>& normal, double depth, double time) {
+    const Motion old = {depth, velocity.dot(normal)};
+    const Motion next = pushed(c.scheme, spring, time, old);
+    ball.center += normal * (next.depth - old.depth);
+    velocity += normal * (next.speed - old.speed);
+  };
   /// A step that starts apart from the wall. Returns true if the wall was asked for a force.
-  bool fly(Ball& ball, double step, Detection detection) const {
-    const Vec3<double> path = ball.velocity * step;
-    if (detection == Detection::toi_split) {
-      const Toi<double> toi = time_of_impact(Moving{ball.shape, path}, at_rest(wall));
+  const auto fly = [&] {
+    const Vec3<double> path = velocity * step;
+    if (c.detection == Detection::toi_split) {
+      const Toi<double> toi = time_of_impact(Moving{ball, path}, at_rest(wall));
       if (toi.status == ToiStatus::hit) {
-        ball.shape.center += path * toi.time;
-        push(ball, toi.normal, 0, step * (1 - toi.time));
+        ball.center += path * toi.time;
+        push(toi.normal, 0, step * (1 - toi.time));
         return true;
       }
     }
-    ball.shape.center += path;
+    ball.center += path;
     return false;
-  }
-};
-
-}  // namespace
-
-double reach(const Approach& e) { return e.radius + e.thickness / 2; }
-Spring spring_of(const Approach& e, const PenaltyContact& c) { return spring_of(e.mass, c.stiffness, c.damping_ratio); }
-double seconds(const Approach& e, const PenaltyContact& c) { return c.step / frequency(spring_of(e, c)); }
-double step_path(const Approach& e, const PenaltyContact& c) { return e.speed * seconds(e, c); }
-
-Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
-  const double step = seconds(e, c), contact_distance = reach(e);
-  const Stepper stepper = {c.scheme, spring_of(e, c), wall_of(e)};
-  Ball ball = {{{-contact_distance - phase * e.speed * step, 0, 0}, e.radius}, {e.speed, 0, 0}};
+  };
   Bounce result = {Ending::unfinished, 0, 0, 0, 0};
-  const std::int64_t budget = most_steps(c);
+  // In continuous time a bounce takes at most (pi + 4 zeta) / omega; this is sixteen times as long, and more.
+  const std::int64_t budget = 1024 + static_cast<std::int64_t>(64 * (1 + c.damping_ratio) / c.step);
   for (std::int64_t count = 1; count <= budget; ++count) {
-    const Ball before = ball;
-    const std::optional<Contact<double>> touch = contact(ball.shape, stepper.wall);
-    const double x = ball.shape.center[0], v = ball.velocity[0];
-    if (!touch && x * v > 0) {
-      result.ending = x < 0 ? Ending::returned : Ending::escaped;
-      result.speed = std::abs(v) / e.speed;
+    const Vec3<double> center_before = ball.center, velocity_before = velocity;
+    const std::optional<Contact<double>> touch = contact(ball, wall);
+    if (!touch && ball.center[0] * velocity[0] > 0) {
+      result.ending = ball.center[0] < 0 ? Ending::returned : Ending::escaped;
+      result.speed = std::abs(velocity[0]) / e.speed;
       return result;
     }
-    if (touch) {
-      stepper.push(ball, touch->normal, touch->penetration, step);
-      ++result.contact_steps;
-    } else if (stepper.fly(ball, step, c.detection)) {
-      ++result.contact_steps;
-    }
-    const double speed = std::abs(ball.velocity[0]), now = ball.shape.center[0];
+    if (touch) push(touch->normal, touch->penetration, step);
+    if (touch || fly()) ++result.contact_steps;
+    const double speed = std::abs(velocity[0]), now = ball.center[0];
     if (result.blow_up_step == 0 && !(speed <= e.blow_up * e.speed)) result.blow_up_step = count;
     if (!std::isfinite(speed) || !std::isfinite(now)) return result;
-    result.deepest = std::max(result.deepest, now + contact_distance);
-    if (ball.velocity == before.velocity && ball.shape.center == before.shape.center) return result;  // it rests
+    result.deepest = std::max(result.deepest, now + e.reach());
+    if (velocity == velocity_before && ball.center == center_before) return result;  // it rests
   }
   return result;
 }
@@ -110,7 +91,10 @@ ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_
       t.blow_up_step = std::min(t.blow_up_step.value_or(b.blow_up_step), b.blow_up_step);
       ++t.blown_up;
     }
-    if (b.ending == Ending::escaped) ++t.escaped;
+    if (b.ending == Ending::escaped) {
+      t.least_path = step_path(e, c) / e.reach();
+      ++t.escaped;
+    }
     if (b.ending == Ending::unfinished) ++t.unfinished;
     if (b.ending != Ending::returned) continue;
     ++t.returned;
@@ -143,12 +127,12 @@ void check(const Settings& settings, const StiffPlan& plan) {
                         fmt::format("0, or {:g} to {:g}; one is {:g}", least_ratio, greatest_ratio, ratio));
     }
   }
-  if (reach(plan.approach) < least_reach) {
+  if (plan.approach.reach() < least_reach) {
     settings.complain("thickness", fmt::format("such that radius + thickness / 2 is at least {:g} m", least_reach));
   }
   const double omega = frequency(spring_of(plan.approach.mass, plan.stiffest(), 0));
   const double shortest = plan.approach.speed * std::min(plan.bounce_steps.front(), plan.race_steps.back()) / omega;
-  if (shortest < least_path * reach(plan.approach)) {
+  if (shortest < least_path * plan.approach.reach()) {
     settings.complain("stiffness",
                       fmt::format("such that the ball moves, in the shortest step, at least 2^-30 of radius + "
                                   "thickness / 2; at {:g} it moves {:.3g} m",
@@ -186,14 +170,23 @@ StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
   return plan;
 }
 
-LimitRow measured_spring(const StiffPlan& plan, Scheme scheme, double stiffness, double ratio) {
-  const Spring spring = spring_of(plan.approach.mass, stiffness, ratio);
-  LimitRow row = {scheme, stiffness, ratio, step_limit(scheme, ratio), {}, {}};
-  row.bracket = measured_limit(scheme, plan.approach.mass, stiffness, ratio);
-  for (const double step : plan.steps) row.blow_ups.push_back(blow_up_step(scheme, spring, step / frequency(spring)));
+namespace {
+
+LimitRow measured_spring(const StiffPlan& plan, const SpringCell& cell) {
+  const Spring spring = spring_of(plan.approach.mass, cell.stiffness, cell.damping_ratio);
+  const auto [stable, unstable] = measured_limit(cell.scheme, spring);
+  LimitRow row = {cell, step_limit(cell.scheme, cell.damping_ratio), stable, unstable, {}};
+  for (const double step : plan.steps) {
+    const std::int64_t blow_up = blow_up_step(cell.scheme, spring, step / frequency(spring));
+    const char* const verdict = blow_up > 0 ? "unstable" : "stable";
+    const bool is_undecided = stable < step && step < unstable;
+    row.map.push_back(
+        {cell, step, is_undecided ? "undecided" : verdict, blow_up > 0 ? std::optional(blow_up) : std::nullopt});
+  }
   return row;
 }
 
+/// At each step of the plan in place of the wall's own.
 std::vector<ContactRow> measured_wall(const StiffPlan& plan, PenaltyContact wall) {
   std::vector<ContactRow> rows;
   for (const double step : plan.bounce_steps) {
@@ -214,7 +207,7 @@ std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio) {
     for (const Detection detection : all_detections) {
       for (const double step : plan.race_steps) {
         const PenaltyContact c = {scheme, detection, plan.stiffest(), ratio, step};
-        rows.push_back({c, bounce_all(plan.approach, c, plan.seed, plan.race_bounces), {}});
+        rows.push_back({c, bounce_all(plan.approach, c, plan.seed, plan.race_bounces)});
         loops.push_back({[&plan, c](std::span<const double> some) {
           for (const double phase : some) keep(bounce(plan.approach, c, phase));
         }});
@@ -224,6 +217,136 @@ std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio) {
   run_rounds<double>(loops, phases, plan.rounds, round_ns, {plan.seed, 0});
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].nanoseconds = loops[i].nanoseconds;
   return rows;
+}
+
+}  // namespace
+
+StiffTasks stiff_tasks(const std::shared_ptr<const StiffPlan>& plan) {
+  StiffTasks tasks;
+  for (const Scheme scheme : all_schemes) {
+    for (const double stiffness : plan->stiffness) {
+      for (const double ratio : plan->ratios) {
+        tasks.springs.push_back({fmt::format("limit {} stiffness {} ratio {}", name(scheme), stiffness, ratio),
+                                 std::ssize(plan->steps), [=] {
+                                   return measured_spring(*plan, {scheme, stiffness, ratio});
+                                 }});
+      }
+    }
+    for (const double ratio : plan->bounce_ratios) {
+      for (const double stiffness : plan->stiffness) {
+        for (const Detection detection : all_detections) {
+          const PenaltyContact wall = {scheme, detection, stiffness, ratio, 0};
+          tasks.walls.push_back(
+              {fmt::format("bounce {} {} stiffness {} ratio {}", name(scheme), name(detection), stiffness, ratio),
+               plan->bounces * std::ssize(plan->bounce_steps), [=] { return measured_wall(*plan, wall); }});
+        }
+      }
+    }
+  }
+  for (const double ratio : plan->bounce_ratios) {
+    tasks.races.push_back({fmt::format("race ratio {}", ratio), plan->race_bounces * plan->rounds,
+                           [=] { return measured_race(*plan, ratio); }});
+  }
+  return tasks;
+}
+
+// Whether what was measured agrees with theory.
+
+namespace {
+
+/// `rows` are those that it speaks of.
+template <class Row, class Holds> StiffClaim claim(std::string text, const std::vector<Row>& rows, const Holds& holds) {
+  const std::int64_t right = std::ranges::count_if(rows, holds);
+  return {std::move(text), std::ssize(rows), std::ssize(rows) - right};
+}
+
+}  // namespace
+
+bool LimitRow::holds_theory() const {
+  if (!theory) return std::isinf(unstable);
+  return stable <= *theory && *theory <= unstable;
+}
+
+std::vector<MapStep> map_of(const std::vector<LimitRow>& rows) {
+  std::vector<MapStep> all;
+  for (const LimitRow& row : rows) all.insert(all.end(), row.map.begin(), row.map.end());
+  return all;
+}
+
+bool is_clean(const StiffPlan& plan, const ContactRow& row) {
+  return row.tally.returned == row.tally.bounces() && row.tally.deepest < plan.approach.reach();
+}
+
+const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow& row) {
+  PenaltyContact other = row.contact;
+  other.detection = other.detection == Detection::discrete ? Detection::toi_split : Detection::discrete;
+  return *std::ranges::find(rows, other, &ContactRow::contact);
+}
+
+std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
+  constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
+  const StiffPlan& plan = results.plan;
+  const auto decided = only(map_of(results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
+  const auto undamped =
+      only(results.bounces, [&](const ContactRow& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
+  const auto undamped_by = [&](Scheme scheme) {
+    return only(undamped, [scheme](const ContactRow& r) { return r.contact.scheme == scheme; });
+  };
+  const auto discrete = [](const ContactRow& r) { return r.contact.detection == Detection::discrete; };
+  /// [1] Of the incoming speed: what rounding may do to a bounce. Each of pi / step + 2 poses is off by half an ulp of the reach, a share
+  /// of the path of a step, which the spring turns into step^2 of it in speed; near a step of 2 the bounce passes that on up to
+  /// 1 / sqrt(1 - step^2 / 4) times.
+  const auto slack = [&](const ContactRow& r) {
+    const double step = r.contact.step, reach = plan.approach.reach();
+    const double pose = std::numeric_limits<double>::epsilon() * (1 + reach / step_path(plan.approach, r.contact));
+    const double passed_on = bounce_bounds(step).value_or(Interval{1, 1}).upper;
+    return pose * (std::numbers::pi + 2 * step) * (1 + step) * passed_on;
+  };
+  return {
+      claim("the limit lies in the measured bracket", results.limits, std::mem_fn(&LimitRow::holds_theory)),
+      claim("the bracket is at most 0.1 % wide", results.limits,
+            [](const LimitRow& row) {
+              return row.stable == 0 || std::isinf(row.unstable) || row.unstable / row.stable - 1 <= wide;
+            }),
+      claim("a step is stable below the limit and unstable above", decided,
+            [](const MapStep& s) {
+              const auto limit = step_limit(s.spring.scheme, s.spring.damping_ratio);
+              return (s.verdict == "stable") == (!limit || s.step < *limit);
+            }),
+      claim("semi-implicit, undamped: the speed ratio keeps its bounds",
+            only(undamped_by(Scheme::semi_implicit),
+                 [](const ContactRow& r) { return bounce_bounds(r.contact.step).has_value(); }),
+            [&](const ContactRow& r) {
+              const Interval range = *bounce_bounds(r.contact.step);
+              return r.tally.slowest >= range.lower - slack(r) && r.tally.fastest <= range.upper + slack(r);
+            }),
+      claim("explicit, undamped: never slower after than before", undamped_by(Scheme::explicit_euler),
+            [&](const ContactRow& r) { return r.tally.slowest >= 1 - slack(r); }),
+      claim("implicit, undamped: never faster after than before", undamped_by(Scheme::implicit_euler),
+            [&](const ContactRow& r) { return r.tally.fastest <= 1 + slack(r); }),
+      // A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
+      claim("explicit and semi-implicit, undamped: splitting the step changes no bounce",
+            only(undamped,
+                 [&](const ContactRow& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
+            [&](const ContactRow& r) {
+              const ContactRow& split = twin_of(results.bounces, r);
+              const double most = slack(r) * std::max(1.0, r.tally.fastest);
+              return is_clean(plan, split) && std::abs(r.tally.slowest - split.tally.slowest) <= most &&
+                     std::abs(r.tally.fastest - split.tally.fastest) <= most;
+            }),
+      claim("discrete: as many escape as are first seen past the middle, or more", only(results.bounces, discrete),
+            [&](const ContactRow& r) {
+              const double late_share = std::max(0.0, 1 - plan.approach.reach() / step_path(plan.approach, r.contact));
+              const double least = std::floor(static_cast<double>(r.tally.bounces()) * late_share) - 1;
+              return static_cast<double>(r.tally.escaped) >= least;
+            }),
+      claim("implicit, split, stiff enough for continuous time: none escapes",
+            only(results.bounces,
+                 [&](const ContactRow& r) {
+                   const double depth = plan.approach.speed / frequency(plan.approach, r.contact);
+                   return r.contact.scheme == Scheme::implicit_euler && !discrete(r) && depth < plan.approach.reach();
+                 }),
+            [](const ContactRow& r) { return r.tally.escaped == 0; })};
 }
 
 }  // namespace thinwall

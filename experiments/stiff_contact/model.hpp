@@ -1,17 +1,19 @@
 #pragma once
 /// A ball flies at a wall that pushes it with a spring and a damper, and is followed until it leaves: what the settings ask, one
-/// bounce, what is counted over its phases, and the rows of the results.
+/// bounce, what is counted over its phases, the rows of the results, and whether they agree with theory.
 /// Contact is the library's: `contact` at the poses, `time_of_impact` between them.
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/stiff_contact/spring.hpp>
 
 namespace thinwall {
@@ -32,6 +34,9 @@ struct Approach {
   double radius;     ///< [m] >= 0
   double thickness;  ///< [m] >= 0, of the wall; radius + thickness > 0
   double blow_up;    ///< [incoming speeds] > 1: a run that gets this fast has blown up
+
+  /// [m] How far the center is from the middle of the wall at first contact. Past the middle, the wall pushes it on.
+  double reach() const { return radius + thickness / 2; }
 };
 
 /// How the contact is computed.
@@ -53,10 +58,7 @@ struct PenaltyContact {
   }
 };
 
-/// [m] How far the center is from the middle of the wall at first contact. Past the middle, the wall pushes it on.
-double reach(const Approach& e);
-Spring spring_of(const Approach& e, const PenaltyContact& c);
-double seconds(const Approach& e, const PenaltyContact& c);    ///< [s] a step
+double frequency(const Approach& e, const PenaltyContact& c);  ///< [1/s] omega
 double step_path(const Approach& e, const PenaltyContact& c);  ///< [m] of the incoming ball in a step
 
 enum class Ending {
@@ -85,6 +87,7 @@ struct ContactTally {
   double speed_sum = 0;                          ///< [incoming speeds]
   double square_error = 0;                       ///< sum of (speed - restitution)^2
   double deepest = no_most;                      ///< [m]
+  double least_path = no_least;                  ///< [reaches] of a step that let one through
 
   static constexpr auto fields() {
     using T = ContactTally;
@@ -98,7 +101,9 @@ struct ContactTally {
         least("speed_min", &T::slowest, "1", "Of those that returned: the least speed out over speed in."),
         most("speed_max", &T::fastest, "1", "The greatest."), kept("speed_sum", &T::speed_sum),
         kept("square_error", &T::square_error),
-        most("depth_max", &T::deepest, "m", "Deepest of all, past the front face."));
+        most("depth_max", &T::deepest, "m", "Deepest of all, past the front face."),
+        least("least_path", &T::least_path, "1",
+              "Of a step that let one through, over the way from touch to the middle."));
   }
 
   std::int64_t bounces() const { return returned + escaped + unfinished; }
@@ -131,24 +136,55 @@ struct StiffPlan {
 /// Throws UsageError.
 StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options);
 
-/// A spring that holds both ways: where stable ends, and what each step of the map does.
-struct LimitRow {
+/// A spring that holds both ways.
+struct SpringCell {
   Scheme scheme;
-  double stiffness, ratio;
-  std::optional<double> theory;  ///< the limit; nothing: there is none
-  LimitBracket bracket;
-  std::vector<std::int64_t> blow_ups;  ///< for each step of the map, after how many steps it blew up; 0: it did not
+  double stiffness;      ///< [N/m] > 0
+  double damping_ratio;  ///< [1] >= 0
 
   static constexpr auto fields() {
-    using L = LimitRow;
-    return record(kept("scheme", &L::scheme, "", "How a step is computed."),
-                  kept("stiffness", &L::stiffness, "N/m", "Of the spring."),
-                  kept("damping_ratio", &L::ratio, "1", "damping / (2 sqrt(stiffness mass))."),
-                  kept("limit", &L::theory, "1/omega", "By formula; missing where every step is stable."),
-                  part(&L::bracket), kept("blow_ups", &L::blow_ups));
+    using C = SpringCell;
+    return record(kept("scheme", &C::scheme, "", "How a step is computed."),
+                  kept("stiffness", &C::stiffness, "N/m", "Of the spring."),
+                  kept("damping_ratio", &C::damping_ratio, "1", "damping / (2 sqrt(stiffness mass))."));
   }
 };
-LimitRow measured_spring(const StiffPlan& plan, Scheme scheme, double stiffness, double ratio);
+
+/// A step of the map: what it does to a spring.
+struct MapStep {
+  SpringCell spring;
+  double step;                               ///< [1/omega]
+  std::string verdict;                       ///< "stable", "unstable", or inside the bracket of the limit "undecided"
+  std::optional<std::int64_t> blow_up_step;  ///< nothing: it did not
+
+  static constexpr auto fields() {
+    using M = MapStep;
+    return record(
+        part(&M::spring), kept("step", &M::step, "1/omega", "Time step, with omega = sqrt(stiffness / mass)."),
+        kept("verdict", &M::verdict, "", "Measured: stable, unstable, or undecided (inside the bracket of the limit)."),
+        kept("blow_up_step", &M::blow_up_step, "1",
+             "Steps after which the state is 2^32 times its start; missing if never."));
+  }
+};
+
+/// Where stable ends.
+struct LimitRow {
+  SpringCell spring;
+  std::optional<double> theory;                  ///< the limit; nothing: there is none
+  double stable = no_most, unstable = no_least;  ///< as `measured_limit` has them
+  std::vector<MapStep> map;
+
+  /// The measured bracket holds the limit, or both have none.
+  bool holds_theory() const;
+  static constexpr auto fields() {
+    using L = LimitRow;
+    return record(
+        part(&L::spring), kept("limit", &L::theory, "1/omega", "By formula; missing where every step is stable."),
+        most("stable", &L::stable, "1/omega", "Measured: the state decays here (undamped: stays bounded)."),
+        least("unstable", &L::unstable, "1/omega", "Measured: it grows here; missing if it grows at no step."),
+        kept("map", &L::map));
+  }
+};
 
 /// One wall that only pushes, at one step, over all phases.
 struct ContactRow {
@@ -161,11 +197,14 @@ struct ContactRow {
     return record(part(&R::contact), part(&R::tally), kept("nanoseconds", &R::nanoseconds));
   }
 };
-/// At each step of the plan in place of the wall's own.
-std::vector<ContactRow> measured_wall(const StiffPlan& plan, PenaltyContact wall);
 
-/// Every scheme and detection at the greatest stiffness, from rough to fine steps: the same bounces, timed in interleaved rounds.
-std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio);
+/// What is measured. Of a wall, or of the race at one damping ratio, all rows: of the race every scheme and detection at the greatest
+/// stiffness, from rough to fine steps, the same bounces timed in interleaved rounds.
+struct StiffTasks {
+  std::vector<Task<LimitRow>> springs;
+  std::vector<Task<std::vector<ContactRow>>> walls, races;
+};
+StiffTasks stiff_tasks(const std::shared_ptr<const StiffPlan>& plan);
 
 struct StiffResults {
   StiffPlan plan;
@@ -173,5 +212,24 @@ struct StiffResults {
   std::vector<ContactRow> bounces;
   std::vector<ContactRow> racers;
 };
+
+// Whether what was measured agrees with theory.
+
+/// Every step of every spring.
+std::vector<MapStep> map_of(const std::vector<LimitRow>& rows);
+
+/// Every bounce came back, and none got past the middle of the wall.
+bool is_clean(const StiffPlan& plan, const ContactRow& row);
+
+/// The one of the same wall and step with the other detection, which must be there.
+const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow& row);
+
+/// What theory claims, over all rows that it speaks of.
+struct StiffClaim {
+  std::string text;
+  std::int64_t judged = 0, wrong = 0;
+  bool passed() const { return wrong == 0; }
+};
+std::vector<StiffClaim> stiff_claims(const StiffResults& results);
 
 }  // namespace thinwall

@@ -9,36 +9,29 @@
 
 namespace thinwall {
 
-namespace {
-
-double force(const Spring& spring, Pull pull, const Motion& motion) {
-  const double f = spring.stiffness * motion.depth + spring.damping * motion.speed;
-  return pull == Pull::push_only ? std::max(0.0, f) : f;
-}
-
-/// (m + h c + h^2 k) v' = m v - h k x, from v' = v - h (k x' + c v') / m and x' = x + h v'.
-Motion implicit_step(const Spring& spring, Pull pull, double step, const Motion& old) {
-  const double inertia = spring.mass + step * spring.damping + step * step * spring.stiffness;
-  const double speed = (spring.mass * old.speed - step * spring.stiffness * old.depth) / inertia;
-  const Motion next = {old.depth + step * speed, speed};
-  const bool pulls = spring.stiffness * next.depth + spring.damping * next.speed < 0;
-  if (pull == Pull::push_only && pulls) return {old.depth + step * old.speed, old.speed};
-  return next;
-}
-
-}  // namespace
-
 Spring spring_of(double mass, double stiffness, double ratio) {
   return {mass, stiffness, 2 * ratio * std::sqrt(stiffness) * std::sqrt(mass)};
 }
 
 double frequency(const Spring& spring) { return std::sqrt(spring.stiffness / spring.mass); }
 
-Motion stepped(Scheme scheme, const Spring& spring, Pull pull, double step, const Motion& motion) {
-  if (scheme == Scheme::implicit_euler) return implicit_step(spring, pull, step, motion);
-  const double speed = motion.speed - step * force(spring, pull, motion) / spring.mass;
-  const double mover = scheme == Scheme::explicit_euler ? motion.speed : speed;
-  return {motion.depth + step * mover, speed};
+Motion stepped(Scheme scheme, const Spring& spring, double step, const Motion& old) {
+  const auto& [mass, stiffness, damping] = spring;
+  if (scheme == Scheme::implicit_euler) {
+    // (m + h c + h^2 k) v' = m v - h k x, from v' = v - h (k x' + c v') / m and x' = x + h v'.
+    const double inertia = mass + step * damping + step * step * stiffness;
+    const double speed = (mass * old.speed - step * stiffness * old.depth) / inertia;
+    return {old.depth + step * speed, speed};
+  }
+  const double speed = old.speed - step * (stiffness * old.depth + damping * old.speed) / mass;
+  return {old.depth + step * (scheme == Scheme::explicit_euler ? old.speed : speed), speed};
+}
+
+Motion pushed(Scheme scheme, const Spring& spring, double step, const Motion& old) {
+  const Motion next = stepped(scheme, spring, step, old);
+  const auto& [depth, speed] = scheme == Scheme::implicit_euler ? next : old;
+  const bool pushes = spring.stiffness * depth + spring.damping * speed >= 0;
+  return pushes ? next : Motion{old.depth + step * old.speed, old.speed};
 }
 
 namespace {
@@ -66,8 +59,8 @@ Power product(const Power& a, const Power& b) { return normalized(a.m * b.m, a.e
 /// Two unit states, stepped once, are its columns: in units of energy, sqrt(k) depth and sqrt(m) speed.
 Power one_step(Scheme scheme, const Spring& spring, double step) {
   const double depth_unit = 1 / std::sqrt(spring.stiffness), speed_unit = 1 / std::sqrt(spring.mass);
-  const Motion a = stepped(scheme, spring, Pull::both_ways, step, {depth_unit, 0});
-  const Motion b = stepped(scheme, spring, Pull::both_ways, step, {0, speed_unit});
+  const Motion a = stepped(scheme, spring, step, {depth_unit, 0});
+  const Motion b = stepped(scheme, spring, step, {0, speed_unit});
   Eigen::Matrix2d m;
   m << a.depth / depth_unit, b.depth / depth_unit, a.speed / speed_unit, b.speed / speed_unit;
   return normalized(m, 0);
@@ -107,8 +100,7 @@ std::int64_t blow_up_step(Scheme scheme, const Spring& spring, double step) {
   return steps + 1;
 }
 
-LimitBracket measured_limit(Scheme scheme, double mass, double stiffness, double damping_ratio) {
-  const Spring spring = spring_of(mass, stiffness, damping_ratio);
+Interval measured_limit(Scheme scheme, const Spring& spring) {
   const double omega = frequency(spring);
   const auto fate_at = [&](double exponent) { return fate(scheme, spring, std::exp2(exponent) / omega); };
   const bool damped = spring.damping > 0;
@@ -127,6 +119,39 @@ LimitBracket measured_limit(Scheme scheme, double mass, double stiffness, double
   const auto is_stable = [&](Fate f) { return f == Fate::decays || (!damped && f == Fate::holds); };
   while (above - back > first && !is_stable(fate_at(above - back))) back *= 2;
   return {above - back > first ? std::exp2(above - back) : 0, std::exp2(above)};
+}
+
+// What mathematics says.
+
+namespace {
+
+/// acos(z) / sqrt(1 - z^2), which is acosh(z) / sqrt(z^2 - 1) beyond 1, and 1 at 1.
+double arc_over_sine(double z) {
+  const double sine = std::sqrt(std::abs((1 - z) * (1 + z)));
+  if (sine == 0) return 1;
+  return (z < 1 ? std::atan2(sine, z) : std::asinh(sine)) / sine;
+}
+
+}  // namespace
+
+std::optional<double> step_limit(Scheme scheme, double damping_ratio) {
+  const double z = damping_ratio;
+  switch (scheme) {
+    case Scheme::explicit_euler: return z < 1 ? 2 * z : 2 / (z + std::sqrt((z - 1) * (z + 1)));
+    case Scheme::semi_implicit: return 2 / (std::hypot(1.0, z) + z);
+    case Scheme::implicit_euler: break;
+  }
+  return std::nullopt;
+}
+
+double restitution(double damping_ratio) { return std::exp(-2 * damping_ratio * arc_over_sine(damping_ratio)); }
+
+double deepest(double damping_ratio) { return std::exp(-damping_ratio * arc_over_sine(damping_ratio)); }
+
+std::optional<Interval> bounce_bounds(double step) {
+  if (!(step < 2)) return std::nullopt;
+  const double least = std::sqrt(1 - step * step / 4);
+  return Interval{least, 1 / least};
 }
 
 }  // namespace thinwall

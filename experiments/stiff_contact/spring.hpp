@@ -1,12 +1,13 @@
 #pragma once
-/// A spring and a damper between a ball and a wall: one step by three schemes, and whether the steps of a spring that holds both ways
-/// grow.
+/// A spring and a damper between a ball and a wall: one step by three schemes, whether the steps of a spring that holds both ways
+/// grow, and what mathematics says of both. All is derived in docs/stiff_contact.md; the damping ratio is c / (2 sqrt(k m)).
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
-#include <thinwall/experiments/lab/record.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 
 namespace thinwall {
 
@@ -23,7 +24,7 @@ struct Spring {
   double damping;    ///< [N s/m] >= 0
 };
 
-/// Of damping ratio `ratio` = c / (2 sqrt(k m)) >= 0.
+/// Of damping ratio `ratio` >= 0.
 Spring spring_of(double mass, double stiffness, double ratio);
 
 double frequency(const Spring& spring);  ///< [1/s] omega = sqrt(k / m)
@@ -33,17 +34,14 @@ struct Motion {
   double speed;  ///< [m/s] into the wall
 };
 
-enum class Pull {
-  both_ways,  ///< a spring that holds the ball: linear
-  push_only,  ///< a wall: where k depth + c speed < 0 there is no force
-};
-
-/// The motion after a step [s] >= 0, with the force k depth + c speed against the wall.
+/// The motion after a step [s] >= 0 of a spring that holds both ways, with the force k depth + c speed against it: linear.
 ///   explicit_euler: depth and speed both from the old state.
 ///   semi_implicit:  the new speed from the old state, damping too; the new depth from the new speed (symplectic).
-///   implicit_euler: both from the new state; a wall that would pull does nothing.
-/// Source: derived in docs/stiff_contact.md.
-Motion stepped(Scheme scheme, const Spring& spring, Pull pull, double step, const Motion& motion);
+///   implicit_euler: both from the new state.
+Motion stepped(Scheme scheme, const Spring& spring, double step, const Motion& old);
+
+/// The same with a wall, which does nothing where its force would pull: in the state that the scheme takes it from.
+Motion pushed(Scheme scheme, const Spring& spring, double step, const Motion& old);
 
 // Growth, measured on the scheme's own steps, without any formula for its limit: by squaring their matrix.
 
@@ -60,21 +58,25 @@ Fate fate(Scheme scheme, const Spring& spring, double step);
 /// state that oscillates dips, so an earlier step may have passed by less than one oscillation.
 std::int64_t blow_up_step(Scheme scheme, const Spring& spring, double step);
 
-/// Where stable ends, in steps of 1/omega.
-struct LimitBracket {
-  double stable = no_most;     ///< decays here, or holds if undamped; 0 if it grows at every step that was tried
-  double unstable = no_least;  ///< grows here; infinity if it grows at no step that was tried
+/// Where stable ends, in steps of 1/omega: it decays at the lower end, or holds if undamped, and grows at the upper. The lower is 0 if
+/// it grows at every step that was tried, the upper infinity if at none.
+/// Tries 2^-20 (2^-14 without damping) to 2^20 by factors of 2, then bisects. Its damping ratio: 0, or 1e-5 to 1e5,
+/// where 2^50 steps tell growth from decay.
+Interval measured_limit(Scheme scheme, const Spring& spring);
 
-  static constexpr auto fields() {
-    return record(
-        most("stable", &LimitBracket::stable, "1/omega", "Measured: the state decays here (undamped: stays bounded)."),
-        least("unstable", &LimitBracket::unstable, "1/omega",
-              "Measured: it grows here; missing if it grows at no step."));
-  }
-};
+// What mathematics says, without any step. Steps are in units of 1/omega, depths in units of speed / omega.
 
-/// Tries 2^-20 (2^-14 without damping) to 2^20 by factors of 2, then bisects. `damping_ratio`: 0, or 1e-5 to 1e5,
-/// where 2^50 steps tell growth from decay. `mass` [kg], `stiffness` [N/m] > 0.
-LimitBracket measured_limit(Scheme scheme, double mass, double stiffness, double damping_ratio);
+/// [1/omega] A spring that holds both ways is stable below this step, and not above. 0: at no step. Nothing: at every one.
+std::optional<double> step_limit(Scheme scheme, double damping_ratio);
+
+/// [1] |speed out / speed in| of a bounce off a wall that only pushes, in continuous time: 1 without damping.
+double restitution(double damping_ratio);
+
+/// [speed/omega] How deep that bounce goes.
+double deepest(double damping_ratio);
+
+/// [1] |speed out / speed in| of an undamped bounce by the semi-implicit scheme lies in here, whatever the phase.
+/// Nothing for a step of 2 and more.
+std::optional<Interval> bounce_bounds(double step);
 
 }  // namespace thinwall

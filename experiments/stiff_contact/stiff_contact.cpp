@@ -13,10 +13,9 @@
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/race.hpp>
-#include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/stiff_contact/theory.hpp>
+#include <thinwall/experiments/stiff_contact/model.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -29,6 +28,7 @@ template <class T> bool is_in(const std::vector<T>& all, const T& x) { return st
 
 bool has_returned(const Row& row) { return row.tally.returned > 0; }
 bool all_returned(const Row& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
+std::int64_t bounces_of(const Row& row) { return row.tally.bounces(); }
 double mean_speed(const Row& row) { return row.tally.mean_speed(); }
 double rms_error(const Row& row) { return row.tally.rms_error(); }
 double spread(const Row& row) { return row.tally.fastest - row.tally.slowest; }
@@ -39,21 +39,20 @@ std::string method_of(const Row& row) {
 
 /// [1] Deepest over what continuous time has.
 double relative_depth(const StiffPlan& plan, const Row& row) {
-  const double omega = frequency(spring_of(plan.approach, row.contact));
-  return row.tally.deepest * omega / (plan.approach.speed * deepest(ratio_of(row)));
+  return row.tally.deepest * frequency(plan.approach, row.contact) / (plan.approach.speed * deepest(ratio_of(row)));
 }
 
 // Who is cheapest at which error.
 
-double time_of(const Row& row) { return median(row.nanoseconds); }
-Interval time_interval(const Row& row) { return median_of_rounds(row.nanoseconds).interval; }
+/// [ns] A bounce.
+Measured time_of(const Row& row) { return median_of_rounds(row.nanoseconds); }
 
 /// Of each damping ratio, scheme and detection the cheapest whose error is at most this, if there is one.
 std::vector<Row> cheapest(const std::vector<Row>& racers, double error) {
   const auto good = only(racers, [&](const Row& r) { return all_returned(r) && rms_error(r) <= error; });
   std::vector<Row> best;
   for (const Group<Row>& group : group_by(good, [](const Row& r) { return std::pair(ratio_of(r), method_of(r)); }))
-    best.push_back(**std::ranges::min_element(group, {}, [](const Row* r) { return time_of(*r); }));
+    best.push_back(**std::ranges::min_element(group, {}, [](const Row* r) { return time_of(*r).value; }));
   return best;
 }
 
@@ -81,20 +80,13 @@ Table claims_table(const std::vector<StiffClaim>& claims) {
 Table limits_table(const std::vector<LimitRow>& rows) {
   return table("limits", "The largest stable step of a spring that holds both ways, measured and by formula.",
                columns_of<LimitRow>(fields(std::identity()),
-                                    value("inside", "", "The limit lies between the two.", holds_theory)),
+                                    value("inside", "", "The limit lies between the two.", &LimitRow::holds_theory)),
                rows);
 }
 
-Table stability_table(const StiffPlan& plan, const std::vector<LimitRow>& limits) {
-  const auto columns = columns_of<MapStep>(
-      fields([](const MapStep& s) -> const LimitRow& { return *s.spring; }, {"scheme", "stiffness", "damping_ratio"}),
-      value("step", "1/omega", "Time step, with omega = sqrt(stiffness / mass).", &MapStep::step),
-      text("verdict", "Measured: stable, unstable, or undecided (inside the bracket of the limit).", &MapStep::verdict),
-      where([](const MapStep& s) { return s.blow_up > 0; },
-            value("blow_up_step", "1", "Steps after which the state is 2^32 times its start; missing if never.",
-                  &MapStep::blow_up)));
-  return table("stability", "The map: what each step does to a spring that holds both ways.", columns,
-               map_of(plan, limits));
+Table stability_table(const std::vector<LimitRow>& limits) {
+  return table("stability", "The map: what each step does to a spring that holds both ways.",
+               columns_of<MapStep>(fields(std::identity())), map_of(limits));
 }
 
 Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
@@ -107,7 +99,7 @@ Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
       fields(&Row::contact),
       value("path", "m", "How far the ball flies in a step.",
             [&](const Row& r) { return step_path(plan.approach, r.contact); }),
-      value("bounces", "1", "Asked, each at a phase of its own.", [](const Row& r) { return r.tally.bounces(); }),
+      value("bounces", "1", "Asked, each at a phase of its own.", bounces_of),
       fields(&Row::tally, {"returned", "escaped", "unfinished", "blown_up", "blow_up_step", "speed_min"}),
       where(has_returned, of_returned),
       value("speed_exact", "1", "Speed out over speed in, in continuous time.",
@@ -146,41 +138,49 @@ auto racer_columns() { return fields(&Row::contact, {"scheme", "detection", "dam
 Table race_table(const std::vector<Row>& racers) {
   return table("race", "The error of a bounce against the number of its steps.",
                columns_of<Row>(racer_columns(), fields(&Row::tally, {"returned"}),
-                               value("bounces", "1", "Asked.", [](const Row& r) { return r.tally.bounces(); }),
-                               error_column(), contact_steps_column()),
+                               value("bounces", "1", "Asked.", bounces_of), error_column(), contact_steps_column()),
                racers);
 }
 
 Table times_table(const std::vector<Row>& racers) {
   const auto columns = columns_of<Row>(
       racer_columns(), error_column(),
-      value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.", time_of),
+      value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.",
+            [](const Row& r) { return time_of(r).value; }),
       value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
-            [](const Row& r) { return time_interval(r).lower; }),
-      value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_interval(r).upper; }));
+            [](const Row& r) { return time_of(r).interval.lower; }),
+      value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_of(r).interval.upper; }));
   return timing(table("timings", "Time a bounce, on this machine, with every core at work: medians over rounds.",
                       columns, racers));
 }
 
-// What the pictures show: points on two logarithmic axes.
+// What the pictures show.
 
-constexpr double last_step_of_bounces = 3;  // [1] h omega; beyond it a bounce is a matter of chance
-constexpr const char* step_label = "h omega [1]";
+std::string fate_of(const Row& row) {
+  const ContactTally& t = row.tally;
+  if (t.escaped > 0) return t.escaped == t.bounces() ? "all get through" : "some get through";
+  return t.blown_up > 0 ? "all return, some too fast" : "all return";
+}
 
-struct Point {
-  double x, y;
-  std::string label;
-  std::optional<double> lower = {}, upper = {};
-};
+bool is_positive(double x) { return x > 0; }
 
-Plot plot_of(const std::vector<Point>& points, std::string x_label, std::string y_label) {
-  const auto columns = columns_of<Point>(
-      value("x", "", "", &Point::x), ValueColumn{"y", "", "", &Point::y, "lower", "upper"},
-      text("label", "", &Point::label), value("lower", "", "", &Point::lower), value("upper", "", "", &Point::upper));
-  return plot(columns, points)
-      .x("x", Axis::log, std::move(x_label))
-      .y("y", Axis::log, std::move(y_label))
-      .by("label")
+/// Against the step, both axes logarithmic. What is 0 has no place there, or that of the least that is drawn.
+Plot plot_of(const StiffPlan& plan, const std::vector<Row>& rows, const char* y, std::string y_label) {
+  const auto speed = [](const Row& r) {
+    const auto drawn = [](double ratio) { return std::max(1e-3, ratio); };
+    return Measured{drawn(mean_speed(r)), {drawn(r.tally.slowest), drawn(r.tally.fastest)}};
+  };
+  const auto columns = columns_of<Row>(
+      fields(&Row::contact), text("method", "", method_of), text("fate", "", fate_of),
+      measured("speed", "", "", speed, "speed_"), value("error", "", "", rms_error),
+      value("spread", "", "", [](const Row& r) { return std::max(1e-5, spread(r)); }),
+      value("depth", "", "", [&](const Row& r) { return relative_depth(plan, r); }),
+      where([](const Row& r) { return !r.nanoseconds.empty(); }, measured("time", "", "", time_of, "time_")));
+  return plot(columns, rows)
+      .where(y, is_positive)
+      .x("step", Axis::log, "h omega [1]")
+      .y(y, Axis::log, std::move(y_label))
+      .by("method")
       .height(0.9);
 }
 
@@ -193,39 +193,44 @@ Figure stability_figure(const StiffResults& results) {
                        "Circles and squares: what the steps of the map do, at {:g} N/m. Triangles: the measured limit "
                        "at every stiffness from {:g} to {:g} N/m, with bars thinner than the line.",
                        plan.stiffness.front(), plan.stiffness.front(), plan.stiffest())};
-  const std::vector<MapStep> map = map_of(plan, results.limits);
+  const auto map = columns_of<MapStep>(fields(std::identity()), text("fate", "", [](const MapStep& s) {
+                                         return s.verdict == "stable" ? "decays" : "grows";
+                                       }));
+  const auto limits = columns_of<LimitRow>(fields(std::identity()), measured("middle", "", "", [](const LimitRow& r) {
+                                             return Measured{std::sqrt(r.stable * r.unstable), {r.stable, r.unstable}};
+                                           }));
+  const auto decided = only(map_of(results.limits), [&](const MapStep& s) {
+    return s.spring.stiffness == plan.stiffness.front() && s.verdict != "undecided";
+  });
   for (const Scheme scheme : all_schemes) {
-    std::vector<Point> points;
-    for (const MapStep& s : map) {
-      const LimitRow& r = *s.spring;
-      // A ratio of 0 has no place on the axis.
-      if (r.scheme == scheme && r.ratio != 0 && r.stiffness == plan.stiffness.front() && s.verdict != "undecided")
-        points.push_back({r.ratio, s.step, s.verdict == "stable" ? "decays" : "grows"});
-    }
-    for (const LimitRow& r : results.limits) {
-      if (r.scheme != scheme || r.ratio == 0 || !r.theory) continue;
-      const auto [stable, unstable] = r.bracket;
-      points.push_back({r.ratio, std::sqrt(stable * unstable), "measured limit, every stiffness", stable, unstable});
-    }
-    figure.panels.push_back(plot_of(points, "damping ratio zeta [1]", fmt::format("h omega [1], {}", name(scheme)))
-                                .curve("formula", [scheme](double ratio) {
-                                  return step_limit(scheme, ratio).value_or(std::numeric_limits<double>::quiet_NaN());
-                                }));
+    const std::string scheme_name(name(scheme));
+    const auto against_ratio = [&](Plot points) {
+      return points.where("scheme", scheme_name)
+          .where("damping_ratio", is_positive)  // 0 has no place on the axis
+          .x("damping_ratio", Axis::log, "damping ratio zeta [1]");
+    };
+    Panel panel = against_ratio(plot(limits, results.limits))
+                      .y("middle", Axis::log, "h omega [1], " + scheme_name)
+                      .label("measured limit, every stiffness")
+                      .height(0.9)
+                      .curve("formula", [scheme](double ratio) { return *step_limit(scheme, ratio); });
+    const Panel tried = against_ratio(plot(map, decided)).y("step").by("fate");
+    panel.series.insert(panel.series.begin(), tried.series.begin(), tried.series.end());
+    figure.panels.push_back(panel);
   }
   return figure;
 }
 
 /// At the greatest stiffness, and at steps at which a bounce is no matter of chance.
 std::vector<Row> clean_rows(const StiffResults& results) {
+  constexpr double last_step = 3;  // [1] h omega
   return only(results.bounces, [&](const Row& r) {
-    return r.contact.stiffness == results.plan.stiffest() && r.contact.step <= last_step_of_bounces &&
-           is_clean(results.plan, r);
+    return r.contact.stiffness == results.plan.stiffest() && r.contact.step <= last_step && is_clean(results.plan, r);
   });
 }
 
 Figure bounce_figure(const StiffResults& results) {
-  constexpr double least_drawn = 1e-3;  // in place of a speed ratio that is less, down to 0
-  constexpr double last_bound = 1.99;   // they end at 0 and infinity
+  constexpr double last_bound = 1.99;  // they end at 0 and infinity
   const StiffPlan& plan = results.plan;
   Figure figure = {
       .name = "bounce",
@@ -235,15 +240,12 @@ Figure bounce_figure(const StiffResults& results) {
                              plan.stiffest())};
   std::vector<Row> rows = clean_rows(results);
   std::ranges::stable_sort(rows, std::greater<>(), ratio_of);  // the least damped on top
-  const auto drawn = [&](double speed) { return std::max(least_drawn, speed); };
   for (const Scheme scheme : all_schemes) {
-    std::vector<Point> points;
-    for (const Row& r : rows) {
-      if (r.contact.scheme != scheme || r.contact.detection != Detection::discrete) continue;
-      points.push_back({r.contact.step, drawn(mean_speed(r)), fmt::format("damping ratio {:g}", ratio_of(r)),
-                        drawn(r.tally.slowest), drawn(r.tally.fastest)});
-    }
-    Plot panel = plot_of(points, step_label, fmt::format("speed out / in [1], {}", name(scheme)));
+    const std::string scheme_name(name(scheme));
+    Plot panel = plot_of(plan, rows, "speed", "speed out / in [1], " + scheme_name)
+                     .where("detection", "discrete")
+                     .where("scheme", scheme_name)
+                     .by("damping_ratio");
     for (const double ratio : plan.bounce_ratios)
       panel.curve("continuous time", [ratio](double) { return restitution(ratio); });
     for (double Interval::*end : {&Interval::lower, &Interval::upper}) {
@@ -257,15 +259,10 @@ Figure bounce_figure(const StiffResults& results) {
   return figure;
 }
 
-std::string fate_of(const ContactTally& tally) {
-  if (tally.escaped > 0) return tally.escaped == tally.bounces() ? "all get through" : "some get through";
-  return tally.blown_up > 0 ? "all return, some too fast" : "all return";
-}
-
 Figure escape_figure(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
   const Approach& e = plan.approach;
-  const double ratio = plan.bounce_ratios.front(), rate = e.speed / reach(e);
+  const double ratio = plan.bounce_ratios.front(), rate = e.speed / e.reach();
   const auto at = [&](double step) { return e.mass * (step * rate) * (step * rate); };  // [N/m]
   const auto step_at = [&](double stiffness) { return std::sqrt(stiffness / e.mass) / rate; };
   const double soft = at(deepest(ratio));
@@ -275,17 +272,16 @@ Figure escape_figure(const StiffResults& results) {
       .caption = fmt::format("{:g} m/s, {:g} kg, radius {:g} m, a wall of {:g} m, damping ratio {:g}. Too fast: "
                              "more than {:g} times the incoming speed.",
                              e.speed, e.mass, e.radius, e.thickness, ratio, e.blow_up)};
-  for (const Scheme scheme : {Scheme::semi_implicit, Scheme::implicit_euler}) {
-    for (const Detection detection : all_detections) {
-      std::vector<Point> points;
-      for (const Row& r : results.bounces) {
-        if (r.contact.scheme == scheme && r.contact.detection == detection && ratio_of(r) == ratio)
-          points.push_back({r.contact.step, r.contact.stiffness, fate_of(r.tally)});
-      }
+  for (const std::string scheme : {"semi_implicit", "implicit_euler"}) {
+    for (const std::string detection : {"discrete", "toi_split"}) {
       figure.panels.push_back(
-          plot_of(points, step_label,
-                  fmt::format("stiffness [N/m], {} {}", scheme == Scheme::implicit_euler ? "implicit" : "semi-impl.",
-                              detection == Detection::discrete ? "discrete" : "split"))
+          plot_of(plan, results.bounces, "stiffness",
+                  fmt::format("stiffness [N/m], {} {}", scheme == "implicit_euler" ? "implicit" : "semi-impl.",
+                              detection == "discrete" ? "discrete" : "split"))
+              .where("scheme", scheme)
+              .where("detection", detection)
+              .where("damping_ratio", ratio)
+              .by("fate")
               .height(0.75)
               .curve("a step goes to the wall's middle", at,
                      std::max(step_at(plan.stiffness.front()), plan.bounce_steps.front()),
@@ -298,45 +294,34 @@ Figure escape_figure(const StiffResults& results) {
 
 /// What splitting the step changes, at the middle one of the damping ratios.
 Figure detection_figure(const StiffResults& results) {
-  constexpr double least_spread = 1e-5;  // drawn in place of one that is less, down to 0
   const StiffPlan& plan = results.plan;
   const double ratio = plan.bounce_ratios[plan.bounce_ratios.size() / 2];
-  Figure figure = {
-      .name = "detection",
-      .title = "Contact found at the poses, and steps split at the time of impact",
-      .caption = fmt::format("Damping ratio {:g}, {:g} N/m. Above what depends on the phase, in the middle the "
-                             "root mean square against continuous time, below the greatest depth.",
-                             ratio, plan.stiffest())};
-  const auto add_panel = [&](const char* label, const std::function<double(const Row&)>& read) {
-    std::vector<Point> points;
-    for (const Row& r : clean_rows(results)) {
-      if (ratio_of(r) == ratio && read(r) > 0) points.push_back({r.contact.step, read(r), method_of(r)});
-    }
-    figure.panels.push_back(joined(plot_of(points, step_label, label)));
-  };
-  add_panel("speed ratio, greatest - least [1]", [&](const Row& r) { return std::max(least_spread, spread(r)); });
-  add_panel("speed ratio, error [1]", rms_error);
-  add_panel("depth / depth in continuous time [1]", [&](const Row& r) { return relative_depth(plan, r); });
-  return figure;
+  const auto rows = only(clean_rows(results), [&](const Row& r) { return ratio_of(r) == ratio; });
+  return {.name = "detection",
+          .title = "Contact found at the poses, and steps split at the time of impact",
+          .caption = fmt::format("Damping ratio {:g}, {:g} N/m. Above what depends on the phase, in the middle the "
+                                 "root mean square against continuous time, below the greatest depth.",
+                                 ratio, plan.stiffest()),
+          .panels = {joined(plot_of(plan, rows, "spread", "speed ratio, greatest - least [1]")),
+                     joined(plot_of(plan, rows, "error", "speed ratio, error [1]")),
+                     joined(plot_of(plan, rows, "depth", "depth / depth in continuous time [1]"))}};
 }
 
 Figure race_figure(const StiffResults& results) {
+  const StiffPlan& plan = results.plan;
   Figure figure = {
       .name = "race",
       .title = "Error of a bounce against run time",
       .caption = fmt::format("From the roughest step to the finest, {:g} N/m, where all bounces come back. Bars, "
                              "mostly hidden by their points: 95 % bootstrap intervals of the median.",
-                             results.plan.stiffest()),
+                             plan.stiffest()),
       .is_timing = true};
-  for (const double ratio : results.plan.bounce_ratios) {
-    std::vector<Point> points;
-    for (const Row& r : results.racers) {
-      if (ratio_of(r) != ratio || !all_returned(r) || !(r.tally.square_error > 0)) continue;
-      const Interval time = time_interval(r);
-      points.push_back({rms_error(r), time_of(r), method_of(r), time.lower, time.upper});
-    }
-    figure.panels.push_back(joined(plot_of(points, "root mean square error of speed out over speed in [1]",
-                                           fmt::format("ns a bounce, damping ratio {:g}", ratio))));
+  for (const double ratio : plan.bounce_ratios) {
+    figure.panels.push_back(joined(
+        plot_of(plan, only(results.racers, all_returned), "time", fmt::format("ns a bounce, damping ratio {:g}", ratio))
+            .where("damping_ratio", ratio)
+            .where("error", is_positive)
+            .x("error", Axis::log, "root mean square error of speed out over speed in [1]")));
   }
   return figure;
 }
@@ -355,26 +340,16 @@ std::vector<Row> told_rows(const StiffResults& results) {
   });
 }
 
-/// Bounces off walls that would hold in continuous time.
-struct Passage {
-  Row sum;
-  double least_path = no_least;  ///< [reaches] the shortest path of a step that let one through
-};
-
-/// By scheme and detection, over the rows of the damping ratios.
-std::vector<Passage> passages(const StiffResults& results, const std::vector<double>& ratios) {
+/// Bounces off walls that would hold in continuous time, where the ball stays this side of the middle, by scheme and detection, over the rows of the damping ratios.
+std::vector<Row> passages(const StiffResults& results, const std::vector<double>& ratios) {
   const Approach& e = results.plan.approach;
   const auto stiff = only(results.bounces, [&](const Row& r) {
-    return is_stiff_enough(results.plan, r.contact) && is_in(ratios, ratio_of(r));
+    return is_in(ratios, ratio_of(r)) && e.speed * deepest(ratio_of(r)) / frequency(e, r.contact) < e.reach();
   });
-  std::vector<Passage> all;
-  for (const Group<Row>& group : group_by(stiff, method_of)) {
-    Passage& p = all.emplace_back(Passage{{group[0]->contact, total_of(group, &Row::tally)}});
-    for (const Row* r : group) {
-      if (r->tally.escaped > 0) p.least_path = std::min(p.least_path, step_path(e, r->contact) / reach(e));
-    }
-  }
-  return all;
+  std::vector<Row> sums;
+  for (const Group<Row>& group : group_by(stiff, method_of))
+    sums.push_back({group[0]->contact, total_of(group, &Row::tally)});
+  return sums;
 }
 
 std::string stiff_answer(const StiffResults& results) {
@@ -382,7 +357,7 @@ std::string stiff_answer(const StiffResults& results) {
       "A spring that holds both ways is stable below 2 (sqrt(1 + zeta^2) - zeta) / omega a step with semi-implicit Euler, below "
       "2 zeta / omega (2 (zeta - sqrt(zeta^2 - 1)) / omega if overdamped) with explicit Euler, and at every step with implicit "
       "Euler: that lies inside the measured bracket in {} of {} springs.",
-      grouped_text(std::ranges::count_if(results.limits, holds_theory)),
+      grouped_text(std::ranges::count_if(results.limits, &LimitRow::holds_theory)),
       grouped_text(static_cast<std::int64_t>(results.limits.size())));
   const auto told = only(told_rows(results), [](const Row& r) { return r.contact.scheme == Scheme::semi_implicit; });
   if (!told.empty() && has_returned(told.back())) {
@@ -392,10 +367,10 @@ std::string stiff_answer(const StiffResults& results) {
         told.back().contact.step, told.back().tally.slowest, told.back().tally.fastest);
   }
   const double ratio = results.plan.bounce_ratios.front();
-  const std::vector<Passage> all = passages(results, {ratio});
+  const std::vector<Row> all = passages(results, {ratio});
   const auto share = [&](std::string_view method) {
-    const auto found = std::ranges::find(all, method, [](const Passage& p) { return method_of(p.sum); });
-    return percent_text(share_of(found->sum.tally.escaped, found->sum.tally.bounces()));
+    const ContactTally& t = std::ranges::find(all, method, method_of)->tally;
+    return percent_text(share_of(t.escaped, t.bounces()));
   };
   if (!all.empty()) {
     text += fmt::format(
@@ -410,17 +385,13 @@ std::string stiff_answer(const StiffResults& results) {
 
 std::string passages_text(const StiffResults& results) {
   const auto share = [](std::string name, std::int64_t ContactTally::*count) {
-    return text(std::move(name), "", [count](const Passage& p) {
-      return percent_text(share_of(p.sum.tally.*count, p.sum.tally.bounces()));
-    });
+    return text(std::move(name), "",
+                [count](const Row& r) { return percent_text(share_of(r.tally.*count, r.tally.bounces())); });
   };
   const auto columns =
-      columns_of<Passage>(fields(&Passage::sum, {"scheme", "detection"}),
-                          value("bounces", "1", "", [](const Passage& p) { return p.sum.tally.bounces(); }),
-                          share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
-                          share("too_fast", &ContactTally::blown_up),
-                          where([](const Passage& p) { return p.sum.tally.escaped > 0; },
-                                value("least_path", "1", "", &Passage::least_path)));
+      columns_of<Row>(fields(&Row::contact, {"scheme", "detection"}), value("bounces", "1", "", bounces_of),
+                      share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
+                      share("too_fast", &ContactTally::blown_up), fields(&Row::tally, {"least_path"}));
   return terminal(
       table("passages",
             fmt::format("Walls stiff enough for continuous time. Too fast: over {:g} x the speed in. Least path: "
@@ -434,7 +405,7 @@ std::string stiff_summary(const StiffResults& results, const std::vector<StiffCl
   const StiffPlan& plan = results.plan;
   const std::vector<double> ratios = {plan.ratios.front(), 0.1, 1, plan.ratios.back()};
   const auto springs = only(results.limits, [&](const LimitRow& r) {
-    return r.stiffness == plan.stiffness.front() && is_in(ratios, r.ratio);
+    return r.spring.stiffness == plan.stiffness.front() && is_in(ratios, r.spring.damping_ratio);
   });
   Table race = times_table(cheapest(results.racers, one_percent));
   race.description = "Time a bounce, the cheapest with an error of speed out over in of at most 1 %.";
@@ -456,7 +427,7 @@ Outcome outcome_of(const StiffResults& results) {
   const std::vector<StiffClaim> claims = stiff_claims(results);
   return {.answer = stiff_answer(results),
           .summary = stiff_summary(results, claims),
-          .tables = {claims_table(claims), limits_table(results.limits), stability_table(results.plan, results.limits),
+          .tables = {claims_table(claims), limits_table(results.limits), stability_table(results.limits),
                      bounces_table(results.plan, results.bounces), detection_table(results), race_table(results.racers),
                      times_table(results.racers)},
           .figures = only_measured({stability_figure(results), bounce_figure(results), escape_figure(results),
@@ -467,35 +438,11 @@ Outcome outcome_of(const StiffResults& results) {
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   const auto plan = std::make_shared<const StiffPlan>(make_stiff_plan(settings, options));
-  const auto steps = static_cast<std::int64_t>(plan->steps.size());
-  const std::int64_t bounces = plan->bounces * static_cast<std::int64_t>(plan->bounce_steps.size());
-  std::vector<Task<LimitRow>> springs;
-  std::vector<Task<std::vector<Row>>> walls, races;
-  for (const Scheme scheme : all_schemes) {
-    for (const double stiffness : plan->stiffness) {
-      for (const double ratio : plan->ratios) {
-        springs.push_back({fmt::format("limit {} stiffness {} ratio {}", name(scheme), stiffness, ratio), steps,
-                           [=] { return measured_spring(*plan, scheme, stiffness, ratio); }});
-      }
-    }
-    for (const double ratio : plan->bounce_ratios) {
-      for (const double stiffness : plan->stiffness) {
-        for (const Detection detection : all_detections) {
-          const PenaltyContact wall = {scheme, detection, stiffness, ratio, 0};
-          walls.push_back({fmt::format("bounce {} stiffness {} ratio {}", method_of({wall, {}}), stiffness, ratio),
-                           bounces, [=] { return measured_wall(*plan, wall); }});
-        }
-      }
-    }
-  }
-  for (const double ratio : plan->bounce_ratios) {
-    races.push_back({fmt::format("race ratio {}", ratio), plan->race_bounces * plan->rounds,
-                     [=] { return measured_race(*plan, ratio); }});
-  }
+  StiffTasks tasks = stiff_tasks(plan);
   const auto finish = [plan](const auto& limits, const auto& contacts, const auto& racers) {
     return outcome_of({*plan, limits.results, flat(contacts.results), flat(racers.results)});
   };
-  return make_run(finish, std::move(springs), std::move(walls), std::move(races));
+  return make_run(finish, std::move(tasks.springs), std::move(tasks.walls), std::move(tasks.races));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
-#include <thinwall/experiments/stiff_contact/theory.hpp>
+#include <thinwall/experiments/stiff_contact/model.hpp>
 
 #include "support/experiment_run.hpp"
 
@@ -118,8 +119,8 @@ std::int64_t stepped_until(Scheme scheme, const Spring& s, double step, double b
   const double depth_unit = 1 / std::sqrt(s.stiffness), speed_unit = 1 / std::sqrt(s.mass);
   Motion a = {depth_unit, 0}, b = {0, speed_unit};
   for (std::int64_t n = 1; n <= last; ++n) {
-    a = stepped(scheme, s, Pull::both_ways, step, a);
-    b = stepped(scheme, s, Pull::both_ways, step, b);
+    a = stepped(scheme, s, step, a);
+    b = stepped(scheme, s, step, b);
     const double largest = std::max({std::abs(a.depth) / depth_unit, std::abs(b.depth) / depth_unit,
                                      std::abs(a.speed) / speed_unit, std::abs(b.speed) / speed_unit});
     if (!(largest < bound)) return n;
@@ -131,16 +132,16 @@ TEST(StiffGrowth, case_53_the_limits_lie_in_their_brackets) {
   for (const Scheme scheme : all_schemes) {
     for (const double stiffness : {1.0, 1e5, 1e10}) {
       for (const double zeta : {0.0, 1e-5, 1e-3, 0.1, 0.5, 0.9, 1.0, 1.1, 3.0, 1e3, 1e5}) {
-        const LimitBracket bracket = measured_limit(scheme, 2, stiffness, zeta);
+        const auto [stable, unstable] = measured_limit(scheme, spring_of(2, stiffness, zeta));
         const auto limit = step_limit(scheme, zeta);
         if (!limit) {
-          EXPECT_TRUE(std::isinf(bracket.unstable)) << zeta;
+          EXPECT_TRUE(std::isinf(unstable)) << zeta;
           continue;
         }
-        EXPECT_LE(bracket.stable, *limit) << name(scheme) << " " << stiffness << " " << zeta;
-        EXPECT_GE(bracket.unstable, *limit) << name(scheme) << " " << stiffness << " " << zeta;
+        EXPECT_LE(stable, *limit) << name(scheme) << " " << stiffness << " " << zeta;
+        EXPECT_GE(unstable, *limit) << name(scheme) << " " << stiffness << " " << zeta;
         if (*limit > 0) {
-          EXPECT_LT(bracket.unstable, 1.001 * bracket.stable) << name(scheme) << " " << zeta;
+          EXPECT_LT(unstable, 1.001 * stable) << name(scheme) << " " << zeta;
         }
       }
     }
@@ -149,9 +150,9 @@ TEST(StiffGrowth, case_53_the_limits_lie_in_their_brackets) {
 
 /// An undamped explicit step grows always: by half of step^2.
 TEST(StiffGrowth, undamped_explicit_grows_at_the_least_step_that_is_tried) {
-  const LimitBracket bracket = measured_limit(Scheme::explicit_euler, 1, 1e4, 0);
-  EXPECT_EQ(bracket.stable, 0);
-  EXPECT_EQ(bracket.unstable, 0x1p-14);
+  const auto [stable, unstable] = measured_limit(Scheme::explicit_euler, spring_of(1, 1e4, 0));
+  EXPECT_EQ(stable, 0);
+  EXPECT_EQ(unstable, 0x1p-14);
 }
 
 TEST(StiffGrowth, powers_are_what_stepping_gives) {
@@ -190,8 +191,8 @@ TEST(StiffGrowth, a_state_decays_below_the_limit_and_grows_above) {
 TEST(StiffGrowth, nothing_overflows) {
   for (const double stiffness : {1e-12, 1e18}) {
     for (const double mass : {1e-12, 1e12}) {
-      const LimitBracket bracket = measured_limit(Scheme::semi_implicit, mass, stiffness, 0.5);
-      EXPECT_NEAR(bracket.unstable, *step_limit(Scheme::semi_implicit, 0.5), 1e-4);
+      const Interval bracket = measured_limit(Scheme::semi_implicit, spring_of(mass, stiffness, 0.5));
+      EXPECT_NEAR(bracket.upper, *step_limit(Scheme::semi_implicit, 0.5), 1e-4);
       const Spring spring = spring_of(mass, stiffness, 1e5);
       EXPECT_EQ(blow_up_step(Scheme::semi_implicit, spring, 1e6 / frequency(spring)), 1);
     }
@@ -303,7 +304,7 @@ TEST(StiffBounce, splitting_a_damped_step_takes_away_most_of_the_phase) {
 
 /// The failure is specified too: 100 paths from front to middle, and the ball is out on the other side.
 TEST(StiffBounce, long_steps_tunnel_unless_the_rest_of_a_split_step_is_implicit) {
-  const double step = 100 * reach(usual) / usual.speed * 1e5;
+  const double step = 100 * usual.reach() / usual.speed * 1e5;
   for (const double phase : {0.1, 0.5, 0.93}) {
     for (const Scheme scheme : all_schemes) {
       EXPECT_EQ(bounce(usual, discrete(scheme, step), phase).ending, Ending::escaped);
@@ -363,29 +364,24 @@ TEST(StiffBounce, walls_and_balls_may_be_thin) {
 
 // ---- The stiff contact's settings and answers, and whether a wrong theory would be noticed.
 
+template <class Result> std::vector<Result> computed(const std::vector<Task<Result>>& tasks) {
+  std::vector<Result> results;
+  for (const Task<Result>& task : tasks) results.push_back(task.compute());
+  return results;
+}
+
 StiffResults measured_small() {
   const Settings settings(small_toml("stiff_contact"), "test.toml", stiff_contact_experiment().default_toml);
-  StiffResults all = {make_stiff_plan(settings, {.seed = 1, .trials = {}}), {}, {}, {}};
-  for (const Scheme scheme : all_schemes) {
-    for (const double stiffness : all.plan.stiffness) {
-      for (const double ratio : all.plan.ratios)
-        all.limits.push_back(measured_spring(all.plan, scheme, stiffness, ratio));
-      for (const double ratio : all.plan.bounce_ratios) {
-        for (const Detection detection : all_detections) {
-          const auto wall = measured_wall(all.plan, {scheme, detection, stiffness, ratio, 0});
-          all.bounces.insert(all.bounces.end(), wall.begin(), wall.end());
-        }
-      }
-    }
-  }
-  return all;
+  const auto plan = std::make_shared<const StiffPlan>(make_stiff_plan(settings, {.seed = 1, .trials = {}}));
+  const StiffTasks tasks = stiff_tasks(plan);
+  return {*plan, computed(tasks.springs), flat(computed(tasks.walls)), {}};
 }
 
 bool passes(const StiffResults& m) { return all_passed(stiff_claims(m)); }
 
 bool passes_with_limit(StiffResults m, Scheme scheme, const std::function<double(double ratio, double limit)>& wrong) {
   for (LimitRow& row : m.limits) {
-    if (row.scheme == scheme) row.theory = wrong(row.ratio, row.theory.value_or(0));
+    if (row.spring.scheme == scheme) row.theory = wrong(row.spring.damping_ratio, row.theory.value_or(0));
   }
   return passes(m);
 }
