@@ -49,6 +49,7 @@ class BulletFinder final : public Finder {
 
   std::optional<std::size_t> bytes() const override { return std::nullopt; }
   bool is_exact() const override { return false; }  // its boxes are floats, with a margin once they have moved
+  bool moves_on() const override { return keeps_tree_; }
 
  private:
   static std::uint32_t index_of(const btBroadphaseProxy* proxy) {

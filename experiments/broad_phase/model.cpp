@@ -188,8 +188,11 @@ Survey survey(const CrowdFactors& factors, const SurveyOptions& options) {
   for (const std::string& name : finders_for(factors.count, options)) {
     finders.push_back(make_finder(name));
     Finder& finder = *finders.back();
-    for (const std::size_t step : {0U, 1U, 0U})
-      finder.find(steps[step]);  // a tree that moves on has moved, as in what is timed
+    finder.find(steps[0]);
+    if (finder.moves_on()) {  // it has moved, as in what is timed
+      finder.find(steps[1]);
+      finder.find(steps[0]);
+    }
     const std::vector<ProxyPair> found = finder.pairs();
     if (finders.size() == 1 && finder.is_exact()) truth = found;
     Finding& f = result.findings.emplace_back();

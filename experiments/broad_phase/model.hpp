@@ -59,6 +59,8 @@ class Finder {
   virtual std::optional<std::size_t> bytes() const = 0;
   /// Finds exactly the pairs whose boxes touch; or else these and more.
   virtual bool is_exact() const = 0;
+  /// What it finds depends on the steps that it has seen before.
+  virtual bool moves_on() const { return false; }
 };
 
 /// All that this program has, in the order of tables.

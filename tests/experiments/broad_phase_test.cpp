@@ -94,6 +94,12 @@ TEST(BroadPhase, puts_every_broad_phase_of_the_list_to_every_world) {
   }
 }
 
+/// Who is asked about a step and the next and back again before it is judged; the others are asked once.
+TEST(BroadPhase, only_a_tree_that_is_moved_on_remembers_the_steps) {
+  for (const std::string_view name : finder_names())
+    EXPECT_EQ(make_finder(name)->moves_on(), name == bullet_step_name) << name;
+}
+
 /// A finding as none is.
 Finding made_up_finding(std::string finder, double milliseconds) {
   Finding f;
