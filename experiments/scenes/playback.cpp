@@ -102,7 +102,7 @@ Vec3<double> flown(const Body& before, const Body& after, double dt) {
 Proxy way_of(const Body& before, const Body& after, double dt) {
   if (can_turn(after)) {
     BodyMotion motion;
-    motion.velocity = position(after) - position(before);
+    motion.velocity = flown(before, after, dt);  // as the pair is asked about
     Spin spin;
     spin.velocity = rotation_of(after, dt);
     return proxy_of(before, motion, &spin, 1);
