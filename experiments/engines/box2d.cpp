@@ -13,13 +13,14 @@ namespace {
 b2Vec2 in_box2d(const Vec3<double>& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
 Vec3<double> out_of_box2d(const b2Vec2& v) { return Vec3<double>(v.x, v.y, 0); }
 
-class Box2dWorld final : public EngineWorld {
+class Box2dWorld {
  public:
-  Box2dWorld(const EngineScene& scene, const BodyState& ball, bool continuous, bool bullet)
-      : world_(b2Vec2(0, 0)), step_(static_cast<float>(scene.step)) {
+  Box2dWorld(const EngineStage& stage, const EngineStart& start, bool continuous, bool bullet)
+      : world_(b2Vec2(0, 0)), step_(static_cast<float>(stage.step)) {
     world_.SetContinuousPhysics(continuous);
     b2PolygonShape wall_shape;
-    wall_shape.SetAsBox(static_cast<float>(scene.thickness / 2), static_cast<float>(scene.half_side));
+    const b2Vec2 half_extents = in_box2d(stage.wall_half_extents());
+    wall_shape.SetAsBox(half_extents.x, half_extents.y);
     const b2BodyDef wall_def;
     b2FixtureDef fixture;
     fixture.shape = &wall_shape;
@@ -30,19 +31,19 @@ class Box2dWorld final : public EngineWorld {
 
     b2BodyDef ball_def;
     ball_def.type = b2_dynamicBody;
-    ball_def.position = in_box2d(ball.position);
-    ball_def.linearVelocity = in_box2d(ball.velocity);
+    ball_def.position = in_box2d(start.front().position);
+    ball_def.linearVelocity = in_box2d(start.front().velocity);
     ball_def.bullet = bullet;
     b2CircleShape ball_shape;
-    ball_shape.m_radius = static_cast<float>(scene.radius);
+    ball_shape.m_radius = static_cast<float>(stage.ball_radius());
     fixture.shape = &ball_shape;
     fixture.density = 1;
     ball_ = world_.CreateBody(&ball_def);
     ball_->CreateFixture(&fixture);
   }
 
-  void step() override { world_.Step(step_, 8, 3); }  // iterations as its manual advises
-  BodyState ball() const override {
+  void step() { world_.Step(step_, 8, 3); }  // iterations as its manual advises
+  BodyState body(std::size_t) const {
     return {out_of_box2d(ball_->GetPosition()), out_of_box2d(ball_->GetLinearVelocity())};
   }
 
@@ -57,9 +58,7 @@ EngineMode box2d_mode(std::string name, std::string what, bool continuous, bool 
           .what = std::move(what),
           .poses_per_step = continuous ? 0 : 1,
           .skin = b2_polygonRadius,
-          .make = [continuous, bullet](const EngineScene& scene, const BodyState& ball) {
-            return std::make_unique<Box2dWorld>(scene, ball, continuous, bullet);
-          }};
+          .play = played_in<Box2dWorld>(continuous, bullet)};
 }
 
 std::vector<EngineMode> box2d_modes(const EngineChoices&) {

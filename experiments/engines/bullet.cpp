@@ -29,21 +29,21 @@ btDefaultCollisionConstructionInfo small_pools() {
   return info;
 }
 
-/// Lengths of 0: no continuous detection.
+/// In radii of the ball; 0: no continuous detection.
 struct BulletSweep {
-  double radius = 0;     ///< [m] of the ball that is swept in place of the ball
-  double threshold = 0;  ///< [m] a step: what moves less is not swept
+  double radius = 0;     ///< of the ball that is swept in place of the ball
+  double threshold = 0;  ///< a step: what moves less is not swept
   bool bounces = false;  ///< contacts that a sweep finds have the bodies' restitution; not so as it comes
 };
 
-class BulletWorld final : public EngineWorld {
+class BulletWorld {
  public:
-  BulletWorld(const EngineScene& scene, const BodyState& ball, const BulletSweep& sweep)
-      : wall_shape_(in_bullet({scene.thickness / 2, scene.half_side, scene.half_side})),
-        ball_shape_(static_cast<btScalar>(scene.radius)),
+  BulletWorld(const EngineStage& stage, const EngineStart& start, const BulletSweep& sweep)
+      : wall_shape_(in_bullet(stage.wall_half_extents())),
+        ball_shape_(static_cast<btScalar>(stage.ball_radius())),
         wall_(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &wall_shape_)),
         ball_(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &ball_shape_, inertia(ball_shape_))),
-        step_(static_cast<btScalar>(scene.step)) {
+        step_(static_cast<btScalar>(stage.step)) {
     world_.setGravity({0, 0, 0});
     world_.getSolverInfo().m_restitutionVelocityThreshold = 0;  // [m/s] what is slower sticks; 0.2 as it comes
     for (btRigidBody* body : {&wall_, &ball_}) {
@@ -53,25 +53,25 @@ class BulletWorld final : public EngineWorld {
     }
     btTransform pose;
     pose.setIdentity();
-    pose.setOrigin(in_bullet(ball.position));
+    pose.setOrigin(in_bullet(start.front().position));
     ball_.setWorldTransform(pose);
     ball_.setInterpolationWorldTransform(pose);
-    ball_.setLinearVelocity(in_bullet(ball.velocity));
+    ball_.setLinearVelocity(in_bullet(start.front().velocity));
     world_.setApplySpeculativeContactRestitution(sweep.bounces);
     if (sweep.radius > 0) {
-      ball_.setCcdSweptSphereRadius(static_cast<btScalar>(sweep.radius));
-      ball_.setCcdMotionThreshold(static_cast<btScalar>(sweep.threshold));
+      ball_.setCcdSweptSphereRadius(static_cast<btScalar>(sweep.radius * stage.ball_radius()));
+      ball_.setCcdMotionThreshold(static_cast<btScalar>(sweep.threshold * stage.ball_radius()));
     }
   }
-  ~BulletWorld() override {
+  ~BulletWorld() {
     world_.removeRigidBody(&ball_);
     world_.removeRigidBody(&wall_);
   }
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  void step() override { world_.stepSimulation(step_, 0); }
-  BodyState ball() const override {
+  void step() { world_.stepSimulation(step_, 0); }
+  BodyState body(std::size_t) const {
     return {out_of_bullet(ball_.getWorldTransform().getOrigin()), out_of_bullet(ball_.getLinearVelocity())};
   }
 
@@ -94,24 +94,16 @@ class BulletWorld final : public EngineWorld {
 };
 
 std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
-  std::vector<EngineMode> modes = {{.name = "discrete",
-                                    .what = "as it comes",
-                                    .poses_per_step = 1,
-                                    .make = [](const EngineScene& scene, const BodyState& ball) {
-                                      return std::make_unique<BulletWorld>(scene, ball, BulletSweep{});
-                                    }}};
-  const auto add = [&](double factor, bool bounces) {
-    const auto make = [=, threshold = choices.motion_threshold](const EngineScene& scene, const BodyState& ball) {
-      return std::make_unique<BulletWorld>(scene, ball,
-                                           BulletSweep{factor * scene.radius, threshold * scene.radius, bounces});
-    };
-    modes.push_back(
-        {.name = fmt::format("ccd_{}{}", exact_text(factor), bounces ? "_bouncing" : ""),
-         .what = fmt::format("setCcdSweptSphereRadius({0} r), setCcdMotionThreshold({1} r){2}", factor,
-                             choices.motion_threshold, bounces ? ", setApplySpeculativeContactRestitution(true)" : ""),
-         .make = make});
+  std::vector<EngineMode> modes = {
+      {.name = "discrete", .what = "as it comes", .poses_per_step = 1, .play = played_in<BulletWorld>(BulletSweep{})}};
+  const auto add = [&](double radius, bool bounces) {
+    const double threshold = choices.motion_threshold;
+    modes.push_back({.name = fmt::format("ccd_{}{}", exact_text(radius), bounces ? "_bouncing" : ""),
+                     .what = fmt::format("setCcdSweptSphereRadius({0} r), setCcdMotionThreshold({1} r){2}", radius,
+                                         threshold, bounces ? ", setApplySpeculativeContactRestitution(true)" : ""),
+                     .play = played_in<BulletWorld>(BulletSweep{radius, threshold, bounces})});
   };
-  for (const double factor : choices.swept_radius) add(factor, false);
+  for (const double radius : choices.swept_radius) add(radius, false);
   if (!choices.swept_radius.empty()) add(std::ranges::max(choices.swept_radius), true);
   return modes;
 }

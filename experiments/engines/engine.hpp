@@ -1,31 +1,23 @@
 #pragma once
-/// A physics engine as this experiment sees it: something that makes a world of one wall and one ball, or of what a stage holds, and
-/// steps it. An engine is one file, which makes an `Engine`, and one line in the list below. Its own headers stay in that file.
+/// A physics engine as this experiment sees it: something that plays shots, each in a world of its own. An engine is one file, which
+/// makes an `Engine`, and one line in the list below. Its own headers stay in that file.
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 
 namespace thinwall {
-
-/// A wall around the origin that stays, its front facing -x. No gravity, no damping, no friction, restitution 1.
-struct EngineScene {
-  double radius;     ///< [m] > 0, of the ball
-  double thickness;  ///< [m] > 0, of the wall
-  double half_side;  ///< [m] of the wall, wide enough that no ball gets round it
-  double step;       ///< [s] > 0
-};
 
 struct BodyState {
   Vec3<double> position;                     ///< [m] of the center
@@ -40,33 +32,48 @@ struct EngineMesh {
 };
 using EngineShape = std::variant<Sphere<double>, Aabb<double>, Capsule<double>, EngineMesh>;
 
-/// Any bodies, of the materials of EngineScene and all of one density.
+/// Any bodies, all of one density. No gravity, no damping, no friction, restitution 1.
 struct EngineStage {
   double step = 1;                       ///< [s] > 0
   std::vector<EngineShape> fixed = {};   ///< where they stay
   std::vector<EngineShape> moving = {};  ///< around the origin; a capsule along y. A shot places them
+
+  /// Of a stage of one wall, around the origin, and one ball, which is all that some engines play.
+  const Vec3<double>& wall_half_extents() const { return std::get<Aabb<double>>(fixed.front()).half_extents; }
+  double ball_radius() const { return std::get<Sphere<double>>(moving.front()).radius; }
 };
 
-/// The same wall and ball.
-EngineStage stage_of(const EngineScene& scene);
-
-/// One wall, one ball, nothing that an earlier shot left behind. Every thread has one of its own: an engine that does not bear
-/// that makes them wait for each other.
-class EngineWorld {
- public:
-  virtual ~EngineWorld() = default;
-  virtual void step() = 0;
-  virtual BodyState ball() const = 0;
-};
-
-/// What became of some shots, each in a world of its own.
+using EngineStart = std::vector<BodyState>;  ///< of the moving bodies
+/// What became of some shots.
 struct EngineFlights {
   using Flight = std::vector<std::vector<BodyState>>;  ///< the moving bodies at the end of each step
   std::vector<Flight> shots = {};                      ///< none, if the engine failed
   double seconds = 0;                                  ///< of stepping
 };
 
-/// A way to set an engine up. It makes a world for a ball, or plays many shots of any stage itself, or both.
+/// Plays shots, each in a world of its own: nothing that an earlier one left behind. May be called by several threads at once: an engine
+/// that does not bear that makes them wait for each other.
+using EnginePlay = std::function<EngineFlights(const EngineStage&, std::span<const EngineStart>, std::int64_t steps)>;
+
+/// Plays each shot in a `World(stage, start, options...)`, which has `step()` and `body(i)`, the state of a moving body.
+template <class World, class... Options> EnginePlay played_in(Options... options) {
+  return [=](const EngineStage& stage, std::span<const EngineStart> starts, std::int64_t steps) {
+    EngineFlights flights;
+    for (const EngineStart& start : starts) {
+      World world(stage, start, options...);
+      EngineFlights::Flight& flight = flights.shots.emplace_back(static_cast<std::size_t>(steps), start);
+      const double before = thread_seconds();
+      for (std::vector<BodyState>& bodies : flight) {
+        world.step();
+        for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = world.body(i);
+      }
+      flights.seconds += thread_seconds() - before;
+    }
+    return flights;
+  };
+}
+
+/// A way to set an engine up.
 struct EngineMode {
   std::string name;        ///< snake_case: "discrete"
   std::string what;        ///< the settings that differ from the engine's own, a clause
@@ -74,10 +81,8 @@ struct EngineMode {
   double skin = 0;         ///< [m] it lets contact begin so far before the surfaces meet
   bool never_sweeps = false;  ///< so it does too, but what gives way follows no theory
   bool exact = false;         ///< it claims that no ball goes through: the self-test holds it to that
-  std::function<std::unique_ptr<EngineWorld>(const EngineScene&, const BodyState&)> make = nullptr;
-  std::function<EngineFlights(const EngineStage&, std::span<const std::vector<BodyState>>, std::int64_t steps)> play =
-      nullptr;
-  bool has_meshes = false, turns = false;  ///< what it can play
+  EnginePlay play = nullptr;
+  bool plays_stages = false, has_meshes = false, turns = false;  ///< what it can play besides a ball at a wall
 };
 
 /// What the settings say of modes.
@@ -110,12 +115,7 @@ struct Engine {
 THINWALL_ENGINES(THINWALL_DECLARE_ENGINE)
 #undef THINWALL_DECLARE_ENGINE
 
-/// Those that are npm packages, each a script in the folder that a process of its own runs. One is there if npm has brought the
-/// version that the folder's package.json asks for.
-std::vector<Engine> npm_engines(const std::filesystem::path& scripts);
-std::vector<Engine> npm_engines();  ///< of the source tree's, in a build with peers
-
-/// Every engine that this experiment knows, in the program or not.
+/// Every engine that this experiment knows, in the program or not: those of the list, and between them and ours npm.hpp's.
 std::vector<Engine> engine_list();
 
 }  // namespace thinwall

@@ -1,6 +1,7 @@
 /// How often do the same fast balls pass a thin wall in whole physics engines, and does theory agree? See docs/engines.md.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -8,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/engines/stages.hpp>
+#include <thinwall/experiments/engines/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/manifest.hpp>
@@ -25,8 +26,9 @@ namespace {
 using Row = EngineRow;
 using Rows = std::vector<EngineRow>;
 
-std::string label_of(const Row& row) { return row.setup->label(); }
+template <class AnyRow> std::string label_of(const AnyRow& row) { return row.setup->label(); }
 double wall_of(const Row& row) { return row.cell.wall_size; }
+double path_of(const Row& row) { return row.cell.path; }
 bool looks_at_poses(const Row& row) { return row.setup->mode.poses_per_step > 0 || row.setup->mode.never_sweeps; }
 
 std::vector<double> walls_of(const Rows& rows) { return distinct(rows, wall_of); }
@@ -40,18 +42,15 @@ Measured percent_of(const Row& row) {
 double percent(const Row& row) { return percent_of(row).value; }
 
 /// [ns] A step.
-Measured time_of(const Row& row) {
-  return {median(row.nanoseconds), bootstrap_median(row.nanoseconds, {1, row.nanoseconds.size()})};
-}
+Measured time_of(const Row& row) { return median_of_rounds(row.nanoseconds); }
 
 /// The path that is nearest to a meter: what is told first.
 double told_path(const Rows& rows) {
-  const auto distance = [](const Row& row) { return std::abs(std::log(row.cell.path)); };
-  return std::ranges::min_element(rows, {}, distance)->cell.path;
+  return path_of(*std::ranges::min_element(rows, {}, [](const Row& row) { return std::abs(std::log(path_of(row))); }));
 }
 
 Rows told_rows(const Rows& rows) {
-  return only(rows, [path = told_path(rows)](const Row& row) { return row.cell.path == path; });
+  return only(rows, [path = told_path(rows)](const Row& row) { return path_of(row) == path; });
 }
 
 /// [m] The longest path of those asked, at the wall, up to and with which no shot was wrong; 0 if that is none.
@@ -59,7 +58,7 @@ double safe_up_to(const Rows& rows, const Row& like) {
   double safe = 0;
   for (const Row& row : rows_of(rows, label_of(like), wall_of(like))) {
     if (row.tally.wrong() > 0) break;
-    safe = row.cell.path;
+    safe = path_of(row);
   }
   return safe;
 }
@@ -177,8 +176,8 @@ void gather_zeros(std::vector<Series>& all) {
 Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
   const bool shares = column == std::string_view("tunneled_percent");
   const auto columns =
-      columns_of<Row>(text("label", "", label_of), names_and_factors(), verdict_columns(), bounce_columns());
-  Panel panel = plot(table("drawn", "", columns, rows))
+      columns_of<Row>(text("label", "", label_of<Row>), names_and_factors(), verdict_columns(), bounce_columns());
+  Panel panel = plot(columns, rows)
                     .x("path", Axis::log, "path of the ball in a step [m]")
                     .y(column, Axis::linear, std::move(y_label))
                     .by("label");
@@ -194,7 +193,7 @@ Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
 void add_theory(Panel& panel, const Rows& rows) {
   EngineCell cell = rows.front().cell;
   const double least = cell.path;
-  const double most = std::ranges::max(rows, {}, [](const Row& r) { return r.cell.path; }).cell.path;
+  const double most = path_of(std::ranges::max(rows, {}, path_of));
   std::set<std::pair<int, double>> looked;
   for (const Row& row : rows) {
     if (row.theory) looked.emplace(row.setup->mode.poses_per_step, row.setup->mode.skin);
@@ -239,10 +238,10 @@ Figure tunneling_figure(const Rows& rows) {
   return figure;
 }
 
-/// Of the balls that turned, at the first wall.
-Figure bounce_figure(const Rows& rows, const char* name, const char* column, const char* y_label, const char* title,
+/// Of a column of the balls that turned, at the first wall.
+Figure bounce_figure(const Rows& rows, const char* column, const char* y_label, const char* title,
                      std::string caption) {
-  Figure figure = {.name = name, .title = title, .caption = std::move(caption)};
+  Figure figure = {.name = column, .title = title, .caption = std::move(caption)};
   for (const bool poses : {true, false}) {
     const Rows some = only(rows, [&](const Row& r) {
       return looks_at_poses(r) == poses && wall_of(r) == wall_of(rows.front()) && r.tally.turned > 0;
@@ -262,8 +261,9 @@ Figure time_figure(const Rows& rows) {
                              "through at {} m a step, with 95 % intervals. {}",
                              path, whose_clock),
       .is_timing = true};
-  const auto columns = columns_of<Row>(text("label", "", label_of), measured("through", "", "", percent_of, "through_"),
-                                       measured("time", "", "", time_of, "time_"));
+  const auto columns =
+      columns_of<Row>(text("label", "", label_of<Row>), measured("through", "", "", percent_of, "through_"),
+                      measured("time", "", "", time_of, "time_"));
   for (const double wall : walls_of(rows)) {
     Rows some = only(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
     if (some.empty()) continue;
@@ -280,22 +280,18 @@ Figure time_figure(const Rows& rows) {
 
 std::vector<Figure> figures_of(const Rows& rows) {
   const double wall = wall_of(rows.front());
-  std::vector<Figure> figures = {
-      tunneling_figure(rows),
-      bounce_figure(
-          rows, "lateness", "lateness", "lateness, {} [steps]", "How late the ball turns",
-          fmt::format("Of the balls that turned: from first contact to where the lines of flight before and after the "
-                      "bounce meet, mean. An exact bounce is at 0. The wall is {} m wide.",
-                      wall)),
-      bounce_figure(
-          rows, "energy", "energy", "energy ratio, {} [1]",
-          "What is left of the energy after a bounce of restitution 1",
-          fmt::format("Of the balls that turned: kinetic energy after over before, mean. It should be 1. The wall is "
-                      "{} m wide.",
-                      wall)),
-      time_figure(rows)};
-  std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });
-  return figures;
+  return only_measured(
+      {tunneling_figure(rows),
+       bounce_figure(rows, "lateness", "lateness, {} [steps]", "How late the ball turns",
+                     fmt::format("Of the balls that turned: from first contact to where the lines of flight before and "
+                                 "after the bounce meet, mean. An exact bounce is at 0. The wall is {} m wide.",
+                                 wall)),
+       bounce_figure(
+           rows, "energy", "energy ratio, {} [1]", "What is left of the energy after a bounce of restitution 1",
+           fmt::format("Of the balls that turned: kinetic energy after over before, mean. It should be 1. The "
+                       "wall is {} m wide.",
+                       wall)),
+       time_figure(rows)});
 }
 
 // What it says.
@@ -316,7 +312,7 @@ std::string own_zero(const Rows& rows) {
   std::int64_t shots = 0, wrong = 0;
   for (const Row& row : exact) wrong += row.tally.wrong();
   for (const Row& row : rows_of(exact, label_of(exact.front()), wall_of(exact.front()))) shots += row.tally.shots;
-  const std::string modes = listed(distinct(exact, label_of));
+  const std::string modes = listed(distinct(exact, label_of<Row>));
   if (wrong > 0) return fmt::format(" {} let {} shots through: the self-test fails.", modes, grouped_text(wrong));
   return fmt::format(" {} let none of {} shots through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
                      grouped_text(shots), percent_text(clopper_pearson(0, shots).upper));
@@ -331,7 +327,7 @@ std::string answer_of(const Rows& rows) {
     poses.push_back(with_interval(row));
     if (row.setup->mode.skin == 0) theory = row.theory;
   }
-  for (const Group<Row>& group : group_by(rows, label_of)) {
+  for (const Group<Row>& group : group_by(rows, label_of<Row>)) {
     if (looks_at_poses(*group[0]) || group[0]->setup->mode.exact) continue;
     const Row& worst = **std::ranges::max_element(group, {}, [](const Row* r) { return r->tally.wrong(); });
     if (worst.tally.wrong() == 0) {
@@ -358,25 +354,30 @@ std::vector<SelfTest> tests_of(const Rows& rows, const std::vector<StageRow>& st
   return self_test(counts);
 }
 
-/// A row for each engine and mode, a column for each path, as many as fit.
-std::string percent_matrix(const Rows& rows, double wall) {
-  const std::vector<std::string> labels = distinct(rows, label_of);
-  auto columns = columns_of<std::string>(text("engine and mode", "", [](const std::string& label) { return label; }));
-  std::size_t width = std::ranges::max(labels, {}, &std::string::size).size();
-  for (const double path : distinct(rows, [](const Row& r) { return r.cell.path; })) {
-    const std::string header = rounded_text(path, 3);
-    width += 2 + std::max<std::size_t>(4, header.size());
-    if (width > terminal_width) break;
-    text(header, "", [&rows, wall, path](const std::string& label) -> std::string {
-      for (const Row& row : rows_of(rows, label, wall)) {
-        const bool is_whole = row.tally.tunneled % row.tally.shots == 0;  // 0 and 100
-        if (row.cell.path == path) return fmt::format("{:.{}f}", percent(row), is_whole ? 0 : 1);
-      }
-      return "-";
+/// A row for each engine and mode, a column for each value of the key.
+template <class AnyRow, class Key, class Name, class Cell>
+std::string matrix(const char* name, std::string description, const std::vector<AnyRow>& rows, const Key& key,
+                   const Name& name_of, const Cell& cell) {
+  auto columns = columns_of<std::string>(text("engine and mode", "", std::identity()));
+  for (const auto& value : distinct(rows, key)) {
+    text(name_of(value), "", [&rows, &key, &cell, value](const std::string& label) -> std::string {
+      const auto is_it = [&](const AnyRow& row) { return std::invoke(key, row) == value && label_of(row) == label; };
+      const auto row = std::ranges::find_if(rows, is_it);
+      return row == rows.end() ? "-" : cell(*row);
     }).add_to(columns);
   }
-  return terminal(
-      table("percent", fmt::format("Percent through a wall {} m wide, against meters a step.", wall), columns, labels));
+  return terminal(table(name, std::move(description), columns, distinct(rows, label_of<AnyRow>)));
+}
+
+std::string percent_matrix(const Rows& rows, double wall) {
+  return matrix(
+      "cells", fmt::format("Percent through a wall {} m wide, against meters a step.", wall),
+      only(rows, [&](const Row& r) { return wall_of(r) == wall; }), path_of,
+      [](double path) { return rounded_text(path, 3); },
+      [](const Row& row) {
+        const bool is_whole = row.tally.tunneled % row.tally.shots == 0;  // 0 and 100
+        return fmt::format("{:.{}f}", percent(row), is_whole ? 0 : 1);
+      });
 }
 
 // The stages.
@@ -425,28 +426,19 @@ Table stage_timings_table(const std::vector<StageRow>& rows) {
 
 std::string stages_summary(const std::vector<StageRow>& rows) {
   if (rows.empty()) return "";
-  const std::vector<std::string> labels = distinct(rows, [](const StageRow& r) { return r.setup->label(); });
-  auto columns = columns_of<std::string>(text("engine and mode", "", [](const std::string& label) { return label; }));
-  for (const StageKind& kind : stage_kinds()) {
-    if (std::ranges::none_of(rows, [&](const StageRow& r) { return r.kind == &kind; })) continue;
-    text(std::string(kind.name), "", [&rows, &kind](const std::string& label) -> std::string {
-      const auto row =
-          std::ranges::find_if(rows, [&](const StageRow& r) { return r.kind == &kind && r.setup->label() == label; });
-      return row == rows.end() ? "-" : in_short(*row);
-    }).add_to(columns);
-  }
-  return terminal(
-      table("stages", "Percent that passed / percent of the others that flew away wrong.", columns, labels));
+  return matrix(
+      "stages", "Percent that passed / percent of the others that flew away wrong.", rows, &StageRow::kind,
+      [](const StageKind* kind) { return std::string(kind->name); }, in_short);
 }
 
 std::string stages_text(const EnginePlan& plan, const std::vector<StageRow>& rows) {
   if (rows.empty()) return "";
-  std::string text = fmt::format("The motion is {} m a step.", rows.front().size.path);
+  std::string text = fmt::format("The motion is {} m a step.", rows.front().cell.path);
   for (const StageKind& kind : stage_kinds()) {
     if (std::ranges::any_of(rows, [&](const StageRow& r) { return r.kind == &kind; }))
       text += fmt::format("\n\n{}: {}.", kind.name, kind.what);
   }
-  const auto is_apart = [](const EngineSetup& setup) { return !setup.mode.play; };
+  const auto is_apart = [](const EngineSetup& setup) { return !setup.mode.plays_stages; };
   const auto apart =
       distinct(only(plan.setups, is_apart), [](const EngineSetup& setup) { return setup.engine.called; });
   if (!apart.empty())
@@ -478,7 +470,7 @@ std::string agreement_text(const Rows& rows) {
   });
   const auto excess = [](const Row* r) { return percent(*r) - 100 * *r->theory; };
   std::string text;
-  for (const Group<Row>& group : group_by(peers, label_of)) {
+  for (const Group<Row>& group : group_by(peers, label_of<Row>)) {
     const auto covered =
         std::ranges::count_if(group, [](const Row* r) { return percent_of(*r).interval.contains(100 * *r->theory); });
     const Row* farthest = *std::ranges::max_element(group, {}, [&](const Row* r) { return std::abs(excess(r)); });
@@ -532,41 +524,39 @@ Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<S
           .self_test_passed = all_passed(tests)};
 }
 
+std::string key_of(const Row& row) { return engine_factors().key(row.cell); }
+std::string key_of(const StageRow& row) { return fmt::format("stage {}", row.kind->name); }
+
+template <class AnyRow>
+auto tasks_of(const std::shared_ptr<const EnginePlan>& plan, const std::vector<AnyRow>& rows,
+              const std::vector<EngineVolley>& volleys) {
+  std::vector<Task<decltype(AnyRow::tally)>> tasks;
+  for (const auto& [place, first, shots] : volleys) {
+    const AnyRow& row = rows[place];
+    const auto& [engine, mode] = *row.setup;
+    tasks.push_back({fmt::format("{} {} {} from {}", key_of(row), engine.name, mode.name, first), shots,
+                     [=, first = first, shots = shots] { return fire(row, first, shots, plan->seed); }});
+  }
+  return tasks;
+}
+
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   const auto plan = std::make_shared<const EnginePlan>(make_engine_plan(settings, options));
   const Rows rows = engine_rows(*plan);
   const std::vector<EngineVolley> volleys = volleys_in_turn(rows, &Row::cell, plan->shots);
-  std::vector<Task<EngineTally>> tasks;
-  for (const EngineVolley& v : volleys) {
-    const Row& row = rows[v.row];
-    const auto compute = [plan, cell = row.cell, setup = row.setup, v] {
-      return fire(cell, setup->mode, v.first, v.shots, plan->seed);
-    };
-    tasks.push_back({fmt::format("{} {} {} from {}", engine_factors().key(row.cell), row.setup->engine.name,
-                                 row.setup->mode.name, v.first),
-                     v.shots, compute});
-  }
   const std::vector<StageRow> stages = stage_rows(*plan);
   const std::vector<EngineVolley> played = volleys_in_turn(stages, &StageRow::kind, plan->stage_shots);
-  std::vector<Task<StageTally>> stage_tasks;
-  for (const EngineVolley& v : played) {
-    const StageRow& row = stages[v.row];
-    stage_tasks.push_back(
-        {fmt::format("stage {} {} {} from {}", row.kind->name, row.setup->engine.name, row.setup->mode.name, v.first),
-         v.shots, [plan, row, v] { return play(row, v.first, v.shots, plan->seed); }});
-  }
-  const auto finish = [plan, rows, volleys, stages, played](const Done<EngineTally>& done,
-                                                            const Done<StageTally>& stages_done) {
+  const auto finish = [plan, rows, volleys, stages, played](const auto& done, const auto& stages_done) {
     Rows all = rows;
     std::vector<StageRow> all_stages = stages;
     add_results(volleys, done.results, all);
-    for (std::size_t i = 0; i < played.size(); ++i) all_stages[played[i].row].tally += stages_done.results[i];
+    add_results(played, stages_done.results, all_stages);
     const std::vector<std::string> failed = drop_failed(all, all_stages);
     if (all.empty())
       throw std::runtime_error(fmt::format("{}: died or hung, and no other engine took part", listed(failed)));
     return outcome_of(*plan, all, all_stages, failed);
   };
-  return make_run(finish, missing_engines(*plan), std::move(tasks), std::move(stage_tasks));
+  return make_run(finish, missing_engines(*plan), tasks_of(plan, rows, volleys), tasks_of(plan, stages, played));
 }
 
 }  // namespace

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/engines/npm.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/models/shots.hpp>
 #include <thinwall/experiments/models/tunneling_theory.hpp>
@@ -20,14 +21,21 @@ namespace {
 /// distance from first contact, in steps; < 0 where the ball turns before it touches.
 double lateness_of(const EngineShot& shot, const BodyState& end, double steps) {
   const double contact_at = -shot.scene.thickness / 2 - shot.scene.radius;
-  const double in = shot.start.velocity[0] * shot.scene.step, out = end.velocity[0] * shot.scene.step;
+  const double in = shot.start[0].velocity[0] * shot.scene.step, out = end.velocity[0] * shot.scene.step;
   return (end.position[0] - contact_at - out * (steps - shot.contact)) / (in - out);
 }
 
 /// Where the ball would be had there been no wall, to a hundredth of its radius.
 bool flew_straight(const EngineShot& shot, const BodyState& end, double steps) {
-  const Vec3<double> straight = shot.start.position + steps * shot.scene.step * shot.start.velocity;
+  const Vec3<double> straight = shot.start[0].position + steps * shot.scene.step * shot.start[0].velocity;
   return (end.position - straight).norm() <= shot.scene.radius / 100;
+}
+
+EngineStage stage_of(const EngineScene& scene) {
+  const Vec3<double> half_extents = {scene.thickness / 2, scene.half_side, scene.half_side};
+  return {.step = scene.step,
+          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
+          .moving = {Sphere<double>{Vec3<double>::Zero(), scene.radius}}};
 }
 
 /// Poses lie on a grid that float holds, as thin_wall's do: a path must not be longer than this many times what it crosses.
@@ -117,13 +125,6 @@ std::vector<Engine> engine_list() {
   return engines;
 }
 
-EngineStage stage_of(const EngineScene& scene) {
-  const Vec3<double> half_extents = {scene.thickness / 2, scene.half_side, scene.half_side};
-  return {.step = scene.step,
-          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
-          .moving = {Sphere<double>{Vec3<double>::Zero(), scene.radius}}};
-}
-
 const Factors<EngineCell>& engine_factors() {
   constexpr Range length = {.lower = 1e-9, .upper = 1e6, .unit = "m"};
   using C = EngineCell;
@@ -151,7 +152,7 @@ EngineShot engine_shot(const EngineCell& cell, const RandomStream& stream, std::
                     .thickness = 2 * fired.half_extents[0],
                     .half_side = cell.wall_size / 2,
                     .step = cell.step},
-          .start = {start, fired.displacement / cell.step},
+          .start = {{start, fired.displacement / cell.step}},
           .contact = path_to_contact(fired, start) / fired.step_length};
 }
 
@@ -159,9 +160,9 @@ RandomStream random_stream(const EngineCell& cell, std::uint64_t seed) {
   return {seed, stream_of(std::array{cell.path, cell.step, cell.radius, cell.thickness, cell.angle_deg})};
 }
 
-void judge(const EngineShot& shot, const std::vector<BodyState>& flight, EngineTally& tally) {
+void judge(const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally) {
   ++tally.shots;
-  const BodyState& end = flight.back();
+  const BodyState& end = flight.back()[0];
   const auto steps = static_cast<double>(flight.size());
   const double half = shot.scene.thickness / 2;
   if (!end.position.allFinite() || !end.velocity.allFinite()) {
@@ -174,16 +175,15 @@ void judge(const EngineShot& shot, const std::vector<BodyState>& flight, EngineT
   } else if (end.velocity[0] < 0) {
     ++tally.turned;
     const double lateness = lateness_of(shot, end, steps);
-    const double energy = std::min(1024.0, end.velocity.squaredNorm() / shot.start.velocity.squaredNorm());
+    const double energy = std::min(1024.0, end.velocity.squaredNorm() / shot.start[0].velocity.squaredNorm());
     tally.lateness.add(lateness);
     tally.energy.add(energy);
     tally.latest = std::max(tally.latest, lateness);
     tally.earliest = std::min(tally.earliest, lateness);
     tally.most_energy = std::max(tally.most_energy, energy);
     tally.least_energy = std::min(tally.least_energy, energy);
-    for (const BodyState& at : flight) {
-      tally.deepest = std::max(tally.deepest, at.position[0] + shot.scene.radius + half);
-    }
+    for (const EngineStart& at : flight)
+      tally.deepest = std::max(tally.deepest, at[0].position[0] + shot.scene.radius + half);
   }
 }
 
@@ -205,6 +205,206 @@ double through_theory(const EngineCell& cell, int poses_per_step, double skin) {
   return mean_miss_probability(cell.thickness / 2 + cell.radius + skin, cell.path / poses_per_step, cell.angle_deg);
 }
 
+// The stages.
+
+namespace {
+
+using V = Vec3<double>;
+constexpr double seam_angle_deg = 60;    ///< largest angle of incidence at a wall of pieces
+constexpr double grazing_share = 0.025;  ///< of the path that leads into the wall where a ball grazes it
+
+double speed(const EngineCell& s) { return s.path / s.step; }
+double front(const EngineCell& s) { return -s.thickness / 2; }
+double rod_radius(const EngineCell& s) { return 0.4 * s.radius; }
+double rod_half(const EngineCell& s) { return 9 * s.radius; }
+
+V in_plane(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
+
+// Two balls whose relative motion leads through each other's center. What they lose of it an exact bounce gives back.
+
+EngineStage two_balls(const EngineCell& s) {
+  const Sphere<double> ball = {V::Zero(), s.radius};
+  return {.step = s.step, .fixed = {}, .moving = {ball, ball}};
+}
+
+/// `first` and `second` are shares of the relative speed, along `ahead` and across it.
+StageShot meeting(const EngineCell& s, const RandomWords& words, const std::array<double, 2>& first,
+                  const std::array<double, 2>& second) {
+  const double turned = 2 * std::numbers::pi * uniform(words[1]);
+  const V ahead = in_plane(turned), across = in_plane(turned + std::numbers::pi / 2);
+  const V u = speed(s) * (first[0] * ahead + first[1] * across),
+          v = speed(s) * (second[0] * ahead + second[1] * across);
+  const double wait = 2 * s.step * uniform(words[0]);  // until they touch
+  return {.start = {{-s.radius * ahead - wait * u, u}, {s.radius * ahead - wait * v, v}},
+          .ahead = ahead,
+          .beyond = 0,
+          .velocity = u - speed(s) * ahead};
+}
+
+StageShot head_on(const EngineCell& s, const RandomWords& words) { return meeting(s, words, {0.5, 0}, {-0.5, 0}); }
+StageShot crossing(const EngineCell& s, const RandomWords& words) { return meeting(s, words, {0.5, 0.5}, {-0.5, 0.5}); }
+
+double two_balls_theory(const EngineCell& s, int poses, double skin) {
+  return miss_probability(2 * s.radius + skin, s.path / poses);
+}
+
+// A wall of six pieces side by side, a meter each or more; the ball touches within its radius of where two of them meet.
+
+constexpr int pieces = 6;
+
+/// [m] Of a piece: no ball or pose of it comes to where the wall ends, and the shortest way out is not along it.
+double side(const EngineCell& s) { return std::max(1.0, 2 * (s.radius + s.thickness)); }
+
+EngineStage tiles(const EngineCell& s) {
+  EngineStage stage = {.step = s.step, .fixed = {}, .moving = {Sphere<double>{V::Zero(), s.radius}}};
+  for (int i = 0; i < pieces; ++i) {
+    stage.fixed.emplace_back(
+        Aabb<double>{{0, side(s) * (i - (pieces - 1) / 2.0), 0}, {s.thickness / 2, side(s) / 2, 2 * side(s)}});
+  }
+  return stage;
+}
+
+EngineStage mesh(const EngineCell& s) {
+  EngineStage stage = {.step = s.step, .fixed = {}, .moving = {Sphere<double>{V::Zero(), s.radius}}};
+  EngineMesh mesh;
+  for (int i = 0; i <= pieces; ++i) {
+    for (const double z : {-1.75, 2.25}) mesh.points.emplace_back(front(s), side(s) * (i - pieces / 2.0), side(s) * z);
+  }
+  for (int i = 0; i < pieces; ++i) {
+    mesh.triangles.push_back({2 * i, 2 * i + 1, 2 * i + 2});
+    mesh.triangles.push_back({2 * i + 1, 2 * i + 3, 2 * i + 2});
+  }
+  stage.fixed.emplace_back(std::move(mesh));
+  return stage;
+}
+
+StageShot at_seam(const EngineCell& s, const RandomWords& words, const V& velocity) {
+  const V touch = {front(s) - s.radius, s.radius * (2 * uniform(words[1]) - 1), 0};
+  return {.start = {{touch - 2 * s.step * uniform(words[0]) * velocity, velocity}},
+          .ahead = V::UnitX(),
+          .beyond = -front(s),
+          .velocity = V(-velocity[0], velocity[1], velocity[2])};
+}
+
+StageShot into_seam(const EngineCell& s, const RandomWords& words) {
+  const double angle = seam_angle_deg * (std::numbers::pi / 180) * (2 * uniform(words[2]) - 1);
+  return at_seam(s, words, speed(s) * in_plane(angle));
+}
+
+StageShot along_seam(const EngineCell& s, const RandomWords& words) {
+  return at_seam(s, words,
+                 speed(s) * in_plane((words[2] & 1U) != 0 ? std::acos(grazing_share) : -std::acos(grazing_share)));
+}
+
+double tiles_theory(const EngineCell& s, int poses, double skin) {
+  return mean_miss_probability(s.thickness / 2 + s.radius + skin, s.path / poses, seam_angle_deg);
+}
+
+// A rod parallel to a thin wall, and one that turns by anything up to half a turn in a step, so that every pose has any angle.
+
+EngineStage rod_at_wall(const EngineCell& s) {
+  const V half = {0, rod_half(s), 0};
+  return {.step = s.step,
+          .fixed = {Aabb<double>{V::Zero(), {s.thickness / 2, 100 * side(s), 100 * side(s)}}},
+          .moving = {Capsule<double>{-half, half, rod_radius(s)}}};
+}
+
+StageShot flat_rod(const EngineCell& s, const RandomWords& words) {
+  const V velocity = speed(s) * V::UnitX();
+  const V touch = {front(s) - rod_radius(s), 0, 0};
+  return {.start = {{touch - 2 * s.step * uniform(words[0]) * velocity, velocity}},
+          .ahead = V::UnitX(),
+          .beyond = -front(s),
+          .velocity = -velocity};
+}
+
+StageShot spinning_rod(const EngineCell& s, const RandomWords& words) {
+  StageShot shot = flat_rod(s, words);
+  BodyState& rod = shot.start.front();
+  rod.position[0] -= rod_half(s);  // however it is turned
+  rod.spin = std::numbers::pi * (2 * uniform(words[2]) - 1) / s.step * V::UnitZ();
+  shot.velocity.reset();
+  return shot;
+}
+
+double rod_theory(const EngineCell& s, int poses, double skin) {
+  return miss_probability(s.thickness / 2 + rod_radius(s) + skin, s.path / poses);
+}
+
+/// A pose at the angle a sees the wall from w/2 + r + L |cos a| on, 2 L / pi of it in the mean.
+double spinning_rod_theory(const EngineCell& s, int poses, double skin) {
+  return miss_probability(s.thickness / 2 + rod_radius(s) + skin + 2 * rod_half(s) / std::numbers::pi, s.path / poses);
+}
+
+// Past the edge of a plate, a tenth of the radius to a radius away from it.
+
+EngineStage plate(const EngineCell& s) {
+  return {.step = s.step,
+          .fixed = {Aabb<double>{V::Zero(), {s.thickness / 2, side(s) / 2, 2 * side(s)}}},
+          .moving = {Sphere<double>{V::Zero(), s.radius}}};
+}
+
+StageShot past_edge(const EngineCell& s, const RandomWords& words) {
+  const V velocity = speed(s) * V::UnitX();
+  const double gap = s.radius * (0.1 + 0.9 * uniform(words[1]));
+  const V nearest = {0, side(s) / 2 + s.radius + gap, 0};
+  return {.start = {{nearest - (1 + 2 * uniform(words[0])) * s.step * velocity, velocity}},
+          .ahead = V::UnitX(),
+          .beyond = std::numeric_limits<double>::infinity(),
+          .velocity = velocity};
+}
+
+constexpr double most_error = 0.01;  ///< [1] of the speed, that disturbs nobody
+
+}  // namespace
+
+const std::vector<StageKind>& stage_kinds() {
+  static const std::vector<StageKind> all = {
+      {"head_on", "two equal balls fly at each other", 12, false, false, false, two_balls, head_on, two_balls_theory},
+      {"crossing", "two equal balls cross at a right angle and meet", 12, false, false, false, two_balls, crossing,
+       two_balls_theory},
+      {"tiles", "a ball flies at where two boxes of a wall meet, at up to 60 degrees", 10, false, false, true, tiles,
+       into_seam, tiles_theory},
+      {"tiles_grazing", "the same with a fortieth of the path leading into the wall", 10, false, false, true, tiles,
+       along_seam},
+      {"mesh", "a ball flies at where triangles of a wall without thickness meet, at up to 60 degrees", 10, true, false,
+       true, mesh, into_seam},
+      {"mesh_grazing", "the same with a fortieth of the path leading into the wall", 10, true, false, true, mesh,
+       along_seam},
+      {"rod", "a rod flies at a thin wall that it is parallel to", 10, false, false, false, rod_at_wall, flat_rod,
+       rod_theory},
+      {"rod_spinning", "the same rod turns as well, by up to half a turn in a step", 10, false, true, false,
+       rod_at_wall, spinning_rod, spinning_rod_theory},
+      {"near_miss", "a ball passes the edge of a plate by a tenth of its radius to a radius", 10, false, false, false,
+       plate, past_edge}};
+  return all;
+}
+
+void judge(const StageKind& kind, const StageShot& shot, const EngineFlights::Flight& flight, StageTally& tally) {
+  ++tally.shots;
+  const std::vector<BodyState>& end = flight.back();
+  const bool finite =
+      std::ranges::all_of(end, [](const BodyState& b) { return b.position.allFinite() && b.velocity.allFinite(); });
+  if (!finite) {
+    ++tally.lost;
+    return;
+  }
+  const V from = end.size() > 1 ? end[1].position : V::Zero();
+  if ((end[0].position - from).dot(shot.ahead) > shot.beyond) {
+    ++tally.passed;
+    return;
+  }
+  if (!shot.velocity) return;
+  V change = end[0].velocity - *shot.velocity;
+  if (kind.along_wall) change[0] = 0;
+  const double error = std::min(1024.0, change.norm() / shot.start[0].velocity.norm());
+  tally.error.add(error);
+  tally.most_error = std::max(tally.most_error, error);
+  if (error > most_error) ++tally.disturbed;
+}
+
+// What a run fires.
+
 EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options) {
   EnginePlan plan;
   choose_engines(settings, plan);
@@ -212,7 +412,8 @@ EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options)
   const std::int64_t volleys = (plan.shots + most_shots_an_engine_volley - 1) / most_shots_an_engine_volley;
   settings.limit_cells({"path", "wall_size"}, plan.setups.size() * static_cast<std::size_t>(volleys));
   choose_cells(settings, plan);
-  const std::vector<std::string_view> stages = stage_names();
+  std::vector<std::string_view> stages;
+  for (const StageKind& kind : stage_kinds()) stages.push_back(kind.name);
   plan.stages = settings.choices_or_all("stage", stages);
   plan.stage_shots = settings.trials("stage_shots", 0, most_engine_shots, options.trials);
   plan.stage_path = settings.number("stage_path", {.lower = 1e-9, .upper = 1000, .unit = "m"});
@@ -240,57 +441,82 @@ std::vector<EngineRow> engine_rows(const EnginePlan& plan) {
     for (const EngineSetup& setup : plan.setups) {
       if (!setup.can_do(cell)) continue;
       const int poses = setup.mode.poses_per_step;
-      rows.push_back({cell, &setup, {}});
+      rows.push_back({cell, &setup});
       if (poses > 0) rows.back().theory = through_theory(cell, poses, setup.mode.skin);
     }
   }
   return rows;
 }
 
-EngineTally fire(const EngineCell& cell, const EngineMode& mode, std::int64_t first, std::int64_t shots,
-                 std::uint64_t seed) {
-  const RandomStream stream = random_stream(cell, seed);
-  EngineTally tally;
-  if (!mode.make) {
-    std::vector<EngineShot> all;
-    std::vector<std::vector<BodyState>> starts;
-    for (std::int64_t i = first; i < first + shots; ++i) {
-      all.push_back(engine_shot(cell, stream, static_cast<std::uint64_t>(i)));
-      starts.push_back({all.back().start});
+std::vector<StageRow> stage_rows(const EnginePlan& plan) {
+  EngineCell cell = plan.cells.front();
+  cell.path = plan.stage_path;
+  std::vector<StageRow> rows;
+  for (const StageKind& kind : stage_kinds()) {
+    if (plan.stage_shots == 0 || std::ranges::find(plan.stages, kind.name) == plan.stages.end()) continue;
+    for (const EngineSetup& setup : plan.setups) {
+      const EngineMode& mode = setup.mode;
+      if (!mode.plays_stages || (kind.has_mesh && !mode.has_meshes) || (kind.spins && !mode.turns)) continue;
+      rows.push_back({&kind, cell, &setup});
+      if (mode.poses_per_step > 0 && kind.theory != nullptr)
+        rows.back().theory = kind.theory(cell, mode.poses_per_step, mode.skin);
     }
-    const EngineFlights flights = mode.play(stage_of(all.front().scene), starts, cell.steps);
-    for (std::size_t i = 0; i < flights.shots.size(); ++i) {
-      std::vector<BodyState> flight;
-      for (const std::vector<BodyState>& bodies : flights.shots[i]) flight.push_back(bodies.front());
-      judge(all[i], flight, tally);
-    }
-    tally.seconds = flights.seconds;
-    tally.unanswered = shots - std::ssize(flights.shots);
-    return tally;
   }
-  std::vector<BodyState> flight(static_cast<std::size_t>(cell.steps));
-  for (std::int64_t i = first; i < first + shots; ++i) {
-    const EngineShot shot = engine_shot(cell, stream, static_cast<std::uint64_t>(i));
-    const auto world = mode.make(shot.scene, shot.start);
-    const double start = thread_seconds();
-    for (BodyState& at : flight) {
-      world->step();
-      at = world->ball();
-    }
-    tally.seconds += thread_seconds() - start;
-    judge(shot, flight, tally);
-  }
+  return rows;
+}
+
+namespace {
+
+/// In a row's mode. `judge(shot, flight, tally)` adds a shot to the tally.
+template <class Row, class Shot, class Judge>
+auto fired(const Row& row, const EngineStage& stage, const std::vector<Shot>& shots, const Judge& judge) {
+  std::vector<EngineStart> starts;
+  for (const Shot& shot : shots) starts.push_back(shot.start);
+  const EngineFlights flights = row.setup->mode.play(stage, starts, row.steps());
+  auto tally = decltype(row.tally){};
+  for (std::size_t i = 0; i < flights.shots.size(); ++i) judge(shots[i], flights.shots[i], tally);
+  tally.seconds = flights.seconds;
+  tally.unanswered = std::ssize(shots) - std::ssize(flights.shots);
   return tally;
 }
 
-void add_results(const std::vector<EngineVolley>& volleys, const std::vector<EngineTally>& tallies,
-                 std::vector<EngineRow>& rows) {
-  for (std::size_t i = 0; i < volleys.size(); ++i) {
-    EngineRow& row = rows[volleys[i].row];
-    row.tally += tallies[i];
-    if (tallies[i].shots > 0)
-      row.nanoseconds.push_back(1e9 * tallies[i].seconds / static_cast<double>(tallies[i].shots * row.cell.steps));
-  }
+}  // namespace
+
+EngineTally fire(const EngineRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed) {
+  const RandomStream stream = random_stream(row.cell, seed);
+  std::vector<EngineShot> all;
+  for (std::int64_t i = first; i < first + shots; ++i)
+    all.push_back(engine_shot(row.cell, stream, static_cast<std::uint64_t>(i)));
+  return fired(row, stage_of(all.front().scene), all,
+               [](const auto& shot, const auto& flight, EngineTally& tally) { judge(shot, flight, tally); });
+}
+
+StageTally fire(const StageRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed) {
+  const EngineCell& c = row.cell;
+  const auto number = static_cast<double>(row.kind - stage_kinds().data());
+  const RandomStream stream = {seed, stream_of(std::array{c.path, c.step, c.radius, c.thickness, number})};
+  std::vector<StageShot> all;
+  for (std::int64_t i = first; i < first + shots; ++i)
+    all.push_back(row.kind->shot(c, random_words(stream, static_cast<std::uint64_t>(i), 0)));
+  return fired(row, row.kind->stage(c), all,
+               [&](const auto& shot, const auto& flight, StageTally& tally) { judge(*row.kind, shot, flight, tally); });
+}
+
+std::vector<std::string> drop_failed(std::vector<EngineRow>& rows, std::vector<StageRow>& stages) {
+  std::vector<std::string> failed;
+  const auto is_failed = [&](const auto& row) {
+    return std::ranges::find(failed, row.setup->engine.called) != failed.end();
+  };
+  const auto look = [&](const auto& all) {
+    for (const auto& row : all) {
+      if (row.tally.unanswered > 0 && !is_failed(row)) failed.push_back(row.setup->engine.called);
+    }
+  };
+  look(rows);
+  look(stages);
+  std::erase_if(rows, is_failed);
+  std::erase_if(stages, is_failed);
+  return failed;
 }
 
 std::vector<EngineRow> rows_of(const std::vector<EngineRow>& rows, const std::string& label, double wall_size) {
@@ -307,6 +533,19 @@ std::vector<CellCount> own_counts(const std::vector<EngineRow>& rows) {
     if (!row.setup->is_ours()) continue;
     if (row.theory && row.cell.wall_size == rows.front().cell.wall_size) count(*row.theory);
     if (row.setup->mode.exact) count(0);
+  }
+  return counts;
+}
+
+std::vector<CellCount> own_counts(const std::vector<StageRow>& rows) {
+  std::vector<CellCount> counts;
+  for (const StageRow& row : rows) {
+    if (!row.setup->is_ours()) continue;
+    const StageTally& t = row.tally;
+    const std::string label = row.setup->label() + " on stages";
+    if (row.theory && !row.kind->spins)  // of what spins it is the least
+      counts.push_back({label, "double", t.shots, t.passed + t.lost, *row.theory});
+    if (row.setup->mode.exact) counts.push_back({label, "double", t.shots, t.passed + t.lost + t.disturbed, 0});
   }
   return counts;
 }

@@ -28,18 +28,20 @@ dWorldID new_world() {
   return dWorldCreate();
 }
 
-class OdeWorld final : public EngineWorld {
+class OdeWorld {
  public:
-  OdeWorld(const EngineScene& scene, const BodyState& ball) : step_(scene.step) {
-    dCreateBox(space_, scene.thickness, 2 * scene.half_side, 2 * scene.half_side);
+  OdeWorld(const EngineStage& stage, const EngineStart& start) : step_(stage.step) {
+    const Vec3<double> sides = 2 * stage.wall_half_extents();
+    dCreateBox(space_, sides[0], sides[1], sides[2]);
+    const BodyState& ball = start.front();
     dMass mass;
-    dMassSetSphereTotal(&mass, 1, scene.radius);
+    dMassSetSphereTotal(&mass, 1, stage.ball_radius());
     dBodySetMass(ball_, &mass);
-    dGeomSetBody(dCreateSphere(space_, scene.radius), ball_);
+    dGeomSetBody(dCreateSphere(space_, stage.ball_radius()), ball_);
     dBodySetPosition(ball_, ball.position[0], ball.position[1], ball.position[2]);
     dBodySetLinearVel(ball_, ball.velocity[0], ball.velocity[1], ball.velocity[2]);
   }
-  ~OdeWorld() override {
+  ~OdeWorld() {
     dJointGroupDestroy(contacts_);
     dSpaceDestroy(space_);
     dWorldDestroy(world_);
@@ -47,12 +49,12 @@ class OdeWorld final : public EngineWorld {
   OdeWorld(const OdeWorld&) = delete;
   OdeWorld& operator=(const OdeWorld&) = delete;
 
-  void step() override {
+  void step() {
     dSpaceCollide(space_, this, &OdeWorld::meet);
     dWorldStep(world_, step_);
     dJointGroupEmpty(contacts_);
   }
-  BodyState ball() const override {
+  BodyState body(std::size_t) const {
     const dReal* p = dBodyGetPosition(ball_);
     const dReal* v = dBodyGetLinearVel(ball_);
     return {Vec3<double>(p[0], p[1], p[2]), Vec3<double>(v[0], v[1], v[2])};
@@ -80,12 +82,7 @@ class OdeWorld final : public EngineWorld {
 };
 
 std::vector<EngineMode> ode_modes(const EngineChoices&) {
-  return {{.name = "discrete",
-           .what = "as it comes",
-           .poses_per_step = 1,
-           .make = [](const EngineScene& scene, const BodyState& ball) {
-             return std::make_unique<OdeWorld>(scene, ball);
-           }}};
+  return {{.name = "discrete", .what = "as it comes", .poses_per_step = 1, .play = played_in<OdeWorld>()}};
 }
 
 #else

@@ -5,28 +5,26 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/world.hpp>
 
 namespace thinwall {
 
 namespace {
 
-class OwnWorld final : public EngineWorld {
+class OwnWorld {
  public:
-  OwnWorld(const EngineStage& stage, std::span<const BodyState> starts, const WorldOptions& options)
-      : world_(bodies(stage, starts), options), step_(stage.step) {}
+  OwnWorld(const EngineStage& stage, const EngineStart& start, const WorldOptions& options)
+      : world_(bodies(stage, start), options), step_(stage.step) {}
 
-  void step() override { world_.step(step_); }
-  BodyState ball() const override { return body(1); }
-  BodyState body(std::uint32_t id) const {
-    const Body& body = *world_.find(id);
+  void step() { world_.step(step_); }
+  BodyState body(std::size_t i) const {
+    const Body& body = *world_.find(static_cast<std::uint32_t>(i + 1));
     return {position(body), body.velocity, body.angular_velocity};
   }
 
  private:
   /// Those that move have the ids 1, 2, ...
-  static std::vector<Body> bodies(const EngineStage& stage, std::span<const BodyState> starts) {
+  static std::vector<Body> bodies(const EngineStage& stage, const EngineStart& start) {
     std::vector<Body> all;
     const auto add = [&](const EngineShape& shape, const BodyState& state, bool is_static) {
       Body& body = all.emplace_back();
@@ -46,7 +44,7 @@ class OwnWorld final : public EngineWorld {
       body.restitution = 1;
       body.is_static = is_static;
     };
-    for (std::size_t i = 0; i < starts.size(); ++i) add(stage.moving[i], starts[i], false);
+    for (std::size_t i = 0; i < start.size(); ++i) add(stage.moving[i], start[i], false);
     for (const EngineShape& shape : stage.fixed) add(shape, {Vec3<double>::Zero(), Vec3<double>::Zero()}, true);
     return all;
   }
@@ -54,23 +52,6 @@ class OwnWorld final : public EngineWorld {
   World world_;
   double step_;
 };
-
-EngineFlights play_own(const WorldOptions& options, const EngineStage& stage,
-                       std::span<const std::vector<BodyState>> starts, std::int64_t steps) {
-  EngineFlights flights;
-  for (const std::vector<BodyState>& shot : starts) {
-    OwnWorld world(stage, shot, options);
-    EngineFlights::Flight& flight = flights.shots.emplace_back();
-    for (std::int64_t i = 0; i < steps; ++i) {
-      const double start = thread_seconds();
-      world.step();
-      flights.seconds += thread_seconds() - start;
-      std::vector<BodyState>& at = flight.emplace_back();
-      for (std::uint32_t id = 1; id <= shot.size(); ++id) at.push_back(world.body(id));
-    }
-  }
-  return flights;
-}
 
 EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
   WorldOptions options;
@@ -82,12 +63,8 @@ EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
           .what = std::move(what),
           .poses_per_step = sweeps(policy) ? 0 : substeps,
           .exact = sweeps(policy),
-          .make =
-              [options](const EngineScene& scene, const BodyState& ball) {
-                return std::make_unique<OwnWorld>(stage_of(scene), std::span(&ball, 1), options);
-              },
-          .play = [options](const EngineStage& stage, std::span<const std::vector<BodyState>> starts,
-                            std::int64_t steps) { return play_own(options, stage, starts, steps); },
+          .play = played_in<OwnWorld>(options),
+          .plays_stages = true,
           .turns = true};
 }
 

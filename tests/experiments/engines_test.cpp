@@ -18,8 +18,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/engines/speaker.hpp>
-#include <thinwall/experiments/engines/stages.hpp>
+#include <thinwall/experiments/engines/model.hpp>
+#include <thinwall/experiments/engines/npm.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/models/tunneling_theory.hpp>
@@ -41,7 +41,7 @@ TEST(EngineShots, touch_when_the_oracle_says_so) {
     const EngineShot shot = engine_shot(meter_cell, stream, i);
     EXPECT_GT(shot.contact, 0);
     EXPECT_LE(shot.contact, 2);
-    const Vec3<double> at = shot.start.position + shot.contact * shot.scene.step * shot.start.velocity;
+    const Vec3<double> at = shot.start[0].position + shot.contact * shot.scene.step * shot.start[0].velocity;
     EXPECT_NEAR(at[0], -0.5 * shot.scene.thickness - shot.scene.radius, 1e-12) << i;
     EXPECT_LT(at.tail<2>().norm() + shot.scene.radius, shot.scene.half_side);
   }
@@ -53,11 +53,11 @@ TEST(EngineShots, are_spread_over_the_angles_and_the_step) {
   constexpr int count = 2000;
   for (std::uint64_t i = 0; i < count; ++i) {
     const EngineShot shot = engine_shot(meter_cell, stream, i);
-    const double a = std::acos(shot.start.velocity[0] / shot.start.velocity.norm()) * 180 / std::numbers::pi;
+    const double a = std::acos(shot.start[0].velocity[0] / shot.start[0].velocity.norm()) * 180 / std::numbers::pi;
     angle += a / count;
     steepest = std::max(steepest, a);
     phase += (shot.contact - std::floor(shot.contact)) / count;
-    EXPECT_NEAR(shot.start.velocity.norm(), 60, 1e-4);
+    EXPECT_NEAR(shot.start[0].velocity.norm(), 60, 1e-4);
   }
   EXPECT_NEAR(angle, 30, 5 * 60 / std::sqrt(12.0 * count));  // of a uniform mean
   EXPECT_NEAR(phase, 0.5, 5 / std::sqrt(12.0 * count));
@@ -71,8 +71,8 @@ TEST(EngineShots, are_the_same_at_a_wall_of_another_width_and_others_in_another_
   far.path = 2;
   const EngineShot one = engine_shot(meter_cell, random_stream(meter_cell, 7), 3);
   const EngineShot other = engine_shot(wide, random_stream(wide, 7), 3);
-  EXPECT_EQ(one.start.position, other.start.position);
-  EXPECT_EQ(one.start.velocity, other.start.velocity);
+  EXPECT_EQ(one.start[0].position, other.start[0].position);
+  EXPECT_EQ(one.start[0].velocity, other.start[0].velocity);
   EXPECT_EQ(one.contact, other.contact);
   EXPECT_EQ(other.scene.half_side, 1000);
   EXPECT_NE(random_stream(meter_cell, 7).stream, random_stream(far, 7).stream);
@@ -111,13 +111,13 @@ TEST(EngineTheory, counts_both_surfaces_of_what_is_never_seen_and_half_of_what_i
 
 /// Head-on: contact at x = -1, half a step after the start; 2 m a step, steps of 1 s.
 const EngineShot head_on_shot = {.scene = {.radius = 0.5, .thickness = 1, .half_side = 100, .step = 1},
-                                 .start = {.position = {-2, 0, 0}, .velocity = {2, 0, 0}},
+                                 .start = {{.position = {-2, 0, 0}, .velocity = {2, 0, 0}}},
                                  .contact = 0.5};
 
 /// At the end of 4 steps.
 EngineTally judged(const Vec3<double>& position, const Vec3<double>& velocity) {
   EngineTally tally;
-  judge(head_on_shot, {4, BodyState{position, velocity}}, tally);
+  judge(head_on_shot, EngineFlights::Flight(4, {{position, velocity}}), tally);
   EXPECT_EQ(tally.shots, 1);
   return tally;
 }
@@ -164,7 +164,7 @@ TEST(EngineJudge, finds_when_a_ball_turned_and_half_of_what_it_waited) {
 TEST(EngineJudge, measures_depth_at_the_ends_of_steps) {
   EngineTally tally;
   const BodyState in = {{-0.75, 0, 0}, {2, 0, 0}}, out = {{-3, 0, 0}, {-2, 0, 0}};
-  judge(head_on_shot, {in, out}, tally);
+  judge(head_on_shot, {{in}, {out}}, tally);
   EXPECT_EQ(tally.deepest, 0.25);
 }
 
@@ -187,8 +187,7 @@ std::vector<EngineRow> fired(const EnginePlan& plan) {
   std::vector<EngineRow> rows = engine_rows(plan);
   const std::vector<EngineVolley> volleys = volleys_in_turn(rows, &EngineRow::cell, plan.shots);
   std::vector<EngineTally> tallies;
-  for (const EngineVolley& v : volleys)
-    tallies.push_back(fire(rows[v.row].cell, rows[v.row].setup->mode, v.first, v.shots, plan.seed));
+  for (const EngineVolley& v : volleys) tallies.push_back(fire(rows[v.row], v.first, v.shots, plan.seed));
   add_results(volleys, tallies, rows);
   return rows;
 }
@@ -331,7 +330,8 @@ TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
   const Engine& jolt = engine_called(engines, "jolt");
   EXPECT_EQ(jolt.version, "2.0.0");
   EXPECT_EQ(jolt.integrity, "sha512-x");
-  const EngineTally tally = fire(meter_cell, jolt.modes({}).front(), 0, 5, 1);  // there is no script
+  const EngineSetup setup = {jolt, jolt.modes({}).front()};
+  const EngineTally tally = fire(EngineRow{meter_cell, &setup}, 0, 5, 1);  // there is no script
   EXPECT_EQ(tally.unanswered, 5);
   EXPECT_EQ(tally.shots, 0);
 }
@@ -444,9 +444,9 @@ TEST(Engines, bear_worlds_of_their_own_kind_on_other_threads) {
   const EngineCell cell = engine_plan("path = [1]").cells.front();
   for (const Engine& engine : engine_list()) {
     if (!engine.is_there()) continue;
-    const EngineMode mode = engine.modes({{0.5}, 0.5, {2}}).front();
+    const EngineSetup setup = {engine, engine.modes({{0.5}, 0.5, {2}}).front()};
     const auto counts = [&](std::int64_t shots) {
-      EngineTally tally = fire(cell, mode, 0, shots, 3);
+      EngineTally tally = fire(EngineRow{cell, &setup}, 0, shots, 3);
       tally.seconds = 0;
       return to_text(tally);
     };
@@ -552,8 +552,6 @@ TEST(EnginesConfig, an_engine_with_no_path_that_it_can_do_is_refused) {
 
 // ---- The stages: what is right on each, on flights made up by hand and in our world, and what passes where only poses are looked at.
 
-constexpr StageSize meter = {.path = 1, .step = 1.0 / 60, .radius = 0.05, .thickness = 0.01};
-
 const StageKind& stage_called(std::string_view name) {
   return *std::ranges::find(stage_kinds(), name, &StageKind::name);
 }
@@ -562,16 +560,16 @@ constexpr const char* one_cell = "\npath = [1]\nwall_size = [250]";
 
 std::vector<StageRow> played(const EnginePlan& plan) {
   std::vector<StageRow> rows = stage_rows(plan);
-  for (StageRow& row : rows) row.tally = play(row, 0, plan.stage_shots, plan.seed);
+  for (StageRow& row : rows) row.tally = fire(row, 0, plan.stage_shots, plan.seed);
   return rows;
 }
 
 /// Where bodies that meet nothing are at the end of each step.
-EngineFlights::Flight straight(const StageShot& shot, const StageSize& size, std::int64_t steps) {
+EngineFlights::Flight straight(const StageShot& shot, const EngineCell& cell, std::int64_t steps) {
   EngineFlights::Flight flight;
   std::vector<BodyState> at = shot.start;
   for (std::int64_t i = 0; i < steps; ++i) {
-    for (BodyState& body : at) body.position += size.step * body.velocity;
+    for (BodyState& body : at) body.position += cell.step * body.velocity;
     flight.push_back(at);
   }
   return flight;
@@ -580,10 +578,10 @@ EngineFlights::Flight straight(const StageShot& shot, const StageSize& size, std
 TEST(EngineStages, tell_who_passes_from_who_flies_away) {
   for (const StageKind& kind : stage_kinds()) {
     for (std::uint64_t i = 0; i < 200; ++i) {
-      const StageShot shot = kind.shot(meter, random_words({3, 4}, i, 0));
-      EXPECT_EQ(shot.start.size(), kind.stage(meter).moving.size()) << kind.name;
+      const StageShot shot = kind.shot(meter_cell, random_words({3, 4}, i, 0));
+      EXPECT_EQ(shot.start.size(), kind.stage(meter_cell).moving.size()) << kind.name;
       StageTally tally;
-      EngineFlights::Flight flight = straight(shot, meter, kind.steps);
+      EngineFlights::Flight flight = straight(shot, meter_cell, kind.steps);
       judge(kind, shot, flight, tally);
       EXPECT_EQ(tally.passed, kind.name == "near_miss" ? 0 : 1) << kind.name << " " << i;
       EXPECT_EQ(tally.disturbed, 0) << kind.name << " " << i;
@@ -600,7 +598,7 @@ TEST(EngineStages, tell_who_passes_from_who_flies_away) {
 
 TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
   const StageKind& kind = stage_called("near_miss");
-  const StageShot shot = kind.shot(meter, random_words({3, 4}, 0, 0));
+  const StageShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
   const auto off_by = [&](double share) {
     StageTally tally;
     EngineFlights::Flight flight = {shot.start};
@@ -618,7 +616,7 @@ TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
 
 TEST(EngineStages, along_a_wall_count_what_is_lost_along_it) {
   const StageKind& kind = stage_called("tiles");
-  const StageShot shot = kind.shot(meter, random_words({3, 4}, 0, 0));
+  const StageShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
   StageTally tally;
   EngineFlights::Flight flight = {shot.start};
   flight.back().front().velocity = {0, shot.velocity->y(), 0};  // stopped by the wall, not along it
