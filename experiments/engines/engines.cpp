@@ -416,10 +416,9 @@ Table stages_table(const std::vector<StageRow>& rows) {
 }
 
 Table stage_timings_table(const std::vector<StageRow>& rows) {
-  const auto columns = columns_of<StageRow>(
-      stage_columns(), value("nanoseconds", "ns", "Time a step, mean.", [](const StageRow& r) {
-        return 1e9 * r.tally.seconds / static_cast<double>(std::max<std::int64_t>(1, r.tally.shots) * r.kind->steps);
-      }));
+  const auto columns =
+      columns_of<StageRow>(stage_columns(), value("nanoseconds", "ns", "Time a step, median over volleys.",
+                                                  [](const StageRow& r) { return median(r.nanoseconds); }));
   return timing(table("stage_timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock),
                       columns, rows));
 }

@@ -645,6 +645,18 @@ TEST(EngineStages, are_played_without_fault_by_ours_where_it_sweeps_and_to_theor
   EXPECT_FALSE(all_passed(self_test(own_counts(rows)))) << "one that is disturbed is too many";
 }
 
+/// Of two volleys, in the first of which a step took 2 us and in the second 4.
+TEST(EngineStages, take_as_long_a_step_as_the_volleys_say) {
+  const EnginePlan plan = engine_plan(std::string("engine = ['thinwall']\nstage = ['head_on']") + one_cell);
+  std::vector<StageRow> rows = stage_rows(plan);
+  const double micro = 1e-6 * static_cast<double>(1000 * rows[0].steps());
+  const std::vector<StageTally> tallies = {{.shots = 1000, .seconds = 2 * micro},
+                                           {.shots = 1000, .seconds = 4 * micro}};
+  add_results({{0, 0, 1000}, {0, 1000, 1000}}, tallies, rows);
+  EXPECT_EQ(rows[0].tally.shots, 2000);
+  EXPECT_NEAR(median(rows[0].nanoseconds), 3000, 1e-6);
+}
+
 TEST(EngineStages, follow_theory_in_npm_engines_that_look_at_poses) {
   std::vector<CellCount> counts;
   const std::string missing = with_npm_engines([&](const Engine& engine) {
