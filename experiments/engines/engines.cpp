@@ -305,22 +305,25 @@ std::string with_interval(const Row& row) {
                      has_its_own ? "; with its skin theory says " + percent_text(*row.theory) : "");
 }
 
-/// All modes and walls get the same shots: those of one are all there are.
-std::string own_zero(const Rows& rows) {
-  const Rows exact = only(rows, [](const Row& r) { return r.setup->mode.exact; });
-  if (exact.empty()) return "";
+/// Of engines whose shots are not all answered.
+std::string failed_text(const std::vector<std::string>& failed) {
+  return fmt::format("{} {} left out, having died or hung.", listed(failed), failed.size() == 1 ? "is" : "are");
+}
+
+/// Of modes that claim to let none through. All modes and walls get the same shots: those of one are all there are.
+std::string own_zero(const Rows& exact) {
   std::int64_t shots = 0, wrong = 0;
   for (const Row& row : exact) wrong += row.tally.wrong();
   for (const Row& row : rows_of(exact, label_of(exact.front()), wall_of(exact.front()))) shots += row.tally.shots;
   const std::string modes = listed(distinct(exact, label_of<Row>));
-  if (wrong > 0) return fmt::format(" {} let {} shots through: the self-test fails.", modes, grouped_text(wrong));
-  return fmt::format(" {} let none of {} shots through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
+  if (wrong > 0) return fmt::format("{} let {} shots through: the self-test fails.", modes, grouped_text(wrong));
+  return fmt::format("{} let none of {} shots through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
                      grouped_text(shots), percent_text(clopper_pearson(0, shots).upper));
 }
 
-std::string answer_of(const Rows& rows) {
+std::string answer_of(const Rows& rows, const std::vector<std::string>& failed) {
   const double path = told_path(rows);
-  std::vector<std::string> poses, safe, unsafe;
+  std::vector<std::string> sentences, poses, safe, unsafe;
   std::optional<double> theory;
   for (const Row& row : told_rows(rows)) {
     if (row.setup->mode.poses_per_step != 1 || wall_of(row) != wall_of(rows.front())) continue;
@@ -337,15 +340,17 @@ std::string answer_of(const Rows& rows) {
           fmt::format("{} (at {} m, wall {} m wide)", with_interval(worst), worst.cell.path, wall_of(worst)));
     }
   }
-  std::string text;
   if (!poses.empty()) {
-    text = fmt::format("At {} m a step, looking at the poses of a step's end, go through (95 %): {}{}.", path,
-                       listed(poses), theory ? "; without a skin theory says " + percent_text(*theory) : "");
+    sentences.push_back(fmt::format("At {} m a step, looking at the poses of a step's end, go through (95 %): {}{}.",
+                                    path, listed(poses),
+                                    theory ? "; without a skin theory says " + percent_text(*theory) : ""));
   }
-  if (!safe.empty()) text += fmt::format(" Sweeping, {} let none of these shots through.", listed(safe));
-  if (!unsafe.empty()) text += fmt::format(" Others that sweep do, at worst: {}.", listed(unsafe));
-  text += own_zero(rows);
-  return text.starts_with(' ') ? text.substr(1) : text;
+  if (!safe.empty()) sentences.push_back(fmt::format("Sweeping, {} let none of these shots through.", listed(safe)));
+  if (!unsafe.empty()) sentences.push_back(fmt::format("Others that sweep do, at worst: {}.", listed(unsafe)));
+  const Rows exact = only(rows, [](const Row& r) { return r.setup->mode.exact; });
+  if (!exact.empty()) sentences.push_back(own_zero(exact));
+  if (!failed.empty()) sentences.push_back(failed_text(failed));
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 std::vector<SelfTest> tests_of(const Rows& rows, const std::vector<StageRow>& stages) {
@@ -481,16 +486,10 @@ std::string agreement_text(const Rows& rows) {
                       : "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
 }
 
-/// Of engines whose shots are not all answered; the text begins with a space.
-std::string failed_text(const std::vector<std::string>& failed) {
-  if (failed.empty()) return "";
-  return fmt::format(" {} {} left out, having died or hung.", listed(failed), failed.size() == 1 ? "is" : "are");
-}
-
 /// What is missing, and how each of the others is set up.
 std::string engines_text(const EnginePlan& plan, const std::vector<std::string>& failed) {
   std::vector<std::string> parts;
-  if (!failed.empty()) parts.push_back(failed_text(failed).substr(1));
+  if (!failed.empty()) parts.push_back(failed_text(failed));
   for (const std::string& line : missing_engines(plan)) parts.push_back(line + ".");
   const EngineSetup* last = nullptr;
   for (const EngineSetup& setup : plan.setups) {
@@ -512,7 +511,7 @@ std::string engines_text(const EnginePlan& plan, const std::vector<std::string>&
 Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages,
                    const std::vector<std::string>& failed) {
   const std::vector<SelfTest> tests = tests_of(rows, stages);
-  return {.answer = answer_of(rows) + failed_text(failed),
+  return {.answer = answer_of(rows, failed),
           .summary = summary_of(plan, rows, stages),
           .tables = {told_table(rows), stages_table(stages), cells_table(rows), packages_table(rows),
                      timings_table(rows), stage_timings_table(stages)},

@@ -349,6 +349,22 @@ TEST(Engines, that_die_are_named_and_left_out) {
   EXPECT_TRUE(rows.empty() && stages.empty());
 }
 
+TEST(Engines, that_die_are_told_in_the_answer_and_in_the_report) {
+  SKIP_WITHOUT("ode");
+  const auto run = run_of(engines_experiment(), "engine = ['ode', 'thinwall']" + std::string(few_engine_shots),
+                          {.seed = 1, .trials = 3});
+  EngineTally dead;
+  dead.unanswered = 3;
+  std::vector<std::string> results;
+  for (const Unit& unit : run->units()) {
+    const bool is_dead = unit.key.find(" ode ") != std::string::npos;
+    results.push_back(is_dead ? to_text(dead) : unit.compute());
+  }
+  const Outcome outcome = run->finish(results, std::vector<double>(results.size(), 1));
+  EXPECT_TRUE(outcome.answer.ends_with("Clopper-Pearson). ODE is left out, having died or hung.")) << outcome.answer;
+  EXPECT_TRUE(outcome.sections[0].text.starts_with("ODE is left out, having died or hung.\n\n"));
+}
+
 /// What a shell says to `question`, or what is wrong with it.
 std::string said(const char* script, const nlohmann::json& question = {{"id", 1}}, double seconds = 60) {
   try {
@@ -649,10 +665,11 @@ TEST(EngineStages, are_played_without_fault_by_ours_where_it_sweeps_and_to_theor
 TEST(EngineStages, take_as_long_a_step_as_the_volleys_say) {
   const EnginePlan plan = engine_plan(std::string("engine = ['thinwall']\nstage = ['head_on']") + one_cell);
   std::vector<StageRow> rows = stage_rows(plan);
-  const double micro = 1e-6 * static_cast<double>(1000 * rows[0].steps());
-  const std::vector<StageTally> tallies = {{.shots = 1000, .seconds = 2 * micro},
-                                           {.shots = 1000, .seconds = 4 * micro}};
-  add_results({{0, 0, 1000}, {0, 1000, 1000}}, tallies, rows);
+  StageTally fast, slow;
+  fast.shots = slow.shots = 1000;
+  fast.seconds = 2e-6 * static_cast<double>(1000 * rows[0].steps());
+  slow.seconds = 2 * fast.seconds;
+  add_results({{0, 0, 1000}, {0, 1000, 1000}}, std::vector{fast, slow}, rows);
   EXPECT_EQ(rows[0].tally.shots, 2000);
   EXPECT_NEAR(median(rows[0].nanoseconds), 3000, 1e-6);
 }
