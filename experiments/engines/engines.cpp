@@ -169,7 +169,7 @@ void gather_zeros(std::vector<Series>& all) {
   const Series first = *std::ranges::find_if(all, is_zero);
   std::erase_if(all, is_zero);
   all.push_back(first);
-  all.back().label = "all others";
+  all.back().label = "all others: none through";
 }
 
 /// A line and its points for each engine and mode, of a column against the path; those on the zero line have no line.
@@ -222,7 +222,7 @@ Figure tunneling_figure(const Rows& rows) {
                        "A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
                        "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
                        "number of poses and each skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
-                       "times the radius. All others let none through.",
+                       "times the radius.",
                        cell.radius, cell.thickness, cell.angle_deg)};
   const Rows poses = only(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
   if (!poses.empty()) {
