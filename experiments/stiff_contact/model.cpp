@@ -16,33 +16,27 @@
 
 namespace thinwall {
 
-namespace {
-
-/// One slab, wide enough that the nearest face is always the front or the back.
-Aabb<double> wall_of(const Approach& e) {
-  const double side = e.thickness + e.radius;
-  return {{0, 0, 0}, {e.thickness / 2, side, side}};
+double frequency(const Approach& e, const PenaltyContact& c) {
+  return frequency(spring_of(e.mass, c.spring.stiffness, 0));
 }
-
-}  // namespace
-
-double frequency(const Approach& e, const PenaltyContact& c) { return frequency(spring_of(e.mass, c.stiffness, 0)); }
 double step_path(const Approach& e, const PenaltyContact& c) { return e.speed * (c.step / frequency(e, c)); }
 
 Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
-  const Spring spring = spring_of(e.mass, c.stiffness, c.damping_ratio);
-  const Aabb<double> wall = wall_of(e);
+  const auto& [scheme, stiffness, damping_ratio] = c.spring;
+  const Spring spring = spring_of(e.mass, stiffness, damping_ratio);
+  const double side = e.thickness + e.radius;  // so wide that the nearest face is always the front or the back
+  const Aabb<double> wall = {{0, 0, 0}, {e.thickness / 2, side, side}};
   const double step = c.step / frequency(spring);  // [s]
   Sphere<double> ball = {{-e.reach() - phase * e.speed * step, 0, 0}, e.radius};
   Vec3<double> velocity = {e.speed, 0, 0};
-  /// For a time [s], against the wall, which lies along `normal` and is `depth` deep.
+  // For a time [s], against the wall, which lies along `normal` and is `depth` deep.
   const auto push = [&](const Vec3<double>& normal, double depth, double time) {
     const Motion old = {depth, velocity.dot(normal)};
-    const Motion next = pushed(c.scheme, spring, time, old);
+    const Motion next = pushed(scheme, spring, time, old);
     ball.center += normal * (next.depth - old.depth);
     velocity += normal * (next.speed - old.speed);
   };
-  /// A step that starts apart from the wall. Returns true if the wall was asked for a force.
+  // A step that starts apart from the wall. Returns true if the wall was asked for a force.
   const auto fly = [&] {
     const Vec3<double> path = velocity * step;
     if (c.detection == Detection::toi_split) {
@@ -58,7 +52,7 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
   };
   Bounce result = {Ending::unfinished, 0, 0, 0, 0};
   // In continuous time a bounce takes at most (pi + 4 zeta) / omega; this is sixteen times as long, and more.
-  const std::int64_t budget = 1024 + static_cast<std::int64_t>(64 * (1 + c.damping_ratio) / c.step);
+  const std::int64_t budget = 1024 + static_cast<std::int64_t>(64 * (1 + damping_ratio) / c.step);
   for (std::int64_t count = 1; count <= budget; ++count) {
     const Vec3<double> center_before = ball.center, velocity_before = velocity;
     const std::optional<Contact<double>> touch = contact(ball, wall);
@@ -79,10 +73,16 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
 }
 
 ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count) {
-  const std::array factors = {e.mass,      e.speed,         e.radius, e.thickness,
-                              c.stiffness, c.damping_ratio, c.step,   static_cast<double>(count)};
+  const std::array factors = {e.mass,
+                              e.speed,
+                              e.radius,
+                              e.thickness,
+                              c.spring.stiffness,
+                              c.spring.damping_ratio,
+                              c.step,
+                              static_cast<double>(count)};
   const RandomStream stream = {seed, stream_of(factors)};
-  const double exact = restitution(c.damping_ratio);
+  const double exact = restitution(c.spring.damping_ratio);
   ContactTally t;
   for (std::int64_t i = 0; i < count; ++i) {
     const double within = uniform(random_words(stream, static_cast<std::uint64_t>(i), 0)[0]);
@@ -110,7 +110,7 @@ ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_
 
 namespace {
 
-// Growth is told from decay over ten decades of damping; see spring.hpp.
+// Growth is told from decay over ten decades of damping; see measured_limit.
 constexpr double least_ratio = 1e-5, greatest_ratio = 1e5;
 constexpr double least_path = 0x1p-30;  // [reach] a step: 22 bits are left for the phase
 constexpr double least_reach = 1e-9;    // [m]
@@ -206,7 +206,7 @@ std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio) {
   for (const Scheme scheme : all_schemes) {
     for (const Detection detection : all_detections) {
       for (const double step : plan.race_steps) {
-        const PenaltyContact c = {scheme, detection, plan.stiffest(), ratio, step};
+        const PenaltyContact c = {{scheme, plan.stiffest(), ratio}, detection, step};
         rows.push_back({c, bounce_all(plan.approach, c, plan.seed, plan.race_bounces)});
         loops.push_back({[&plan, c](std::span<const double> some) {
           for (const double phase : some) keep(bounce(plan.approach, c, phase));
@@ -235,7 +235,7 @@ StiffTasks stiff_tasks(const std::shared_ptr<const StiffPlan>& plan) {
     for (const double ratio : plan->bounce_ratios) {
       for (const double stiffness : plan->stiffness) {
         for (const Detection detection : all_detections) {
-          const PenaltyContact wall = {scheme, detection, stiffness, ratio, 0};
+          const PenaltyContact wall = {{scheme, stiffness, ratio}, detection, 0};
           tasks.walls.push_back(
               {fmt::format("bounce {} {} stiffness {} ratio {}", name(scheme), name(detection), stiffness, ratio),
                plan->bounces * std::ssize(plan->bounce_steps), [=] { return measured_wall(*plan, wall); }});
@@ -287,15 +287,15 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
   const StiffPlan& plan = results.plan;
   const auto decided = only(map_of(results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
-  const auto undamped =
-      only(results.bounces, [&](const ContactRow& r) { return r.contact.damping_ratio == 0 && is_clean(plan, r); });
+  const auto undamped = only(
+      results.bounces, [&](const ContactRow& r) { return r.contact.spring.damping_ratio == 0 && is_clean(plan, r); });
   const auto undamped_by = [&](Scheme scheme) {
-    return only(undamped, [scheme](const ContactRow& r) { return r.contact.scheme == scheme; });
+    return only(undamped, [scheme](const ContactRow& r) { return r.contact.spring.scheme == scheme; });
   };
   const auto discrete = [](const ContactRow& r) { return r.contact.detection == Detection::discrete; };
-  /// [1] Of the incoming speed: what rounding may do to a bounce. Each of pi / step + 2 poses is off by half an ulp of the reach, a share
-  /// of the path of a step, which the spring turns into step^2 of it in speed; near a step of 2 the bounce passes that on up to
-  /// 1 / sqrt(1 - step^2 / 4) times.
+  // [1] Of the incoming speed: what rounding may do to a bounce. Each of pi / step + 2 poses is off by half an ulp of the reach, a share
+  // of the path of a step, which the spring turns into step^2 of it in speed; near a step of 2 the bounce passes that on up to
+  // 1 / sqrt(1 - step^2 / 4) times.
   const auto slack = [&](const ContactRow& r) {
     const double step = r.contact.step, reach = plan.approach.reach();
     const double pose = std::numeric_limits<double>::epsilon() * (1 + reach / step_path(plan.approach, r.contact));
@@ -327,7 +327,7 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
       // A spring that is relaxed at first touch does not push there: the rest of the split step goes where the whole one went.
       claim("explicit and semi-implicit, undamped: splitting the step changes no bounce",
             only(undamped,
-                 [&](const ContactRow& r) { return discrete(r) && r.contact.scheme != Scheme::implicit_euler; }),
+                 [&](const ContactRow& r) { return discrete(r) && r.contact.spring.scheme != Scheme::implicit_euler; }),
             [&](const ContactRow& r) {
               const ContactRow& split = twin_of(results.bounces, r);
               const double most = slack(r) * std::max(1.0, r.tally.fastest);
@@ -344,7 +344,8 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
             only(results.bounces,
                  [&](const ContactRow& r) {
                    const double depth = plan.approach.speed / frequency(plan.approach, r.contact);
-                   return r.contact.scheme == Scheme::implicit_euler && !discrete(r) && depth < plan.approach.reach();
+                   return r.contact.spring.scheme == Scheme::implicit_euler && !discrete(r) &&
+                          depth < plan.approach.reach();
                  }),
             [](const ContactRow& r) { return r.tally.escaped == 0; })};
 }

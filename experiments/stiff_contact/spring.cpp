@@ -1,4 +1,4 @@
-#include <thinwall/experiments/stiff_contact/spring.hpp>
+#include <thinwall/experiments/stiff_contact/model.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -32,9 +32,9 @@ std::int64_t bounces_of(const Row& row) { return row.tally.bounces(); }
 double mean_speed(const Row& row) { return row.tally.mean_speed(); }
 double rms_error(const Row& row) { return row.tally.rms_error(); }
 double spread(const Row& row) { return row.tally.fastest - row.tally.slowest; }
-double ratio_of(const Row& row) { return row.contact.damping_ratio; }
+double ratio_of(const Row& row) { return row.contact.spring.damping_ratio; }
 std::string method_of(const Row& row) {
-  return fmt::format("{} {}", name(row.contact.scheme), name(row.contact.detection));
+  return fmt::format("{} {}", name(row.contact.spring.scheme), name(row.contact.detection));
 }
 
 /// [1] Deepest over what continuous time has.
@@ -57,6 +57,9 @@ std::vector<Row> cheapest(const std::vector<Row>& racers, double error) {
 }
 
 // What the tables show.
+
+/// In this order.
+auto contact_columns(auto... names) { return together(fields(&Row::contact, {names})...); }
 
 auto error_column() {
   return where(has_returned,
@@ -96,7 +99,7 @@ Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
             [](const Row& r) { return r.tally.slowest * r.tally.slowest; }),
       value("energy_max", "1", "The greatest.", [](const Row& r) { return r.tally.fastest * r.tally.fastest; }));
   const auto columns = columns_of<Row>(
-      fields(&Row::contact),
+      contact_columns("scheme", "detection", "stiffness", "damping_ratio", "step"),
       value("path", "m", "How far the ball flies in a step.",
             [&](const Row& r) { return step_path(plan.approach, r.contact); }),
       value("bounces", "1", "Asked, each at a phase of its own.", bounces_of),
@@ -115,8 +118,8 @@ Table detection_table(const StiffResults& results) {
   const StiffPlan& plan = results.plan;
   const auto split = [&](const Row& r) -> const Row& { return twin_of(results.bounces, r); };
   const auto rows = only(results.bounces, [&](const Row& r) {
-    return r.contact.detection == Detection::discrete && r.contact.stiffness == plan.stiffest() && is_clean(plan, r) &&
-           is_clean(plan, split(r));
+    return r.contact.detection == Detection::discrete && r.contact.spring.stiffness == plan.stiffest() &&
+           is_clean(plan, r) && is_clean(plan, split(r));
   });
   const auto both = [&](const std::string& what, const std::string& description, const auto& read) {
     return columns_of<Row>(value(what + "_discrete", "1", description + ": at the poses.", read),
@@ -125,7 +128,7 @@ Table detection_table(const StiffResults& results) {
   };
   return table("detection",
                "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.",
-               columns_of<Row>(fields(&Row::contact, {"scheme", "damping_ratio", "step"}),
+               columns_of<Row>(contact_columns("scheme", "damping_ratio", "step"),
                                both("error", "Root mean square error of speed out over speed in", rms_error),
                                both("spread", "Greatest less least speed out over speed in", spread),
                                both("depth", "Deepest over the depth in continuous time",
@@ -133,7 +136,7 @@ Table detection_table(const StiffResults& results) {
                rows);
 }
 
-auto racer_columns() { return fields(&Row::contact, {"scheme", "detection", "damping_ratio", "step"}); }
+auto racer_columns() { return contact_columns("scheme", "detection", "damping_ratio", "step"); }
 
 Table race_table(const std::vector<Row>& racers) {
   return table("race", "The error of a bounce against the number of its steps.",
@@ -225,7 +228,8 @@ Figure stability_figure(const StiffResults& results) {
 std::vector<Row> clean_rows(const StiffResults& results) {
   constexpr double last_step = 3;  // [1] h omega
   return only(results.bounces, [&](const Row& r) {
-    return r.contact.stiffness == results.plan.stiffest() && r.contact.step <= last_step && is_clean(results.plan, r);
+    return r.contact.spring.stiffness == results.plan.stiffest() && r.contact.step <= last_step &&
+           is_clean(results.plan, r);
   });
 }
 
@@ -335,7 +339,7 @@ std::vector<Row> told_rows(const StiffResults& results) {
   const auto last = std::ranges::lower_bound(plan.bounce_steps, 2.0);
   if (steps.empty() && last != plan.bounce_steps.begin()) steps.push_back(*std::prev(last));
   return only(results.bounces, [&](const Row& r) {
-    return r.contact.stiffness == plan.stiffest() && r.contact.detection == Detection::discrete &&
+    return r.contact.spring.stiffness == plan.stiffest() && r.contact.detection == Detection::discrete &&
            ratio_of(r) == plan.bounce_ratios.front() && is_in(steps, r.contact.step);
   });
 }
@@ -359,7 +363,8 @@ std::string stiff_answer(const StiffResults& results) {
       "Euler: that lies inside the measured bracket in {} of {} springs.",
       grouped_text(std::ranges::count_if(results.limits, &LimitRow::holds_theory)),
       grouped_text(static_cast<std::int64_t>(results.limits.size())));
-  const auto told = only(told_rows(results), [](const Row& r) { return r.contact.scheme == Scheme::semi_implicit; });
+  const auto told =
+      only(told_rows(results), [](const Row& r) { return r.contact.spring.scheme == Scheme::semi_implicit; });
   if (!told.empty() && has_returned(told.back())) {
     text += fmt::format(
         " Stable is not enough for a wall that only pushes: at h omega = {:g} a semi-implicit bounce leaves with {:.2f} to {:.2f} "
@@ -389,7 +394,7 @@ std::string passages_text(const StiffResults& results) {
                 [count](const Row& r) { return percent_text(share_of(r.tally.*count, r.tally.bounces())); });
   };
   const auto columns =
-      columns_of<Row>(fields(&Row::contact, {"scheme", "detection"}), value("bounces", "1", "", bounces_of),
+      columns_of<Row>(contact_columns("scheme", "detection"), value("bounces", "1", "", bounces_of),
                       share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
                       share("too_fast", &ContactTally::blown_up), fields(&Row::tally, {"least_path"}));
   return terminal(

@@ -204,7 +204,7 @@ TEST(StiffGrowth, nothing_overflows) {
 constexpr Approach usual = {.mass = 1, .speed = 10, .radius = 0.05, .thickness = 0.02, .blow_up = 10};
 
 PenaltyContact contact_by(Scheme scheme, Detection detection, double step, double zeta = 0, double stiffness = 1e10) {
-  return {scheme, detection, stiffness, zeta, step};
+  return {{scheme, stiffness, zeta}, detection, step};
 }
 PenaltyContact discrete(Scheme scheme, double step, double zeta = 0) {
   return contact_by(scheme, Detection::discrete, step, zeta);
@@ -433,10 +433,10 @@ TEST(StiffContact, fails_a_wrong_bounce) {
   EXPECT_FALSE(passes_with([](ContactRow& r) { r.tally.fastest *= 1.01; }));
   EXPECT_FALSE(passes_with([](ContactRow& r) { r.tally.slowest *= 0.99; }));
   EXPECT_FALSE(passes_with([](ContactRow& r) {  // an implicit step that gains
-    if (r.contact.scheme == Scheme::implicit_euler) r.tally.fastest = 1.001;
+    if (r.contact.spring.scheme == Scheme::implicit_euler) r.tally.fastest = 1.001;
   }));
   EXPECT_FALSE(passes_with([](ContactRow& r) {  // an explicit one that loses
-    if (r.contact.scheme == Scheme::explicit_euler) r.tally.slowest = 0.999;
+    if (r.contact.spring.scheme == Scheme::explicit_euler) r.tally.slowest = 0.999;
   }));
   EXPECT_FALSE(passes_with([](ContactRow& r) {  // a split that matters
     if (r.contact.detection == Detection::toi_split) r.tally.fastest *= 1 + 1e-6;
