@@ -19,23 +19,27 @@ namespace {
 
 /// The lines of flight before and after the bounce meet at some time: of a ball that turns in an instant, when it turned. Its
 /// distance from first contact, in steps; < 0 where the ball turns before it touches.
-double lateness_of(const EngineShot& shot, const BodyState& end, double steps) {
-  const double contact_at = -shot.scene.thickness / 2 - shot.scene.radius;
-  const double in = shot.start[0].velocity[0] * shot.scene.step, out = end.velocity[0] * shot.scene.step;
+double lateness_of(const EngineStage& stage, const EngineShot& shot, const BodyState& end, double steps) {
+  const double contact_at = -stage.wall_half_extents()[0] - stage.ball_radius();
+  const double in = shot.start[0].velocity[0] * stage.step, out = end.velocity[0] * stage.step;
   return (end.position[0] - contact_at - out * (steps - shot.contact)) / (in - out);
 }
 
 /// Where the ball would be had there been no wall, to a hundredth of its radius.
-bool flew_straight(const EngineShot& shot, const BodyState& end, double steps) {
-  const Vec3<double> straight = shot.start[0].position + steps * shot.scene.step * shot.start[0].velocity;
-  return (end.position - straight).norm() <= shot.scene.radius / 100;
+bool flew_straight(const EngineStage& stage, const EngineShot& shot, const BodyState& end, double steps) {
+  const Vec3<double> straight = shot.start[0].position + steps * stage.step * shot.start[0].velocity;
+  return (end.position - straight).norm() <= stage.ball_radius() / 100;
 }
 
-EngineStage stage_of(const EngineScene& scene) {
-  const Vec3<double> half_extents = {scene.thickness / 2, scene.half_side, scene.half_side};
-  return {.step = scene.step,
-          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
-          .moving = {Sphere<double>{Vec3<double>::Zero(), scene.radius}}};
+/// At one angle, of those that a cell has.
+Target target_of(const EngineCell& cell, double angle_deg) {
+  return target({.speed = cell.path / cell.step,
+                 .step = cell.step,
+                 .radius = cell.radius,
+                 .thickness = cell.thickness,
+                 .angle_deg = angle_deg,
+                 .wall = Wall::infinite,
+                 .wall_size = 0});
 }
 
 /// Poses lie on a grid that float holds, as thin_wall's do: a path must not be longer than this many times what it crosses.
@@ -138,21 +142,19 @@ const Factors<EngineCell>& engine_factors() {
   return all;
 }
 
+EngineStage wall_stage(const EngineCell& cell) {
+  const Target fired = target_of(cell, 0);  // as wide at every angle
+  const Vec3<double> half_extents = {fired.half_extents[0], cell.wall_size / 2, cell.wall_size / 2};
+  return {.step = cell.step,
+          .fixed = {Aabb<double>{Vec3<double>::Zero(), half_extents}},
+          .moving = {Sphere<double>{Vec3<double>::Zero(), fired.radius}}};
+}
+
 EngineShot engine_shot(const EngineCell& cell, const RandomStream& stream, std::uint64_t trial) {
   const RandomWords words = random_words(stream, trial, 0);
-  const Target fired = target({.speed = cell.path / cell.step,
-                               .step = cell.step,
-                               .radius = cell.radius,
-                               .thickness = cell.thickness,
-                               .angle_deg = cell.angle_deg * uniform(words[1]),
-                               .wall = Wall::infinite,
-                               .wall_size = 0});
+  const Target fired = target_of(cell, cell.angle_deg * uniform(words[1]));
   const Vec3<double> start = start_at_phase(fired, uniform(words[0]));
-  return {.scene = {.radius = fired.radius,
-                    .thickness = 2 * fired.half_extents[0],
-                    .half_side = cell.wall_size / 2,
-                    .step = cell.step},
-          .start = {{start, fired.displacement / cell.step}},
+  return {.start = {{start, fired.displacement / cell.step}},
           .contact = path_to_contact(fired, start) / fired.step_length};
 }
 
@@ -160,21 +162,21 @@ RandomStream random_stream(const EngineCell& cell, std::uint64_t seed) {
   return {seed, stream_of(std::array{cell.path, cell.step, cell.radius, cell.thickness, cell.angle_deg})};
 }
 
-void judge(const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally) {
+void judge(const EngineStage& stage, const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally) {
   ++tally.shots;
   const BodyState& end = flight.back()[0];
   const auto steps = static_cast<double>(flight.size());
-  const double half = shot.scene.thickness / 2;
+  const double half = stage.wall_half_extents()[0];
   if (!end.position.allFinite() || !end.velocity.allFinite()) {
     ++tally.lost;
   } else if (end.position[0] > half) {
     ++tally.tunneled;
-    if (flew_straight(shot, end, steps)) ++tally.unseen;
+    if (flew_straight(stage, shot, end, steps)) ++tally.unseen;
   } else if (end.position[0] >= -half) {
     ++tally.stuck;
   } else if (end.velocity[0] < 0) {
     ++tally.turned;
-    const double lateness = lateness_of(shot, end, steps);
+    const double lateness = lateness_of(stage, shot, end, steps);
     const double energy = std::min(1024.0, end.velocity.squaredNorm() / shot.start[0].velocity.squaredNorm());
     tally.lateness.add(lateness);
     tally.energy.add(energy);
@@ -183,7 +185,7 @@ void judge(const EngineShot& shot, const EngineFlights::Flight& flight, EngineTa
     tally.most_energy = std::max(tally.most_energy, energy);
     tally.least_energy = std::min(tally.least_energy, energy);
     for (const EngineStart& at : flight)
-      tally.deepest = std::max(tally.deepest, at[0].position[0] + shot.scene.radius + half);
+      tally.deepest = std::max(tally.deepest, at[0].position[0] + stage.ball_radius() + half);
   }
 }
 
@@ -487,8 +489,9 @@ EngineTally fire(const EngineRow& row, std::int64_t first, std::int64_t shots, s
   std::vector<EngineShot> all;
   for (std::int64_t i = first; i < first + shots; ++i)
     all.push_back(engine_shot(row.cell, stream, static_cast<std::uint64_t>(i)));
-  return fired(row, stage_of(all.front().scene), all,
-               [](const auto& shot, const auto& flight, EngineTally& tally) { judge(shot, flight, tally); });
+  const EngineStage stage = wall_stage(row.cell);
+  return fired(row, stage, all,
+               [&](const auto& shot, const auto& flight, EngineTally& tally) { judge(stage, shot, flight, tally); });
 }
 
 StageTally fire(const StageRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed) {

@@ -31,17 +31,11 @@ struct EngineCell {
 
 const Factors<EngineCell>& engine_factors();
 
-/// A wall around the origin, its front facing -x, and a ball.
-struct EngineScene {
-  double radius;     ///< [m] > 0, of the ball
-  double thickness;  ///< [m] > 0, of the wall
-  double half_side;  ///< [m] of the wall, wide enough that no ball gets round it
-  double step;       ///< [s] > 0
-};
+/// The wall and the ball of a cell, at most a float wider than it says: models/shots.hpp.
+EngineStage wall_stage(const EngineCell& cell);
 
 /// A ball before the wall, and when it first touches.
 struct EngineShot {
-  EngineScene scene;
   EngineStart start;  ///< of the ball
   double contact;     ///< [steps] from the start to first contact, in (0, 2): the oracle's answer
 };
@@ -87,7 +81,7 @@ struct EngineTally {
 };
 
 /// Adds the shot to the tally. `flight` is where the ball was at the end of each step.
-void judge(const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally);
+void judge(const EngineStage& stage, const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally);
 
 // Theory: a ball that is looked at in poses alone. Derived in docs/tunneling_theory.md for one angle; here the angle of incidence is
 // uniform between 0 and a largest one.

@@ -171,10 +171,7 @@ namespace {
 constexpr double seconds_to_start = 60, seconds_a_volley = 120;
 
 struct NpmEngine {
-  const char* name;  ///< of the script, too
-  const char* called;
-  const char* package;
-  const char* made_of;
+  Engine engine;  ///< its name is the script's, too
   bool has_meshes;
   std::vector<EngineMode> modes;  ///< but for how they play
 };
@@ -183,49 +180,37 @@ struct NpmEngine {
 /// Rapier's prediction, Jolt's speculative distance, Box2D's four slops, PhysX's contact offset of either body.
 const std::vector<NpmEngine>& list() {
   static const std::vector<NpmEngine> all = {
-      {"rapier",
-       "Rapier",
-       "@dimforge/rapier3d-compat",
-       "A World with a fixed cuboid and a ball, in float, in WebAssembly.",
+      {{"rapier", "Rapier", "@dimforge/rapier3d-compat",
+        "A World with a fixed cuboid and a ball, in float, in WebAssembly."},
        true,
        {{"discrete", "World.maxCcdSubsteps = 0, without which it sweeps bodies that do not ask for it", 1, 0.02},
         {"default", "as it comes"},
         {"ccd", "RigidBodyDesc.setCcdEnabled(true), which its guide has for fast bodies"},
         {"soft_ccd", "RigidBodyDesc.setSoftCcdPrediction(path of a step), World.maxCcdSubsteps = 0"}}},
-      {"jolt",
-       "Jolt",
-       "jolt-physics",
-       "A PhysicsSystem with a static box and a sphere, in float, in WebAssembly; its speed limit of 500 m/s raised.",
+      {{"jolt", "Jolt", "jolt-physics",
+        "A PhysicsSystem with a static box and a sphere, in float, in WebAssembly; its speed limit of 500 m/s raised."},
        true,
        {{"discrete", "EMotionQuality_Discrete, as a body comes", 1, 0.02},
         {"linear_cast", "EMotionQuality_LinearCast, which its documentation has for small fast bodies"}}},
-      {"physx",
-       "PhysX",
-       "physx-js-webidl",
-       "A PxScene with a static box and a sphere, in float, in WebAssembly; its meshes are not built here.",
+      {{"physx", "PhysX", "physx-js-webidl",
+        "A PxScene with a static box and a sphere, in float, in WebAssembly; its meshes are not built here."},
        false,
        {{"discrete", "as it comes", 1, 0.04},
         {"swept",
          "eENABLE_CCD of scene and body and eDETECT_CCD_CONTACT of the pair, which its guide has for fast bodies"},
         {"speculative", "PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD"}}},
-      {"havok",
-       "Havok",
-       "@babylonjs/havok",
-       "A world with a static box and a sphere, in float, in WebAssembly; its speed limit raised.",
+      {{"havok", "Havok", "@babylonjs/havok",
+        "A world with a static box and a sphere, in float, in WebAssembly; its speed limit raised."},
        true,
        {{"default", "as it comes: it sweeps every body, and has no switch for that"}}},
-      {"mujoco",
-       "MuJoCo",
-       "@mujoco/mujoco",
-       "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous detection. Its meshes are convex hulls, which a flat one is not.",
+      {{"mujoco", "MuJoCo", "@mujoco/mujoco",
+        "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous detection. Its meshes are convex hulls, which a flat one is not."},
        false,
        {{"default", "solref and solimp as they come, which take the speed away", 1, 0},
         {"elastic", "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps", 0, 0,
          true}}},
-      {"box2d3",
-       "Box2D 3",
-       "box2d3-wasm",
-       "A b2World with a static box and a circle, in the plane, in float, in WebAssembly; its speed limit of 400 m/s raised.",
+      {{"box2d3", "Box2D 3", "box2d3-wasm",
+        "A b2World with a static box and a circle, in the plane, in float, in WebAssembly; its speed limit of 400 m/s raised."},
        false,
        {{"discrete", "b2WorldDef.enableContinuous = false", 1, 0.02},
         {"continuous", "as it comes: what moves is swept against what is fixed"},
@@ -374,7 +359,7 @@ NpmProcesses& processes_of(const std::string& name, const fs::path& scripts) {
 std::vector<EngineMode> modes_of(const NpmEngine& engine, const fs::path& scripts) {
   std::vector<EngineMode> modes;
   for (EngineMode mode : engine.modes) {
-    mode.play = [name = std::string(engine.name), of = mode.name, scripts](
+    mode.play = [name = engine.engine.name, of = mode.name, scripts](
                     const EngineStage& stage, std::span<const EngineStart> starts, std::int64_t steps) {
       return processes_of(name, scripts).play(of, stage, starts, steps);
     };
@@ -392,15 +377,13 @@ std::vector<Engine> npm_engines() { return npm_engines(THINWALL_NPM_ENGINES); }
 std::vector<Engine> npm_engines(const fs::path& scripts) {
   std::vector<Engine> engines;
   for (const NpmEngine& one : list()) {
-    const std::string version = scripts.empty() ? "" : installed_version(scripts, one.package);
-    Engine engine = {.name = one.name,
-                     .called = one.called,
-                     .package = one.package,
-                     .made_of = fmt::format("{} Version {} of {}.", one.made_of, version, one.package),
-                     .version = version,
-                     .integrity = integrity(scripts, one.package),
-                     .remedy = "run `npm ci` in experiments/engines/npm, configure with -DTHINWALL_PEERS=ON"};
-    if (!version.empty()) engine.modes = [&one, scripts](const EngineChoices&) { return modes_of(one, scripts); };
+    Engine engine = one.engine;
+    engine.version = scripts.empty() ? "" : installed_version(scripts, engine.package);
+    engine.made_of += fmt::format(" Version {} of {}.", engine.version, engine.package);
+    engine.integrity = integrity(scripts, engine.package);
+    engine.remedy = "run `npm ci` in experiments/engines/npm, configure with -DTHINWALL_PEERS=ON";
+    if (!engine.version.empty())
+      engine.modes = [&one, scripts](const EngineChoices&) { return modes_of(one, scripts); };
     engines.push_back(std::move(engine));
   }
   return engines;

@@ -37,13 +37,14 @@ constexpr EngineCell meter_cell = {
 
 TEST(EngineShots, touch_when_the_oracle_says_so) {
   const RandomStream stream = random_stream(meter_cell, 7);
+  const EngineStage stage = wall_stage(meter_cell);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const EngineShot shot = engine_shot(meter_cell, stream, i);
     EXPECT_GT(shot.contact, 0);
     EXPECT_LE(shot.contact, 2);
-    const Vec3<double> at = shot.start[0].position + shot.contact * shot.scene.step * shot.start[0].velocity;
-    EXPECT_NEAR(at[0], -0.5 * shot.scene.thickness - shot.scene.radius, 1e-12) << i;
-    EXPECT_LT(at.tail<2>().norm() + shot.scene.radius, shot.scene.half_side);
+    const Vec3<double> at = shot.start[0].position + shot.contact * stage.step * shot.start[0].velocity;
+    EXPECT_NEAR(at[0], -stage.wall_half_extents()[0] - stage.ball_radius(), 1e-12) << i;
+    EXPECT_LT(at.tail<2>().norm() + stage.ball_radius(), stage.wall_half_extents()[1]);
   }
 }
 
@@ -74,7 +75,7 @@ TEST(EngineShots, are_the_same_at_a_wall_of_another_width_and_others_in_another_
   EXPECT_EQ(one.start[0].position, other.start[0].position);
   EXPECT_EQ(one.start[0].velocity, other.start[0].velocity);
   EXPECT_EQ(one.contact, other.contact);
-  EXPECT_EQ(other.scene.half_side, 1000);
+  EXPECT_EQ(wall_stage(wide).wall_half_extents()[1], 1000);
   EXPECT_NE(random_stream(meter_cell, 7).stream, random_stream(far, 7).stream);
 }
 
@@ -110,14 +111,14 @@ TEST(EngineTheory, counts_both_surfaces_of_what_is_never_seen_and_half_of_what_i
 }
 
 /// Head-on: contact at x = -1, half a step after the start; 2 m a step, steps of 1 s.
-const EngineShot head_on_shot = {.scene = {.radius = 0.5, .thickness = 1, .half_side = 100, .step = 1},
-                                 .start = {{.position = {-2, 0, 0}, .velocity = {2, 0, 0}}},
-                                 .contact = 0.5};
+const EngineStage one_wall = {
+    .step = 1, .fixed = {Aabb<double>{{0, 0, 0}, {0.5, 100, 100}}}, .moving = {Sphere<double>{{0, 0, 0}, 0.5}}};
+const EngineShot head_on_shot = {.start = {{.position = {-2, 0, 0}, .velocity = {2, 0, 0}}}, .contact = 0.5};
 
 /// At the end of 4 steps.
 EngineTally judged(const Vec3<double>& position, const Vec3<double>& velocity) {
   EngineTally tally;
-  judge(head_on_shot, EngineFlights::Flight(4, {{position, velocity}}), tally);
+  judge(one_wall, head_on_shot, EngineFlights::Flight(4, {{position, velocity}}), tally);
   EXPECT_EQ(tally.shots, 1);
   return tally;
 }
@@ -164,7 +165,7 @@ TEST(EngineJudge, finds_when_a_ball_turned_and_half_of_what_it_waited) {
 TEST(EngineJudge, measures_depth_at_the_ends_of_steps) {
   EngineTally tally;
   const BodyState in = {{-0.75, 0, 0}, {2, 0, 0}}, out = {{-3, 0, 0}, {-2, 0, 0}};
-  judge(head_on_shot, {{in}, {out}}, tally);
+  judge(one_wall, head_on_shot, {{in}, {out}}, tally);
   EXPECT_EQ(tally.deepest, 0.25);
 }
 
