@@ -225,13 +225,10 @@ Figure tunneling_figure(const Rows& rows) {
                        "times the radius.",
                        cell.radius, cell.thickness, cell.angle_deg)};
   const Rows poses = only(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
-  if (!poses.empty()) {
-    figure.panels.push_back(path_panel(poses, "tunneled_percent", "through, looking at poses [%]"));
-    add_theory(figure.panels.back(), rows);
-  }
+  figure.panels.push_back(path_panel(poses, "tunneled_percent", "through, looking at poses [%]"));
+  add_theory(figure.panels.back(), rows);
   for (const double wall : walls_of(rows)) {
     const Rows sweeping = only(rows, [&](const Row& r) { return !looks_at_poses(r) && wall_of(r) == wall; });
-    if (sweeping.empty()) continue;
     figure.panels.push_back(
         path_panel(sweeping, "tunneled_percent", fmt::format("through, sweeping, wall {} m wide [%]", wall)));
   }
@@ -246,7 +243,6 @@ Figure bounce_figure(const Rows& rows, const char* column, const char* y_label, 
     const Rows some = only(rows, [&](const Row& r) {
       return looks_at_poses(r) == poses && wall_of(r) == wall_of(rows.front()) && r.tally.turned > 0;
     });
-    if (some.empty()) continue;
     figure.panels.push_back(path_panel(some, column, fmt::format(fmt::runtime(y_label), poses ? "poses" : "sweeping")));
   }
   return figure;
@@ -266,7 +262,6 @@ Figure time_figure(const Rows& rows) {
                       measured("time", "", "", time_of, "time_"));
   for (const double wall : walls_of(rows)) {
     Rows some = only(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
-    if (some.empty()) continue;
     std::stable_partition(some.begin(), some.end(),
                           looks_at_poses);  // in the other pictures' order, and so with their marks
     figure.panels.push_back(
