@@ -22,8 +22,7 @@ double frequency(const Approach& e, const PenaltyContact& c) {
 double step_path(const Approach& e, const PenaltyContact& c) { return e.speed * (c.step / frequency(e, c)); }
 
 Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
-  const auto& [scheme, stiffness, damping_ratio] = c.spring;
-  const Spring spring = spring_of(e.mass, stiffness, damping_ratio);
+  const Spring spring = spring_of(e.mass, c.spring.stiffness, c.spring.damping_ratio);
   const double side = e.thickness + e.radius;  // so wide that the nearest face is always the front or the back
   const Aabb<double> wall = {{0, 0, 0}, {e.thickness / 2, side, side}};
   const double step = c.step / frequency(spring);  // [s]
@@ -32,7 +31,7 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
   // For a time [s], against the wall, which lies along `normal` and is `depth` deep.
   const auto push = [&](const Vec3<double>& normal, double depth, double time) {
     const Motion old = {depth, velocity.dot(normal)};
-    const Motion next = pushed(scheme, spring, time, old);
+    const Motion next = pushed(c.spring.scheme, spring, time, old);
     ball.center += normal * (next.depth - old.depth);
     velocity += normal * (next.speed - old.speed);
   };
@@ -52,7 +51,7 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
   };
   Bounce result = {Ending::unfinished, 0, 0, 0, 0};
   // In continuous time a bounce takes at most (pi + 4 zeta) / omega; this is sixteen times as long, and more.
-  const std::int64_t budget = 1024 + static_cast<std::int64_t>(64 * (1 + damping_ratio) / c.step);
+  const std::int64_t budget = 1024 + static_cast<std::int64_t>(64 * (1 + c.spring.damping_ratio) / c.step);
   for (std::int64_t count = 1; count <= budget; ++count) {
     const Vec3<double> center_before = ball.center, velocity_before = velocity;
     const std::optional<Contact<double>> touch = contact(ball, wall);
