@@ -21,6 +21,7 @@ template <Scalar S> bool is_unit(const Vec3<S>& n) {
   return std::abs(std::sqrt(wide.squaredNorm()) - 1) <= 8 * static_cast<long double>(std::numeric_limits<S>::epsilon());
 }
 template <Scalar S> bool is_zero(const Vec3<S>& v) { return v == Vec3<S>(Vec3<S>::Zero()); }
+template <Scalar S> bool is_no_vector(const Vec3<S>& v) { return v[0] != v[0] && v[1] != v[1] && v[2] != v[2]; }
 
 /// By how much contact() and separation() may differ in their normals. The clear rung answers contacts of capsules in double, by cores that
 /// are 2^-20 of their size apart and, where there are two, 2^-10 from parallel: their nearest points, and so the direction from one to
@@ -47,6 +48,8 @@ template <class A, class B> void check_bad_shapes(const Scene<A, B>& scene) {
   check(!overlap && !back, "a shape that is not valid overlaps");
   check(!touch && points.empty(), "a shape that is not valid is in contact");
   check(gap.distance != gap.distance, "a shape that is not valid has a distance");
+  check(is_no_vector(gap.normal) && is_no_vector(gap.point_a) && is_no_vector(gap.point_b),
+        "a shape that is not valid has a normal or a nearest point");
 }
 
 template <class A, class B> void check_discrete(const Scene<A, B>& scene) {
@@ -111,33 +114,33 @@ template <class A, class B> void judge_discrete(const Scene<A, B>& scene) {
   Check(scene).no_fault(judgment, "", [] { return std::string(); });
 }
 
+/// A ray against B; returns its answer as a time of impact.
+template <class A, class B>
+Toi<typename A::Scalar> check_ray(const Scene<A, B>& scene, const Ray<typename A::Scalar>& ray) {
+  using S = typename A::Scalar;
+  const Check check(scene);
+  const auto hit = raycast(ray, scene.b.shape);
+  const auto show = [&] { return "ray " + testing::describe(ray); };
+  if (!valid(ray) || !valid(scene.b.shape)) check(!hit, "raycast(): a hit though the input is not valid", show);
+  if (!hit) return {};
+  const bool inside = is_zero(hit->normal), ordinary = is_ordinary(S(magnitude(ray) + magnitude(scene.b.shape)));
+  check(hit->t >= S(0) && hit->t <= ray.max_t && is_finite(hit->t), "raycast(): t out of range", show);
+  check(inside ? hit->t == S(0) : is_unit(hit->normal), "raycast(): normal is not unit",
+        [&] { return text(hit->normal) + " at " + text(hit->t) + ", " + show(); });
+  check(!inside || !ordinary || hit->point == ray.origin, "raycast(): inside, but the point is not the origin", show);
+  check(!ordinary || is_finite(hit->point), "raycast(): point is not finite", show);
+  return {inside ? ToiStatus::overlapping : ToiStatus::hit, 1, hit->t, hit->normal, hit->point};
+}
+
 /// A ray along A's displacement from A's center, against B.
 template <class A, class B> void check_raycast(const Scene<A, B>& scene) {
   using S = typename A::Scalar;
-  const Check check(scene);
   const Ray<S> ray{center(scene.a.shape), scene.a.displacement, S(1)};
-  const auto hit = raycast(ray, scene.b.shape);
-  if (!valid(ray) || !valid(scene.b.shape)) {
-    check(!hit, "raycast(): a hit though the input is not valid");
-    return;
-  }
-  const Moving<Sphere<S>> point{{ray.origin, S(0)}, ray.direction};
-  const Moving<B> still = at_rest(scene.b.shape);
-  Toi<S> toi;
-  if (hit) {
-    const bool inside = is_zero(hit->normal);
-    check(hit->t >= S(0) && hit->t <= S(1), "raycast(): t out of range", [&] { return text(hit->t); });
-    check(inside ? hit->t == S(0) : is_unit(hit->normal), "raycast(): normal is not unit",
-          [&] { return text(hit->normal) + " at " + text(hit->t); });
-    check(!inside || !is_ordinary(S(magnitude(point) + magnitude(still))) || hit->point == ray.origin,
-          "raycast(): inside, but the point is not the origin");
-    if (is_ordinary(S(magnitude(point) + magnitude(still))))
-      check(is_finite(hit->point), "raycast(): point is not finite");
-    toi = {inside ? ToiStatus::overlapping : ToiStatus::hit, 1, hit->t, hit->normal, hit->point};
-  }
+  const Toi<S> toi = check_ray(scene, ray);
   if (!is_judged(scene)) return;
-  check.no_fault(judge_impact(exhibit(point, still), toi.status, double{toi.time}, 4),
-                 "raycast(): ", [&] { return text(toi) + ": "; });
+  const Moving<Sphere<S>> point{{ray.origin, S(0)}, ray.direction};
+  Check(scene).no_fault(judge_impact(exhibit(point, at_rest(scene.b.shape)), toi.status, double{toi.time}, 4),
+                        "raycast(): ", [&] { return text(toi) + ": "; });
 }
 
 // ---- What every time of impact must fulfil, whatever the shapes and motions.

@@ -76,9 +76,4 @@ template <class A> A lengthened(A shape) {
   return shape;
 }
 
-template <class S> bool is_nan(const Vec3<S>& v) { return v[0] != v[0] && v[1] != v[1] && v[2] != v[2]; }
-template <class S> bool is_unit_vector(const Vec3<S>& v) {
-  return largest(S(v.squaredNorm() - S(1))) <= 32 * std::numeric_limits<S>::epsilon();
-}
-
 }  // namespace thinwall::testing

@@ -60,6 +60,19 @@ inline std::string_view text(ToiStatus status) {
   return names[static_cast<int>(status)];
 }
 
+/// The same bits in all that an answer says.
+template <class S> AssertionResult same_answer(const Toi<S>& found, const Toi<S>& expected) {
+  if (found.status == expected.status && found.time == expected.time && found.normal == expected.normal &&
+      found.point == expected.point)
+    return AssertionSuccess();
+  AssertionResult failure = AssertionFailure();
+  for (const Toi<S>* toi : {&found, &expected}) {
+    failure << (toi == &found ? "found " : ", expected ") << text(toi->status) << " at " << toi->time << " along "
+            << toi->normal.transpose() << " at " << toi->point.transpose();
+  }
+  return failure;
+}
+
 inline oracle::Body at_time(oracle::Body body, const oracle::Real& time) {
   body.center = body.center + time * body.displacement;
   body.displacement = {};

@@ -1,5 +1,5 @@
-// No number in any field breaks a time of impact: valid motions get a whole answer from every method, others are `invalid`. And no
-// query allocates memory.
+// No number in any field breaks a query, at one instant or of a motion: what is valid gets a whole answer, as the fuzz target asks for it,
+// and the rest none. And no query allocates memory.
 
 #include <cstddef>
 #include <cstdlib>
@@ -9,6 +9,7 @@
 #include <thinwall/swept/time_of_impact.hpp>
 #include <thinwall/swept/turning/turning_impact.hpp>
 
+#include "fuzz/checks.hpp"
 #include "support/any_number.hpp"
 #include "support/shaker.hpp"
 #include "support/thorough.hpp"
@@ -25,94 +26,134 @@ thread_local std::size_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace thinwall::testing {
+namespace thinwall {
+
+void fuzz::report(const std::string& kind, const std::string& detail) { ADD_FAILURE() << kind << "\n" << detail; }
+
+namespace testing {
 namespace {
 
-template <class S> void expect_invalid(const Toi<S>& toi) {
-  EXPECT_EQ(toi.status, ToiStatus::invalid);
-  EXPECT_NE(toi.time, toi.time);
-}
-
-template <class S> void expect_whole(const Toi<S>& toi, bool ordinary) {
-  EXPECT_NE(toi.status, ToiStatus::invalid);
-  EXPECT_GE(toi.time, S(0));
-  EXPECT_LE(toi.time, S(1));
-  const bool in_contact = toi.status == ToiStatus::hit || toi.status == ToiStatus::overlapping;
-  EXPECT_TRUE(in_contact ? is_unit_vector(toi.normal) : toi.normal == Vec3<S>::Zero()) << toi.normal.transpose();
-  EXPECT_TRUE(!ordinary || is_finite(toi.point)) << toi.point.transpose();
-}
-
-/// visit(Method{}) for every method that serves the pair.
+/// visit(method) for every method that serves the pair.
 template <class A, class B, class Visit> void for_each_method(const Visit& visit) {
   for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
-    if constexpr (serves<Method, A, B>) {
-      SCOPED_TRACE(std::string(Method::name));
-      visit(Method{});
+    if constexpr (serves<Method, A, B>) visit(Method{});
+  });
+}
+
+template <class A, class B> void ask_every_query(const fuzz::Scene<A, B>& scene) {
+  fuzz::check_closed_form(scene);
+  scene.is_valid() ? fuzz::check_discrete(scene) : fuzz::check_bad_shapes(scene);
+}
+
+template <class A, class B> void ask_every_method(const fuzz::Scene<A, B>& scene) {
+  for_each_method<A, B>([&]<class Method>(const Method& method) {
+    fuzz::check_answer(scene, std::string(Method::name), time_of_impact(method, scene.a, scene.b));
+  });
+}
+
+/// ask(scene) with every number in every field of the two, and their displacements.
+template <class A, class B, class Ask> void with_every_number_of_both(fuzz::Scene<A, B> scene, const Ask& ask) {
+  const auto asked = [&] { ask(scene); };
+  asked();
+  with_every_number<double>(scene.a, asked);
+  with_every_number<double>(scene.b, asked);
+}
+
+template <class A, class B> fuzz::Scene<A, B> shot_from(TypeTag<A> first, TypeTag<B> second, double away) {
+  return {{usual(first), {6, 0.25, 0.125}}, at_rest(moved(usual(second), Vec3<double>(away, 0.25, 0.125)))};
+}
+
+TEST(AnyNumber, in_two_shapes_and_their_displacements) {
+  for_each_served_pair<double>([](auto first, auto second) {
+    for (const double away : {0.5, 4.0, 5.0}) {
+      with_every_number_of_both(shot_from(first, second, away), [](const auto& scene) { ask_every_query(scene); });
+      with_every_number_of_both(shot_from(second, first, away), [](const auto& scene) { ask_every_query(scene); });
     }
   });
 }
 
-template <class Method, class A, class B>
-void ask_with_every_number(const Method& method, TypeTag<A> first, TypeTag<B> second) {
-  Moving<A> a{usual(first), {6, 0.25, 0.125}};
-  Moving<B> b = at_rest(moved(usual(second), Vec3<double>(5, 0.25, 0.125)));
-  const auto ask = [&] {
-    const auto toi = time_of_impact(method, a, b);
-    if (valid(a) && valid(b)) {
-      expect_whole(toi, is_ordinary(magnitude(a) + magnitude(b)));
-    } else {
-      expect_invalid(toi);
-    }
-  };
-  ask();
-  with_every_number<double>(a, ask);
-  with_every_number<double>(b, ask);
+TEST(AnyNumber, in_a_box_by_every_method) {  // they have one front door: a pair will do
+  with_every_number_of_both(shot_from(TypeTag<Obb<double>>{}, TypeTag<Sphere<double>>{}, 5),
+                            [](const auto& scene) { ask_every_method(scene); });
 }
 
-TEST(AnyNumberInMotion, in_a_shape_or_its_displacement) {
-  for_each_served_pair<double>(
-      [](auto first, auto second) { ask_with_every_number(ClosedForm<double>{}, first, second); });
-}
-
-TEST(AnyNumberInMotion, in_a_box_by_every_method) {  // they have one front door: a pair will do
-  for_each_method<Obb<double>, Sphere<double>>(
-      [](const auto& method) { ask_with_every_number(method, TypeTag<Obb<double>>{}, TypeTag<Sphere<double>>{}); });
-}
-
-/// visit(a, b) for shots at each served pair, of boxes whose axes are as long as they may be.
-template <class S, class Visit> void with_long_axes(const Visit& visit) {
-  for_each_served_pair<S>([&]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
+TEST(AnyNumber, in_axes_that_are_as_long_as_they_may_be) {
+  for_each_served_pair<double>([]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
     for (int axis = 0; axis < 3; ++axis) {
-      for (const double from : {-6.0, -1.0, 6.0}) {
-        const Vec3<S> start = axis_vector<S>(axis) * S(from);
-        visit(Moving{lengthened(usual(first)), Vec3<S>(start * S(1.5))},
-              at_rest(lengthened(moved(usual(second), start))));
+      for (const double from : {-6.0, -3.0, -1.75, -0.5, 0.5, 1.75, 3.0, 6.0}) {
+        const Vec3<double> start = axis_vector<double>(axis) * from;
+        const fuzz::Scene<A, B> shot{{lengthened(usual(first)), Vec3<double>(start * 1.5)},
+                                     at_rest(lengthened(moved(usual(second), start)))};
+        ask_every_method(shot);
+        const auto [a, b] = std::pair{shot.a.shape, shot.b.shape};
+        const auto gap = separation(a, b);
+        const auto touch = contact(a, b);
+        EXPECT_TRUE(fuzz::is_unit(gap.normal) && is_finite(gap.point_a) && is_finite(gap.point_b));
+        EXPECT_EQ(touch.has_value(), overlaps(a, b));
+        EXPECT_EQ(manifold(a, b).empty(), !touch);
+        if (touch) {
+          EXPECT_LE(largest<double>(touch->normal - gap.normal), 0x1p-40);
+        }
+        EXPECT_NE(time_of_impact(cast<long double>(shot.a), cast<long double>(shot.b)).status, ToiStatus::invalid);
       }
     }
   });
 }
 
-TEST(AnyNumberInMotion, in_axes_that_are_as_long_as_they_may_be) {
-  with_long_axes<double>([]<class A, class B>(const Moving<A>& a, const Moving<B>& b) {
-    for_each_method<A, B>([&](const auto& method) { expect_whole(time_of_impact(method, a, b), true); });
+TEST(AnyNumber, in_a_margin) {
+  for_each_served_pair<double>([]<class A, class B>(TypeTag<A> first, TypeTag<B> second) {
+    const A a = usual(first);
+    const B b = moved(usual(second), Vec3<double>(4, 0, 0));
+    for (const double margin : special_numbers<double>()) {
+      const bool reaches = margin > 4 && is_finite(margin);
+      EXPECT_EQ(overlaps_within(a, b, margin), reaches) << margin;
+      EXPECT_EQ(overlaps_within(b, a, margin), reaches) << margin;
+    }
   });
-  with_long_axes<long double>([](const auto& a, const auto& b) { expect_whole(time_of_impact(a, b), true); });
 }
 
-TEST(AnyNumberInMotion, in_an_option) {
-  const Moving shot{usual(TypeTag<Obb<double>>{}), {6, 0.25, 0.125}};
-  const Moving<Sphere<double>> ball{{{5, 0.25, 0.125}, 1}, {0, 0, 0}};
-  const auto ask = [&](const auto& method, double option, bool ordinary) {
-    const auto toi = time_of_impact(method, shot, ball);
-    option >= 0 && is_finite(option) ? expect_whole(toi, ordinary) : expect_invalid(toi);
+TEST(AnyNumber, in_a_ray_and_its_target) {
+  for_each_type(Shapes<double>{}, []<class A>(TypeTag<A> tag) {
+    for (const double from : {0.125, -4.0}) {
+      fuzz::Scene<Sphere<double>, A> scene{{}, at_rest(usual(tag))};
+      Ray<double> ray{{from, 0.375, 0.125}, {1, 0.0625, 0.03125}};
+      const auto ask = [&] { EXPECT_TRUE(is_finite(fuzz::check_ray(scene, ray).point)); };
+      ask();
+      with_every_number<double>(ray, ask);
+      with_every_number<double>(scene.b.shape, ask);
+    }
+  });
+}
+
+TEST(AnyNumber, no_ray_hits_at_infinity) {
+  const double far = 0x1p1020, tiny = std::numeric_limits<double>::min();
+  const Vec3<double> corner(far, far, far);
+  EXPECT_FALSE(raycast(Ray<double>{{0, 0, 0}, {tiny, tiny, tiny}}, Aabb<double>{corner, {1, 1, 1}}));  // t overflows
+  EXPECT_FALSE(
+      raycast(Ray<double>{{0, 0, 0}, {tiny, tiny, tiny}}, Obb<double>{corner, {1, 1, 1}, Mat3<double>::Identity()}));
+}
+
+TEST(AnyNumber, no_ray_hits_a_triangle_beside_it) {
+  const Triangle<double> steep{{0.5, 3, 3}, {0.5, 1e200, 1e-300}, {3, 1e-300, 0}};  // z would overflow
+  EXPECT_FALSE(raycast(Ray<double>{{-1e308, 0.5, 0}, {1e300, 0, 2e300}}, steep));
+  const Triangle<double> low{{0, 0, 0}, {1, 0.5, -2e300}, {0, 1, 1}};  // x is 3 all the way
+  EXPECT_FALSE(raycast(Ray<double>{{3, -1e308, 1e300}, {0, 1, 0}}, low));
+}
+
+TEST(AnyNumber, in_an_option) {
+  const fuzz::Scene<Obb<double>, Sphere<double>> scene{{usual(TypeTag<Obb<double>>{}), {6, 0.25, 0.125}},
+                                                       at_rest(Sphere<double>{{5, 0.25, 0.125}, 1})};
+  const auto ask = [&](const auto& method, double option) {
+    const auto toi = time_of_impact(method, scene.a, scene.b);
+    EXPECT_EQ(toi.status == ToiStatus::invalid, !(option >= 0 && is_finite(option))) << option;
+    if (toi.status != ToiStatus::invalid && option < 1e300) fuzz::check_answer(scene, "with an option", toi);
   };
   for (const double x : special_numbers<double>()) {
-    SCOPED_TRACE(x);
     for_each_method<Obb<double>, Sphere<double>>([&](auto method) {
       method.min_separation = x;
-      ask(method, x, x < 1e300);
+      ask(method, x);
     });
-    ask(Speculative<double>{.margin = x}, x, true);
+    ask(Speculative<double>{.margin = x}, x);
   }
 }
 
@@ -123,32 +164,32 @@ template <class Method> void expect_hit_and_overlap(const Method& method) {
   const Sphere<float> ball{{-4, 0.25F, 0}, 1}, inside{{0.5F, 0.25F, 0}, 1};
   const auto hit = time_of_impact(method, Moving{ball, {4, 0, 0}}, at_rest(box));
   EXPECT_EQ(hit.status, ToiStatus::hit);
-  EXPECT_TRUE(is_unit_vector(hit.normal)) << hit.normal.transpose();
+  EXPECT_TRUE(fuzz::is_unit(hit.normal)) << hit.normal.transpose();
   const auto overlapping = time_of_impact(method, at_rest(inside), at_rest(box));
   EXPECT_NE(overlapping.status, ToiStatus::apart);
-  EXPECT_TRUE(is_unit_vector(overlapping.normal)) << overlapping.normal.transpose();
+  EXPECT_TRUE(fuzz::is_unit(overlapping.normal)) << overlapping.normal.transpose();
   box.axes(0, 1) = 0x1p-12F;
-  expect_invalid(time_of_impact(method, at_rest(inside), at_rest(box)));
+  EXPECT_EQ(time_of_impact(method, at_rest(inside), at_rest(box)).status, ToiStatus::invalid);
 }
 
-TEST(AnyNumberInMotion, boxes_in_float_have_axes_as_good_as_float) {  // though a query in float is computed in double
+TEST(AnyNumber, boxes_in_float_have_axes_as_good_as_float) {  // though a query in float is computed in double
   expect_hit_and_overlap(ClosedForm<float>{});
   expect_hit_and_overlap(EndOfStep<float>{});
   expect_hit_and_overlap(CentreRay<float>{});
   expect_hit_and_overlap(Inclusion<float>{});
 }
 
-TEST(AnyNumberInMotion, boxes_in_float_that_turn_have_too) {
+TEST(AnyNumber, boxes_in_float_that_turn_have_too) {
   Obb<float> box{{0, 0, 0}, {1, 1, 1}, Mat3<float>::Identity()};
   box.axes(0, 1) = 0x1p-14F;
   const Turning shot{Sphere<float>{{-4, 0.25F, 0}, 1}, {4, 0, 0}, {0, 0, 1}};
   EXPECT_EQ(time_of_impact(LinearSweep<float>{}, shot, at_rest(box)).status, ToiStatus::hit);
   EXPECT_EQ(time_of_impact(shot, at_rest(box)).status, ToiStatus::hit);
   box.axes(0, 1) = 0x1p-12F;
-  expect_invalid(time_of_impact(shot, at_rest(box)));
+  EXPECT_EQ(time_of_impact(shot, at_rest(box)).status, ToiStatus::invalid);
 }
 
-TEST(AnyNumberInMotion,
+TEST(AnyNumber,
      boxes_have_the_same_answer_at_every_size) {  // a minimal separation has them walk plane by plane
   const Moving<Obb<double>> a{usual(TypeTag<Obb<double>>{}), {6, 0.25, 0.125}};
   const auto b = at_rest(moved(usual(TypeTag<Obb<double>>{}), Vec3<double>(5, 0.25, 1.5)));
@@ -164,7 +205,7 @@ TEST(AnyNumberInMotion,
   }
 }
 
-TEST(AnyNumberInMotion, boxes_far_beyond_their_sizes_are_apart) {  // products of their lengths overflow
+TEST(AnyNumber, boxes_far_beyond_their_sizes_are_apart) {  // products of their lengths overflow
   const Obb<double> box = scaled(usual(TypeTag<Obb<double>>{}), 480);
   const Vec3<double> far(-0x1p480, -0x1p987, 0x1p481);
   for (const double speed : {0x1p453, 0x1p480, 0x1p986}) {
@@ -174,7 +215,7 @@ TEST(AnyNumberInMotion, boxes_far_beyond_their_sizes_are_apart) {  // products o
   }
 }
 
-TEST(AnyNumberInMotion, a_turn_that_underflows_is_none) {
+TEST(AnyNumber, a_turn_that_underflows_is_none) {
   const Aabb<double> box{{0, 0, 0}, {1.4, 0.4, 1}};
   for (int e = -1074; e < -1060; ++e) {
     const double tilt = std::ldexp(1.0, e);
@@ -185,7 +226,7 @@ TEST(AnyNumberInMotion, a_turn_that_underflows_is_none) {
       for (double y = -1.75; y <= 1.75; y += 0.25) {
         turned.center = {x, y, 0.25};
         EXPECT_TRUE(overlaps(box, turned)) << e << " " << x << " " << y;
-        EXPECT_TRUE(is_unit_vector(separation(box, turned).normal)) << e << " " << x << " " << y;
+        EXPECT_TRUE(fuzz::is_unit(separation(box, turned).normal)) << e << " " << x << " " << y;
       }
     }
   }
@@ -221,4 +262,5 @@ TEST(Allocations, are_none_in_any_query_in_double) { expect_no_allocation<double
 TEST(Allocations, are_none_in_any_query_in_float) { expect_no_allocation<float>(); }
 
 }  // namespace
-}  // namespace thinwall::testing
+}  // namespace testing
+}  // namespace thinwall
