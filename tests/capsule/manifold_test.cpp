@@ -1,9 +1,222 @@
-// Manifolds of capsules: two points where the core runs along a face or along another core, else one.
+// Manifolds: known cases, of capsules two points where the core runs along a face or along another core, else one; then many drawn ones.
+
+#include <algorithm>
+#include <cstddef>
 
 #include "support/manifold_properties.hpp"
 
 namespace thinwall::testing {
 namespace {
+
+template <class S> Mat3<S> turned_eighth(int axis) {
+  using std::sqrt;
+  const S root = S(1) / S(sqrt(S(2)));
+  return turn_in_plane((axis + 1) % 3, (axis + 2) % 3, root, root);
+}
+
+/// The area of the convex polygon that the points of a manifold span, seen along z.
+template <class S> S spread(const Manifold<S>& m) {
+  S area = 0;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < m.size(); ++k) {
+        for (std::size_t l = 0; l < k; ++l) {  // a quadrilateral's area is half the largest product of its diagonals
+          const Vec3<S> first = m[i].local_a - m[j].local_a, second = m[k].local_a - m[l].local_a;
+          area = std::max(area, S(largest(S(first[0] * second[1] - first[1] * second[0])) / 2));
+        }
+      }
+    }
+  }
+  return area;
+}
+
+template <class S> class Manifolds : public ::testing::Test {
+ protected:
+  Aabb<S> floor{{0, 0, 0}, {4, 4, 1}};
+};
+TYPED_TEST_SUITE(Manifolds, Scalars, ScalarNames);
+
+TYPED_TEST(Manifolds, box_on_a_floor_rests_on_its_four_corners) {
+  using S = TypeParam;
+  const Aabb<S> box{{1, -1, S(15) / S(8)}, {1, 1, 1}};
+  for (const auto& found : {manifold(this->floor, box), manifold(this->floor, to_obb(box)),
+                            manifold(to_obb(this->floor), box), manifold(to_obb(this->floor), to_obb(box))}) {
+    ASSERT_EQ(found.size(), 4U);
+    EXPECT_EQ(spread(found), S(4));
+    for (const Contact<S>& c : found) {
+      EXPECT_EQ(c.penetration, S(1) / S(8));
+      EXPECT_EQ(c.normal, axis_vector<S>(2));
+      EXPECT_EQ(c.local_b.cwiseAbs(), (Vec3<S>(1, 1, 1)));
+      EXPECT_EQ(c.local_a, (Vec3<S>(c.local_b[0] + 1, c.local_b[1] - 1, 1)));
+    }
+  }
+}
+
+TYPED_TEST(Manifolds, touching_faces_have_four_points_of_no_depth) {
+  using S = TypeParam;
+  const Aabb<S> box{{1, -1, 2}, {1, 1, 1}};
+  for (const auto& found : {manifold(this->floor, box), manifold(this->floor, to_obb(box))}) {
+    ASSERT_EQ(found.size(), 4U);
+    for (const Contact<S>& c : found) EXPECT_EQ(c.penetration, S(0));
+  }
+}
+
+TYPED_TEST(Manifolds, overhanging_box_is_clipped) {
+  using S = TypeParam;
+  const auto found = manifold(this->floor, Obb<S>{{4, 4, 2}, {1, 1, 1}, Mat3<S>::Identity()});
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(spread(found), S(1));
+}
+
+TYPED_TEST(Manifolds, octagon_keeps_four_of_eight_corners_far_apart) {
+  using S = TypeParam;
+  const auto found = manifold(Aabb<S>{{0, 0, 0}, {1, 1, 1}}, Obb<S>{{0, 0, 2}, {1, 1, 1}, turned_eighth<S>(2)});
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_GT(spread(found), S(2));  // of the octagon's 8 (sqrt(2) - 1) = 3.31; the best four have 2.83
+}
+
+TYPED_TEST(Manifolds, all_but_parallel_boxes_keep_four_points) {
+  using S = TypeParam;
+  Mat3<S> tilt = Mat3<S>::Identity();  // a turn about x and one about y
+  const S sine = parallel_sine<S>() / 8;
+  tilt(1, 2) = tilt(2, 0) = -sine;
+  tilt(2, 1) = tilt(0, 2) = sine;
+  for (const S& x : {S(0), S(4)}) {
+    const auto found = manifold(this->floor, Obb<S>{{x, x, S(31) / S(16)}, {1, 1, 1}, tilt});
+    ASSERT_EQ(found.size(), 4U) << x;
+    for (const Contact<S>& c : found) EXPECT_LE(largest(S(c.penetration - S(1) / S(16))), 4 * sine);
+  }
+}
+
+TYPED_TEST(Manifolds, edge_on_a_face_is_two_points) {
+  using S = TypeParam;
+  const Obb<S> box{{1, 0, 2}, {1, 1, 1}, turned_eighth<S>(0)};
+  for (const auto& found : {manifold(this->floor, box), flipped(manifold(box, this->floor))}) {
+    ASSERT_EQ(found.size(), 2U);
+    for (const Contact<S>& c : found) {
+      EXPECT_EQ(largest(S(c.local_a[0] - 1)), S(1));
+      EXPECT_LE(largest(c.local_a[1]), unit<S>() * 8);
+      EXPECT_LE(largest(S(found[0].penetration - found[1].penetration)), unit<S>() * 8);
+    }
+  }
+}
+
+TYPED_TEST(Manifolds, corner_on_a_face_is_one_point) {
+  using S = TypeParam;
+  Obb<S> box{{0, 0, 0}, {1, 1, 1}, turned_eighth<S>(1) * turned_eighth<S>(2) * turned_eighth<S>(0)};
+  box.center[2] = half_widths(box)[2] + S(7) / S(8);
+  const auto found = manifold(this->floor, box);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LE(largest(S(found[0].penetration - S(1) / S(8))), unit<S>() * 8);
+}
+
+TYPED_TEST(Manifolds, crossed_edges_are_one_point) {
+  using S = TypeParam;
+  const Obb<S> below{{0, 0, 0}, {4, 1, 1}, turned_eighth<S>(0)};
+  const Obb<S> above{{0, 0, S(11) / S(4)}, {1, 4, 1}, turned_eighth<S>(1)};
+  const auto found = manifold(below, above);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LE(largest<S>(found[0].normal - axis_vector<S>(2)), unit<S>() * 8);
+  EXPECT_LE(largest(S(found[0].local_a[0])) + largest(S(found[0].local_a[1])), unit<S>() * 16);
+}
+
+TYPED_TEST(Manifolds, flat_boxes_have_no_point_twice) {
+  using S = TypeParam;
+  const auto count = [&](const Vec3<S>& half) {
+    return manifold(this->floor, Obb<S>{{0, 0, 1}, half, Mat3<S>::Identity()}).size();
+  };
+  EXPECT_EQ(count({1, 1, 0}), 4U);
+  EXPECT_EQ(count({1, 0, 0}), 2U);
+  EXPECT_EQ(count({0, 0, 0}), 1U);
+  EXPECT_EQ(manifold(this->floor, Aabb<S>{{0, 0, 1}, {1, 0, 1}}).size(), 2U);
+  EXPECT_EQ(manifold(this->floor, Aabb<S>{{0, 0, 1}, {0, 0, 0}}).size(), 1U);
+}
+
+TYPED_TEST(Manifolds, points_of_an_aabb_lie_on_it_unlike_its_contact) {
+  using S = TypeParam;
+  const Sphere<S> ball{{2, 0, 2}, 1};
+  EXPECT_EQ(contact(this->floor, ball)->local_a, (Vec3<S>(0, 0, 0)));
+  const auto found = manifold(this->floor, ball);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].local_a, (Vec3<S>(2, 0, 1)));
+  EXPECT_EQ(found[0].local_b, (Vec3<S>(0, 0, -1)));
+}
+
+TYPED_TEST(Manifolds, apart_is_empty) {
+  using S = TypeParam;
+  const Aabb<S> box{{0, 0, next_up(S(2))}, {1, 1, 1}};
+  EXPECT_TRUE(manifold(this->floor, box).empty());
+  EXPECT_TRUE(manifold(this->floor, to_obb(box)).empty());
+  EXPECT_TRUE(manifold(this->floor, Sphere<S>{{0, 0, 3}, 1}).empty());
+  EXPECT_TRUE(manifold(this->floor, Sphere<S>{{nan<S>(), 0, 2}, 1}).empty());
+}
+
+TYPED_TEST(Manifolds, same_bits_at_every_size) {
+  using S = TypeParam;
+  const int far = std::min(std::numeric_limits<S>::max_exponent, 16000) - 8;
+  Shaker<S> draw(7);
+  for (int run = 0; run < 200; ++run) {
+    const auto [a, b] = nearly_touching<Obb<S>, Obb<S>>(draw);
+    const auto here = manifold(a, b);
+    for (const int e : {far / 2, -far / 2, far}) {
+      const auto there = manifold(scaled(a, e), scaled(b, e));
+      ASSERT_EQ(there.size(), here.size()) << run << " at 2^" << e;
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        EXPECT_EQ(scaled(there[i], -e).local_a, here[i].local_a) << run << " at 2^" << e;
+        EXPECT_EQ(scaled(there[i], -e).penetration, here[i].penetration) << run << " at 2^" << e;
+      }
+    }
+  }
+}
+
+/// Counts what the clear rung answers, which must agree with the careful one: as many points, as deep, along the same normal. Of faces
+/// parallel to half the digits the careful rung takes one for the other.
+template <class B> std::size_t clear_ones(std::size_t runs) {
+  Shaker<double> draw(20261127);
+  std::size_t clear = 0;
+  for (std::size_t run = 0; run < runs && !::testing::Test::HasFailure(); ++run) {
+    const auto [a, b] = nearly_touching<Obb<double>, B>(draw);
+    Manifold<double> found;
+    if (!clear_manifold(a, b, found)) continue;
+    ++clear;
+    SCOPED_TRACE("run " + std::to_string(run));
+    EXPECT_EQ(found.empty(), !careful_overlaps(a, b));
+    if (found.empty()) continue;
+    const Manifold<double> careful = touching_manifold(a, b);
+    const double off = 64 * unit<double>() * (magnitude(a) + magnitude(b));
+    const double turned = largest<double>(found[0].normal - careful[0].normal);
+    EXPECT_LE(turned, 2 * parallel_sine<double>());
+    if (turned > off) continue;
+    EXPECT_EQ(found.size(), careful.size());
+    for (const Contact<double>& c : found) {
+      EXPECT_TRUE(std::ranges::any_of(careful, [&](const Contact<double>& other) {
+        return largest(other.penetration - c.penetration) <= off &&
+               largest<double>(other.local_a - c.local_a) <= 16 * off;
+      }));
+    }
+  }
+  return clear;
+}
+
+TEST(ClearManifold, agrees_with_the_careful_one) {
+  const std::size_t runs = thorough(slow_build ? 2'000 : 20'000);
+  EXPECT_GE(clear_ones<Obb<double>>(runs), runs / 3);
+  EXPECT_GE(clear_ones<Aabb<double>>(runs), runs / 3);
+}
+
+TEST(ClearManifold, keeps_a_corner_that_is_on_a_side_to_rounding) {
+  Shaker<double> draw(20261127);
+  for (int run = 0; run < 20'000; ++run) {  // by as much as counts as on it, and a few roundings
+    const auto size = [&] { return 0.55 + 0.4 * draw.plain(); };
+    Obb<double> b{{0, 0, 1.99}, {size(), size(), 1}, Mat3<double>::Identity()};
+    const double beyond = (32 + draw.pick(-6, 6)) * unit<double>();
+    b.center[0] = 1 - b.half_extents[0] + beyond;
+    b.center[1] = draw.plain() * (1 - b.half_extents[1]);
+    EXPECT_EQ(manifold(Obb<double>{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}, b).size(), 4U) << run;
+  }
+}
+
+// ---- Capsules.
 
 template <class S> class CapsuleManifolds : public ::testing::Test {
  protected:
@@ -126,17 +339,25 @@ TEST(CapsuleOnNeedle, has_no_point_beside_it) {
   for (const Contact<float>& c : found) EXPECT_LE(off_surface(needle, c.local_b), 1e-5);
 }
 
-template <class P> class CapsuleManifoldsOf : public ::testing::Test {};
-using ManifoldPairs =
-    ::testing::Types<PairOf<Capsule<double>, Sphere<double>>, PairOf<Capsule<float>, Aabb<float>>,
-                     PairOf<Capsule<double>, Aabb<double>>, PairOf<Capsule<double>, Obb<double>>,
-                     PairOf<Capsule<Wide>, Obb<Wide>>, PairOf<Capsule<float>, Triangle<float>>,
-                     PairOf<Capsule<double>, Triangle<double>>, PairOf<Capsule<float>, Capsule<float>>,
-                     PairOf<Capsule<double>, Capsule<double>>, PairOf<Capsule<long double>, Capsule<long double>>>;
-TYPED_TEST_SUITE(CapsuleManifoldsOf, ManifoldPairs);
+// ---- Of every pair.
 
-TYPED_TEST(CapsuleManifoldsOf, are_real_points_as_deep_as_the_contact) {
-  expect_manifolds<typename TypeParam::A, typename TypeParam::B>(2000);
+template <class P> class ManifoldsOf : public ::testing::Test {};
+using ManifoldPairs = ::testing::Types<
+    PairOf<Sphere<double>, Sphere<double>>, PairOf<Aabb<double>, Sphere<double>>, PairOf<Obb<double>, Sphere<double>>,
+    PairOf<Triangle<double>, Sphere<double>>, PairOf<Aabb<double>, Aabb<double>>, PairOf<Obb<double>, Aabb<double>>,
+    PairOf<Obb<float>, Obb<float>>, PairOf<Obb<double>, Obb<double>>, PairOf<Obb<long double>, Obb<long double>>,
+    PairOf<Obb<Wide>, Obb<Wide>>, PairOf<Obb<float>, Aabb<float>>, PairOf<Aabb<Wide>, Aabb<Wide>>,
+    PairOf<Capsule<double>, Sphere<double>>, PairOf<Capsule<float>, Aabb<float>>, PairOf<Capsule<double>, Aabb<double>>,
+    PairOf<Capsule<double>, Obb<double>>, PairOf<Capsule<Wide>, Obb<Wide>>, PairOf<Capsule<float>, Triangle<float>>,
+    PairOf<Capsule<double>, Triangle<double>>, PairOf<Capsule<float>, Capsule<float>>,
+    PairOf<Capsule<double>, Capsule<double>>, PairOf<Capsule<long double>, Capsule<long double>>>;
+TYPED_TEST_SUITE(ManifoldsOf, ManifoldPairs);
+
+TYPED_TEST(ManifoldsOf, are_real_points_as_deep_as_the_contact) {
+  using A = typename TypeParam::A;
+  using S = typename A::Scalar;
+  const bool is_slow = slow_build || std::is_same_v<S, Wide> || std::is_same_v<A, Capsule<S>>;
+  expect_manifolds<A, typename TypeParam::B>(is_slow ? 2000 : 25000);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The queries at one instant against the oracle: balls, boxes and capsules.
 
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -53,14 +52,6 @@ template <class A> bool is_coarse(const A& shape) {
     coarse = coarse && 2 * x == floor(2 * x);
   });
   return coarse;
-}
-
-/// The factors 2^k at which nothing of what is drawn leaves the range, its ends among them.
-template <class S> int draw_scale() {
-  using Limits = std::numeric_limits<S>;
-  const int low = std::max(Limits::min_exponent + Limits::digits + 10, -20000);
-  const int high = std::min(Limits::max_exponent - 6, 20000);
-  return *rc::gen::element(low, low * 5 / 8, -60, -1, 1, 60, high * 5 / 8, high);
 }
 
 template <class P> class OneInstant : public ::testing::Test {
@@ -182,17 +173,17 @@ TYPED_TEST(OneInstant, same_bits_at_every_size) {
       return;
     RC_ASSERT(overlaps(large_a, large_b) == overlaps(a, b));
     const Separation<S> here = separation(a, b), there = separation(large_a, large_b);
-    RC_ASSERT(there.distance == times_power(here.distance, k));
+    RC_ASSERT(there.distance == times_power_of_two(here.distance, k));
     RC_ASSERT(there.normal == here.normal);
-    RC_ASSERT(there.point_a == times_power(here.point_a, k));
-    RC_ASSERT(there.point_b == times_power(here.point_b, k));
+    RC_ASSERT(there.point_a == times_power_of_two(here.point_a, k));
+    RC_ASSERT(there.point_b == times_power_of_two(here.point_b, k));
     const auto small = contact(a, b), large = contact(large_a, large_b);
     RC_ASSERT(small.has_value() == large.has_value());
     if (!small) return;
-    RC_ASSERT(large->penetration == times_power(small->penetration, k));
+    RC_ASSERT(large->penetration == times_power_of_two(small->penetration, k));
     RC_ASSERT(large->normal == small->normal);
-    RC_ASSERT(large->local_a == times_power(small->local_a, k));
-    RC_ASSERT(large->local_b == times_power(small->local_b, k));
+    RC_ASSERT(large->local_a == times_power_of_two(small->local_a, k));
+    RC_ASSERT(large->local_b == times_power_of_two(small->local_b, k));
   });
 }
 
@@ -206,7 +197,7 @@ TYPED_TEST(RayAtOneInstant, raycast_is_the_motion_of_a_point) {
   using S = typename TypeParam::Scalar;
   check_property(is_capsule<TypeParam> ? 1000 : 3000, [] {
     const auto [point, b] = draw_pair<PairOf<Sphere<S>, TypeParam>>();
-    const Ray<S> ray{point.center, draw_vector<S>(draw_style()), S(1)};
+    const Ray<S> ray{point.center, draw_shaker<S>().vector(), S(1)};
     RC_LOG() << "direction " << ray.direction.transpose() << "\n";
     oracle::Pair pair = oracle::pair(point, b);
     pair.a.radius = 0;
@@ -248,16 +239,16 @@ TYPED_TEST(RayAtOneInstant, has_the_same_bits_at_every_size) {
   check_property(1000, [&] {
     const Style style = *rc::gen::element(Style::lattice, Style::plain);
     const auto [point, b] = draw_pair<PairOf<Sphere<S>, TypeParam>>(style);
-    const Ray<S> ray{point.center, draw_vector<S>(style), S(1)};
+    const Ray<S> ray{point.center, draw_shaker<S>(style).vector(), S(1)};
     const int k = draw_scale<S>();
-    const Ray<S> large{times_power(ray.origin, k), times_power(ray.direction, k), S(1)};
+    const Ray<S> large{times_power_of_two(ray.origin, k), times_power_of_two(ray.direction, k), S(1)};
     if (!same_body(oracle::body(scaled(b, k)), oracle::body(b), k)) return;
     const auto found = cast(large, scaled(b, k)), expected = cast(ray, b);
     RC_ASSERT(found.has_value() == expected.has_value());
     if (!found) return;
     RC_ASSERT(found->t == expected->t);
     RC_ASSERT(found->normal == expected->normal);
-    RC_ASSERT(found->point == times_power(expected->point, k));
+    RC_ASSERT(found->point == times_power_of_two(expected->point, k));
   });
 }
 

@@ -10,7 +10,6 @@
 
 #include <thinwall/discrete/queries.hpp>
 
-#include "support/bodies.hpp"
 #include "support/contacts.hpp"
 #include "support/real.hpp"
 #include "support/shaker.hpp"

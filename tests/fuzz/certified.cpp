@@ -3,7 +3,6 @@
 #include <thinwall/swept/certified.hpp>
 
 #include "fuzz/finding.hpp"
-#include "fuzz/numbers.hpp"
 
 namespace thinwall::fuzz {
 namespace {

@@ -10,7 +10,6 @@
 #include <thinwall/swept/methods.hpp>
 
 #include "fuzz/finding.hpp"
-#include "fuzz/numbers.hpp"
 #include "support/method_claims.hpp"
 
 namespace thinwall::fuzz {

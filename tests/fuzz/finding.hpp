@@ -1,5 +1,5 @@
 #pragma once
-/// What the fuzz target does when a property fails: says which, prints the input as C++ and stops, so that the fuzzer keeps
+/// What the fuzz target does when a property fails: says which, prints the input as hex floats and stops, so that the fuzzer keeps
 /// the bytes. With THINWALL_FUZZ_KEEP_GOING set it goes on: it prints the first few of each kind and counts the rest.
 
 #include <sstream>
@@ -11,7 +11,6 @@
 #include <thinwall/swept/toi.hpp>
 
 #include "fuzz/judge.hpp"
-#include "fuzz/numbers.hpp"
 #include "fuzz/scene.hpp"
 
 namespace thinwall::fuzz {
@@ -30,24 +29,11 @@ template <Scalar S> std::string text(const S& x) {
 template <Scalar S> std::string text(const Vec3<S>& v) {
   return "{" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + "}";
 }
-template <Scalar S> std::string text(const Sphere<S>& s) {
-  return "Sphere{" + text(s.center) + ", " + text(s.radius) + "}";
-}
-template <Scalar S> std::string text(const Aabb<S>& b) {
-  return "Aabb{" + text(b.center) + ", " + text(b.half_extents) + "}";
-}
-template <Scalar S> std::string text(const Obb<S>& b) {
-  return "Obb{" + text(b.center) + ", " + text(b.half_extents) + ", columns " + text<S>(Vec3<S>(b.axes.col(0))) + ", " +
-         text<S>(Vec3<S>(b.axes.col(1))) + ", " + text<S>(Vec3<S>(b.axes.col(2))) + "}";
-}
-template <Scalar S> std::string text(const Triangle<S>& t) {
-  return "Triangle{" + text(t.a) + ", " + text(t.b) + ", " + text(t.c) + "}";
-}
-template <Scalar S> std::string text(const Capsule<S>& c) {
-  return "Capsule{" + text(c.a) + ", " + text(c.b) + ", " + text(c.radius) + "}";
-}
+/// Its numbers by their names.
 template <class A> std::string text(const Moving<A>& m) {
-  return "Moving{" + text(m.shape) + ", " + text(m.displacement) + "}";
+  std::string all(testing::shape_name<A>);
+  testing::each_number(m, [&](const std::string& name, const auto& x) { all += " " + name + " " + text(x); });
+  return all;
 }
 inline std::string text(ToiStatus status) {
   constexpr const char* names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
@@ -64,13 +50,6 @@ template <class A> void check_one_pair_of(Bytes& bytes);
 /// `kind` names the property and the pair; `detail` is the input and what came out.
 void report(const std::string& kind, const std::string& detail);
 
-template <class A> constexpr std::string_view shape_name = A::has_no_name_in_the_fuzz_target;
-template <Scalar S> constexpr std::string_view shape_name<Sphere<S>> = "Sphere";
-template <Scalar S> constexpr std::string_view shape_name<Aabb<S>> = "Aabb";
-template <Scalar S> constexpr std::string_view shape_name<Obb<S>> = "Obb";
-template <Scalar S> constexpr std::string_view shape_name<Triangle<S>> = "Triangle";
-template <Scalar S> constexpr std::string_view shape_name<Capsule<S>> = "Capsule";
-
 /// Reports what does not hold of one scene.
 template <class A, class B> class Check {
  public:
@@ -80,8 +59,8 @@ template <class A, class B> class Check {
   /// details() says what came out; it is asked only where the property fails.
   template <class Details> bool operator()(bool holds, std::string_view property, const Details& details) const {
     if (holds) return true;
-    const std::string kind = std::string(property) + " [" + std::string(shape_name<A>) + ", " +
-                             std::string(shape_name<B>) + ", " + std::string(scalar_name<S>) + "]";
+    const std::string kind = std::string(property) + " [" + std::string(testing::shape_name<A>) + ", " +
+                             std::string(testing::shape_name<B>) + ", " + std::string(scalar_name<S>) + "]";
     report(kind, "  a = " + text(scene_.a) + "\n  b = " + text(scene_.b) + "\n  " + details() + "\n");
     return false;
   }

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "fuzz/finding.hpp"
-#include "fuzz/numbers.hpp"
 #include "fuzz/referee.hpp"
 
 namespace thinwall::fuzz {

@@ -63,7 +63,7 @@ template <class S, class Visit> void for_each_served_pair(const Visit& visit) {
   for_each_type(Shapes<S>{}, [&]<class A>(TypeTag<A> first) {
     for_each_type(Shapes<S>{}, [&]<class B>(TypeTag<B> second) {
       if constexpr (ServedPair<A, B> && A::rank >= B::rank) {
-        SCOPED_TRACE("ranks " + std::to_string(A::rank) + " and " + std::to_string(B::rank));
+        SCOPED_TRACE(std::string(shape_name<A>) + " and " + std::string(shape_name<B>));
         visit(first, second);
       }
     });

@@ -8,29 +8,18 @@
 
 #include <thinwall/swept/certified.hpp>
 
+#include "support/any_number.hpp"
 #include "support/shaker.hpp"
 
 // ---- Motions to be certified, and the pairs that can be: plain ones, as a scene has them, and the worst.
 
 namespace thinwall::testing {
 
-/// Every pair that can be certified, in one order.
+/// visit(name, PairOf<A, B>) for every pair that can be certified, in one order.
 template <class Visit> void for_each_certified_pair(const Visit& visit) {
-  using Ball = Sphere<double>;
-  using Box = Aabb<double>;
-  using Turned = Obb<double>;
-  using Rod = Capsule<double>;
-  visit("sphere sphere", PairOf<Ball, Ball>{});
-  visit("sphere aabb", PairOf<Ball, Box>{});
-  visit("sphere obb", PairOf<Ball, Turned>{});
-  visit("sphere capsule", PairOf<Ball, Rod>{});
-  visit("sphere triangle", PairOf<Ball, Triangle<double>>{});
-  visit("aabb aabb", PairOf<Box, Box>{});
-  visit("aabb obb", PairOf<Box, Turned>{});
-  visit("aabb capsule", PairOf<Box, Rod>{});
-  visit("obb obb", PairOf<Turned, Turned>{});
-  visit("obb capsule", PairOf<Turned, Rod>{});
-  visit("capsule capsule", PairOf<Rod, Rod>{});
+  for_each_served_pair<double>([&]<class A, class B>(TypeTag<A>, TypeTag<B>) {
+    if constexpr (certifies<A, B>) visit(std::string(shape_name<A>) + " " + std::string(shape_name<B>), PairOf<A, B>{});
+  });
 }
 
 // Shapes of about half a unit, no two numbers related.
@@ -61,30 +50,26 @@ template <class A, class B> Motion<A, B> plain_motion(Shaker<double>& draw) {
 }
 
 /// Axes that are neither unit nor at right angles, by up to all that a box may have.
-inline void skew(Obb<double>& box, Shaker<double>& draw) {
-  for (int i = 0; i < 3; ++i) box.axes.col(i) += draw.plain_vector() * power<double>(-draw.pick(35, 60));
+template <class S> void skew(Obb<S>& box, Shaker<S>& draw) {
+  for (int i = 0; i < 3; ++i) box.axes.col(i) += draw.plain_vector() * power<S>(-draw.pick(35, 60));
 }
-template <class Shape> void skew(Shape&, Shaker<double>&) {}
+template <class Shape, class S> void skew(Shape&, Shaker<S>&) {}
 
-/// The worst: all but touching, grazing, on a lattice (shaker.hpp); as large and as small as doubles go, mixed;
+/// The worst: all but touching, grazing, on a lattice (shaker.hpp); as large and as small as numbers go, mixed;
 /// without motion, radius or extent.
-template <class A, class B> Motion<A, B> worst_motion(Shaker<double>& draw) {
+template <class A, class B, class S> Motion<A, B> worst_motion(Shaker<S>& draw) {
+  using Limits = std::numeric_limits<S>;
+  constexpr int least = Limits::min_exponent - Limits::digits + 4, most = Limits::max_exponent - 34;
   Motion<A, B> motion = drawn_motion<A, B>(draw);
-  switch (draw.pick(0, 11)) {
-    case 0: {
-      const int e = draw.pick(0, 1) == 0 ? draw.pick(-1070, -900) : draw.pick(900, 990);
-      motion = {scaled(motion.a, e), scaled(motion.b, e)};
-      break;
-    }
-    case 1: {
-      const int e = draw.pick(-1070, 990);
-      motion = {scaled(motion.a, e), scaled(motion.b, e)};
-      break;
-    }
+  const auto resize = [&](int e) { motion = {scaled(motion.a, e), scaled(motion.b, e)}; };
+  switch (draw.pick(0, 12)) {
+    case 0: resize(draw.pick(0, 1) == 0 ? draw.pick(least, least * 5 / 6) : draw.pick(most * 10 / 11, most)); break;
+    case 1: resize(draw.pick(least, most)); break;
     case 2: motion.a.displacement = motion.b.displacement; break;
-    case 3: motion.a.displacement = times_power_of_two(motion.a.displacement, draw.pick(-1000, 900)); break;
-    case 4: motion.a.shape = scaled(motion.a.shape, -draw.pick(20, 1070)); break;
-    case 5:
+    case 3: motion.a.displacement = times_power_of_two(motion.a.displacement, draw.pick(least, most)); break;
+    case 4: motion.a.shape = scaled(motion.a.shape, -draw.pick(20, -least)); break;
+    case 5: motion.b.shape = scaled(motion.b.shape, -draw.pick(20, -least)); break;
+    case 6:
       skew(motion.a.shape, draw);
       skew(motion.b.shape, draw);
       break;
@@ -93,7 +78,7 @@ template <class A, class B> Motion<A, B> worst_motion(Shaker<double>& draw) {
   return motion;
 }
 
-// ---- Judges a certified answer by the exact integers of the last stage, themselves judged in certified_pairs_test.cpp.
+// ---- Judges a certified answer by the exact integers of the last stage, themselves judged in certified_test.cpp.
 
 /// How often each stage decided.
 struct Tally {

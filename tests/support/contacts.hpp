@@ -2,6 +2,7 @@
 /// What is known by hand of two shapes, or of a ray and a shape, asked of every query that tells of it.
 
 #include <source_location>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 

@@ -18,6 +18,9 @@
 
 namespace thinwall::testing {
 
+constexpr std::array<std::string_view, 5> names_by_rank = {"Sphere", "Aabb", "Obb", "Triangle", "Capsule"};
+template <class A> constexpr std::string_view shape_name = names_by_rank[A::rank];
+
 template <class S, class F> void each_number(const std::string& name, Vec3<S>& v, const F& f) {
   for (int k = 0; k < 3; ++k) f(name + "_" + "xyz"[k], v[k]);
 }

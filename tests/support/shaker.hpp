@@ -21,10 +21,15 @@ template <class S> Mat3<S> turn_in_plane(int u, int v, const S& cosine, const S&
   return turn;
 }
 
+/// How coordinates are drawn: on a lattice of halves, anyhow, down to 2^-30 and up to 2^30; or now on the lattice, now anyhow.
+enum class Style { mixed, lattice, plain, decades };
+
 /// Draws the same numbers in every run.
 template <class S> class Shaker {
  public:
-  explicit Shaker(unsigned seed) : engine_(seed) {}
+  explicit Shaker(unsigned seed, Style style = Style::mixed) : style_(style), engine_(seed) {}
+
+  Style style() const { return style_; }
 
   int pick(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
   S plain() { return S(static_cast<double>(engine_()) / 2147483648.0 - 1.0); }
@@ -37,7 +42,11 @@ template <class S> class Shaker {
     axes.col(2) = thinwall::cross<S>(axes.col(0), axes.col(1));
     return axes;
   }
-  S coordinate() { return pick(0, 1) == 0 ? S(pick(-4, 4)) / S(2) : S(2 * plain()); }
+  S coordinate() {
+    if (style_ == Style::lattice || (style_ == Style::mixed && pick(0, 1) == 0)) return S(pick(-4, 4)) / S(2);
+    const S scale = power<S>(style_ == Style::decades ? pick(-30, 30) : 1);
+    return S(scale * plain());
+  }
   Vec3<S> vector() { return {coordinate(), coordinate(), coordinate()}; }
   Vec3<S> sizes() { return vector().cwiseAbs(); }
 
@@ -58,6 +67,7 @@ template <class S> class Shaker {
   }
 
  private:
+  Style style_;
   std::mt19937 engine_;
 };
 
@@ -101,7 +111,7 @@ template <class A, class B, class S> void make_graze(Motion<A, B>& motion, const
 
 template <class A, class B, class S> Motion<A, B> drawn_motion(Shaker<S>& draw) {
   Motion<A, B> motion{at_rest(drawn(draw, TypeTag<A>{})), at_rest(drawn(draw, TypeTag<B>{}))};
-  const int size = draw.pick(0, 3) == 0 ? draw.pick(-20, 20) : 0;
+  const int size = draw.style() == Style::mixed && draw.pick(0, 3) == 0 ? draw.pick(-20, 20) : 0;
   motion.a.shape = scaled(moved<S>(motion.a.shape, -center(motion.a.shape)), size);
   motion.a.shape = moved<S>(motion.a.shape, draw.vector() * power<S>(draw.pick(0, 2) + std::max(0, size)));
   if (draw.pick(0, 1) == 0) motion.b.displacement = draw.vector();

@@ -42,7 +42,11 @@ template <class A, class B, class Visit> void for_each_method(const Visit& visit
 
 template <class A, class B> void ask_every_query(const fuzz::Scene<A, B>& scene) {
   fuzz::check_closed_form(scene);
-  scene.is_valid() ? fuzz::check_discrete(scene) : fuzz::check_bad_shapes(scene);
+  if (scene.is_valid()) {
+    fuzz::check_discrete(scene);
+  } else {
+    fuzz::check_bad_shapes(scene);
+  }
 }
 
 template <class A, class B> void ask_every_method(const fuzz::Scene<A, B>& scene) {
@@ -94,7 +98,7 @@ TEST(AnyNumber, in_axes_that_are_as_long_as_they_may_be) {
         if (touch) {
           EXPECT_LE(largest<double>(touch->normal - gap.normal), 0x1p-40);
         }
-        EXPECT_NE(time_of_impact(cast<long double>(shot.a), cast<long double>(shot.b)).status, ToiStatus::invalid);
+        EXPECT_LE(time_of_impact(cast<long double>(shot.a), cast<long double>(shot.b)).time, 1);  // NaN if invalid
       }
     }
   });

@@ -189,35 +189,19 @@ void meets_the_contract(const Moving<A>& a, const Moving<B>& b, std::uint64_t se
   EXPECT_TRUE(judge(pair, careful_impact(method, a, b), allowance)) << "careful, seed " << seed;
 }
 
-TEST(Ties, two_boxes) {
+TEST(Ties, of_a_box_with_what_comes_beside_two_faces_at_once) {
   for (std::uint64_t seed = 0; seed < motions; ++seed) {
-    const Tie tie(seed, Comes::as_a_box);
-    meets_the_contract(tie.box, Moving{Box{tie.start, tie.half}, tie.path}, seed);
-  }
-}
-
-TEST(Ties, a_box_and_a_point) {
-  for (std::uint64_t seed = 0; seed < motions; ++seed) {
-    const Tie tie(seed, Comes::as_a_point);
-    meets_the_contract(tie.box, Moving{Ball{tie.start, 0}, tie.path}, seed);
-  }
-}
-
-TEST(Ties, a_box_and_a_sphere) {
-  for (std::uint64_t seed = 0; seed < motions; ++seed) {
-    const Tie tie(seed, Comes::as_a_ball);
-    const double gap = seed % 2 == 0 ? 0 : tie.radius / 4;
-    meets_the_contract(tie.box, Moving{Ball{tie.start, tie.radius - gap}, tie.path}, seed, gap);
-  }
-}
-
-/// One end of the core comes as the ball does, the rest leans away from the box.
-TEST(Ties, a_box_and_a_capsule) {
-  for (std::uint64_t seed = 0; seed < motions / 5; ++seed) {
-    Tie tie(seed, Comes::as_a_ball);
-    const V away = (tie.start - tie.box.shape.center).cwiseSign(),
-            end = tie.start + away.cwiseProduct(tie.vector(0, 0.2));
-    meets_the_contract(Moving{Capsule<double>{end, tie.start, tie.radius}, tie.path}, tie.box, seed);
+    const Tie box(seed, Comes::as_a_box), point(seed, Comes::as_a_point);
+    meets_the_contract(box.box, Moving{Box{box.start, box.half}, box.path}, seed);
+    meets_the_contract(point.box, Moving{Ball{point.start, 0}, point.path}, seed);
+    Tie ball(seed, Comes::as_a_ball);
+    const double gap = seed % 2 == 0 ? 0 : ball.radius / 4;
+    meets_the_contract(ball.box, Moving{Ball{ball.start, ball.radius - gap}, ball.path}, seed, gap);
+    if (seed % 5 != 0)
+      continue;  // of a capsule one end comes as the ball does, the rest of its core leans away from the box
+    const V away = (ball.start - ball.box.shape.center).cwiseSign();
+    const V end = ball.start + away.cwiseProduct(ball.vector(0, 0.2));
+    meets_the_contract(Moving{Capsule<double>{end, ball.start, ball.radius}, ball.path}, ball.box, seed);
   }
 }
 
@@ -380,19 +364,14 @@ struct NearShot : PortableDraw {
   }
 };
 
-TEST(AxesLengths, count_for_a_sphere) {
+TEST(AxesLengths, count_for_a_sphere_and_a_capsule) {
   for (std::uint64_t seed = 0; seed < motions; ++seed) {
-    const NearShot shot(seed);
+    NearShot shot(seed);
     const oracle::Pair pair = oracle::pair(shot.upright, shot.ball);
     EXPECT_TRUE(clear_impact(shot.box, shot.ball, 0.0).clear) << "seed " << seed;
     EXPECT_TRUE(judge(pair, time_of_impact(shot.box, shot.ball), allowance)) << "seed " << seed;
     EXPECT_TRUE(judge(pair, careful_impact(ClosedForm<double>{}, shot.box, shot.ball), allowance)) << "seed " << seed;
-  }
-}
-
-TEST(AxesLengths, count_for_a_capsule) {
-  for (std::uint64_t seed = 0; seed < motions / 10; ++seed) {
-    NearShot shot(seed);
+    if (seed % 10 != 0) continue;
     const V start = shot.ball.shape.center, away = start.cwiseSign() * shot.between(0, 0.5);
     const Moving capsule{Capsule<double>{start, start + away, shot.ball.shape.radius}, shot.ball.displacement};
     EXPECT_TRUE(judge(oracle::pair(shot.upright, capsule), time_of_impact(shot.box, capsule), allowance))

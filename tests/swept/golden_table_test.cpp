@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/numbers_of.hpp"
+
 namespace thinwall::testing {
 namespace {
 
@@ -36,12 +38,7 @@ Rows table_after(const std::string& head) {
   return rows;
 }
 
-/// What is called so on the page.
-template <class A> std::string name_of() {
-  constexpr const char* by_rank[] = {"Sphere", "Aabb", "Obb", "Triangle", "Capsule"};
-  static_assert(A::rank < std::size(by_rank), "a shape without a name on the page");
-  return by_rank[A::rank];
-}
+template <class A> std::string name_of() { return std::string(shape_name<A>); }
 
 /// What turns of a shape: a box along the axes is an oriented one then.
 template <class A> using WhatTurns = std::conditional_t<stays_along_the_axes<A>, Obb<double>, A>;

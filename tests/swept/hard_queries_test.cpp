@@ -226,6 +226,22 @@ const std::vector<Finding> findings = {
             at_rest(Triangle<double>{V(0x1.ep+0, 0x1.ep+0, -0x1.8p-1), V(0x1.6p+0, -0x1p+0, 0x1.6p+0),
                                      V(-0x1.8p-2, 0x1.8p-1, 0x1p+0)})),
      {{hit, overlapping}, 0, 1e-12}},
+    {"a capsule that slides along a face that leans by 1e-10: by their normal the two ends are 2e-14 apart, which takes 1e-9 of the step",
+     asking(
+         Moving{Capsule<double>{V(-0x1.a8cb0441d7562p-13, 0, 0), V(0x1.a8cb0441d7562p-13, 0, 0), 0x1.559473bc96f62p-14},
+                V(0x1.49492650d771fp-7, 0x1.a9f6cf8eb7441p-5, -0x1.a2967bb812648p-6)},
+         Moving{Triangle<double>{V(-0x1.02159c07e9d83p-3, 0x1.56de7c315fa99p-14, -0x1.4abf2c273431cp-1),
+                                 V(0x1.67d2eb8c05e1dp-6, 0x1.56de65350219p-14, 0x1.3ef0fe386281ap-2),
+                                 V(-0x1.02159c06ce38bp-3, 0x1.56de90e2bd87p-14, -0x1.9a7b6bb547576p+0)},
+                V(0x1.51ef179b14b1p-2, 0x1.a9bc3cf4a9adcp-5, -0x1.6926c68314174p-2)}),
+     {{hit}, 0.011002985272795947, 1e-15}},
+    {"a point that would meet a triangle a billionth of a rounding after the end",
+     asking(at_rest(Triangle<double>{V(-0x1.a1a87813ab6a8p+13, -0x1.30e7c9bb1c733p+19, -0x1.d042c64b874ebp+18),
+                                     V(0x1.2fa7228a94bf2p+13, 0x1.2a52db4f325e6p+18, -0x1.d8a59d9677f68p+18),
+                                     V(0x1.c80556245aaep+11, 0x1.377cb8270688p+18, 0x1.d47431f0ffa28p+19)}),
+            Moving{Sphere<double>{V(-0x1.49b1c31d67e17p+12, -0x1.5a25c6008d314p+19, -0x1.5240e276ebddfp+21), 0},
+                   V(0x1.48ce021e6d4edp+13, 0x1.d95ef23762fcep+19, 0x1.738c85026c317p+21)}),
+     {{apart}, 1, 0}},
 };
 
 TEST(HardQueries, motions_have_the_answers_of_the_table) {

@@ -1,12 +1,95 @@
-// What a batch does with its rows, whatever they hold: splits, one against many, threads, vectors, rays, bad input.
+// What a batch does with its rows, whatever they hold: splits, one against many, threads, vectors, bad input. And ten million rows, plain
+// and the worst: every vector width gives the scalar code's verdicts, and its times to the bound.
+// THINWALL_THOROUGH=100 tests_swept --gtest_filter='BatchVerdicts*' judges a hundred times as many.
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "support/batch_rows.hpp"
+#include <thinwall/swept/batch.hpp>
+#include <thinwall/swept/batch/run.hpp>
+#include <thinwall/swept/batch/table.hpp>
+#include <thinwall/swept/certified_batch.hpp>
+
+#include "support/certified.hpp"
 #include "support/said.hpp"
+#include "support/shaker.hpp"
+#include "support/thorough.hpp"
 
 namespace thinwall::testing {
 namespace {
+
+// ---- Rows, plain and the worst, with the scalar code's answers.
+
+/// One of the worst now and then, or with a NaN, an infinity or the end of the range.
+template <class A, class B, class S> Motion<A, B> batch_motion(Shaker<S>& draw) {
+  Motion<A, B> motion = draw.pick(0, 2) == 0 ? worst_motion<A, B>(draw) : drawn_motion<A, B>(draw);
+  using Limits = std::numeric_limits<S>;
+  constexpr std::array bad = {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(),
+                              Limits::denorm_min()};
+  const int spoiled = draw.pick(0, 30);
+  Vec3<S>& displacement = spoiled == 0 ? motion.a.displacement : motion.b.displacement;
+  if (spoiled < 2) displacement[draw.pick(0, 2)] = bad[static_cast<std::size_t>(draw.pick(0, 4))];
+  return motion;
+}
+
+template <class S> void spoil_size(Moving<Sphere<S>>& sphere, const S& size) { sphere.shape.radius = size; }
+template <class S> void spoil_size(Moving<Capsule<S>>& capsule, const S& size) { capsule.shape.radius = size; }
+template <class Box, class S> void spoil_size(Moving<Box>& box, const S& size) { box.shape.half_extents[1] = size; }
+
+template <class A, class B> struct BatchRows {
+  using S = typename A::Scalar;
+  RowTable<Moving<A>> a;
+  RowTable<Moving<B>> b;
+  std::vector<Toi<double>> truth;  ///< by the scalar code, in double
+
+  BatchRows(std::size_t count, unsigned seed) {
+    Shaker<S> draw(seed);
+    for (std::size_t i = 0; i < count; ++i) {
+      Motion<A, B> motion = batch_motion<A, B>(draw);
+      const int bad = draw.pick(0, 200);
+      if (bad == 0) spoil_size(motion.a, S(-1));
+      if (bad == 1) spoil_size(motion.b, -std::numeric_limits<S>::denorm_min());
+      if (bad == 2) spoil_size(motion.b, std::numeric_limits<S>::quiet_NaN());
+      if (bad == 3) spoil_size(motion.a, std::numeric_limits<S>::infinity());
+      a.push_back(motion.a);
+      b.push_back(motion.b);
+      const Toi<S> toi = time_of_impact(motion.a, motion.b);
+      const Toi<double> fine = toi.status == ToiStatus::hit
+                                   ? time_of_impact(widened<double>(motion.a), widened<double>(motion.b))
+                                   : Toi<double>{};
+      truth.push_back({toi.status, 0, fine.time, fine.normal, fine.point});
+    }
+  }
+
+  bool has_every_status() const {
+    std::array<int, 5> seen{};
+    for (const Toi<double>& toi : truth) ++seen[static_cast<std::size_t>(toi.status)];
+    return seen[0] > 0 && seen[1] > 0 && seen[2] > 0 && seen[4] > 0;
+  }
+};
+
+/// visit(target) with each kind of vectors that this machine has, of which the best is then taken again.
+template <class Visit> void for_each_target(const Visit& visit) {
+  for (const std::string& target : vector_targets()) {
+    SCOPED_TRACE(target);
+    use_vectors(target);
+    visit(target);
+  }
+  use_vectors("");
+}
+
+template <class S> struct Answers {
+  std::vector<ToiStatus> status;
+  std::vector<S> time;
+  explicit Answers(std::size_t rows) : status(rows, ToiStatus::gave_up), time(rows, S(-1)) {}
+  ToiRows<S> rows() { return {status, time}; }
+};
+
+// ---- What holds of boxes and balls holds of all.
 
 using Ball = Moving<Sphere<double>>;
 using Box = Moving<Aabb<double>>;
@@ -193,36 +276,6 @@ TEST_P(BatchRowsOfBoxesAndBalls, with_bad_axes_are_invalid_one_by_one) {
   expect_bad_axes_to_be_invalid<double>();
 }
 
-TEST_P(BatchRowsOfBoxesAndBalls, of_rays_are_raycasts) {
-  Shaker<double> draw(5);
-  RowTable<Ray<double>> rays;
-  RowTable<Aabb<double>> boxes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto motion = batch_motion<Sphere<double>, Aabb<double>>(draw);
-    const std::array most = {1.0, 0.5, std::numeric_limits<double>::infinity(), 0.0, -1.0};
-    rays.push_back({motion.a.shape.center, motion.a.displacement, most[static_cast<std::size_t>(draw.pick(0, 4))]});
-    boxes.push_back(motion.b.shape);
-  }
-  Answers<double> answers(count);
-  raycast(rays.rows(), boxes.rows(), answers.rows());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Toi<double> toi = batch::cast(rays[i], boxes[i]);
-    ASSERT_EQ(answers.status[i], toi.status) << i;
-    if (toi.status == ToiStatus::hit) {
-      ASSERT_NEAR(answers.time[i], toi.time, 1e-9 * toi.time) << i;
-    } else if (toi.status != ToiStatus::invalid) {
-      ASSERT_EQ(answers.time[i], toi.time) << i;
-    }
-  }
-  Answers<double> one_ray(count), one_box(count);
-  raycast(rays[0], boxes.rows(), one_ray.rows());
-  raycast(rays.rows(), boxes[0], one_box.rows());
-  for (std::size_t i = 0; i < count; ++i) {
-    ASSERT_EQ(one_ray.status[i], batch::cast(rays[0], boxes[i]).status) << i;
-    ASSERT_EQ(one_box.status[i], batch::cast(rays[i], boxes[0]).status) << i;
-  }
-}
-
 TEST_P(BatchRowsOfBoxesAndBalls, of_axes_that_are_longer_by_eight_roundings_are_of_longer_boxes) {
   using V = Vec3<double>;
   const double longer = 1 + 0x1p-50;
@@ -273,6 +326,170 @@ TEST(BatchRefusals, are_none_for_no_rows) {
   const RowTable<Ball> none;
   Answers<double> answers(0);
   EXPECT_EQ(time_of_impact(none.rows(), none.rows(), answers.rows()).rows, 0U);
+}
+
+// ---- Verdicts and times of every pair, at every width.
+
+/// What rounding may turn a time by, in 4 u kappa: swept/toi.hpp's coordinates over the closing speed.
+template <class A, class B> double bound_on_time(const A& a, const B& b, const Toi<double>& toi, double u) {
+  const Vec3<double> n = toi.normal.cwiseAbs();
+  const double closing = std::abs(toi.normal.dot(b.displacement - a.displacement));
+  const double lengths =
+      n.dot(center(a.shape).cwiseAbs() + center(b.shape).cwiseAbs() + half_widths(a.shape) + half_widths(b.shape) +
+            toi.time * (a.displacement.cwiseAbs() + b.displacement.cwiseAbs()));
+  return 4 * u * lengths / closing;
+}
+
+/// What a width got wrong of the rows it was asked.
+template <class S> struct Faults {
+  std::size_t wrong = 0, late = 0;
+  double worst = 0;  ///< [4 u kappa t]
+
+  template <class A, class B>
+  void add(const Moving<A>& a, const Moving<B>& b, const Toi<double>& truth, ToiStatus status, S time) {
+    if (status != truth.status) ++wrong;
+    if (status != ToiStatus::hit || truth.status != ToiStatus::hit) return;
+    const double least = double(std::numeric_limits<S>::denorm_min());  // of a float time
+    const double off = std::abs(double(time) - truth.time);
+    const double bound =
+        bound_on_time(cast<double>(a), cast<double>(b), truth, double(std::numeric_limits<S>::epsilon()) / 2);
+    if (off > 3 * bound + least) ++late;  // the scalar code's own 4 u kappa t, and the bound of kappa by half widths
+    if (off > least) worst = std::max(worst, off / bound);
+  }
+  void report(const char* name, const std::string& target, std::size_t rows, std::size_t asked_again) const {
+    std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu; time off by up to %.2f u kappa t\n", name,
+                target.c_str(), rows, 100.0 * double(asked_again) / double(rows), wrong, 4 * worst);
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_EQ(late, 0U);
+  }
+};
+
+/// Judges every width on `count` rows of one pair.
+template <class A, class B> void judge_rows(const char* name, std::size_t count) {
+  using S = typename A::Scalar;
+  SCOPED_TRACE(name);
+  const BatchRows<A, B> rows(count, 7);
+  ASSERT_TRUE(rows.has_every_status());
+  for_each_target([&](const std::string& target) {
+    Answers<S> answers(count);
+    const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows());
+    Faults<S> faults;
+    for (std::size_t i = 0; i < count; ++i) {
+      faults.add(rows.a[i], rows.b[i], rows.truth[i], answers.status[i], answers.time[i]);
+    }
+    faults.report(name, target, count, report.asked_again);
+  });
+}
+
+/// The same of one against many, of which the first is its own row: there a first look may tell it apart.
+template <class A, class B> void judge_one_against_many(const char* name, std::size_t count) {
+  using S = typename A::Scalar;
+  SCOPED_TRACE(name);
+  constexpr std::size_t many = 16;  // lanes, at the most
+  const BatchRows<A, B> rows(count + many, 17);
+  for_each_target([&](const std::string& target) {
+    Answers<S> answers(many);
+    Faults<S> faults;
+    std::size_t asked_again = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      asked_again += time_of_impact(rows.a[i], rows.b.rows(i, i + many), answers.rows()).asked_again;
+      faults.add(rows.a[i], rows.b[i], rows.truth[i], answers.status[0], answers.time[0]);
+    }
+    faults.report(name, target, count * many, asked_again);
+  });
+}
+
+/// The same of rays at boxes, held against raycast; and of the first of either against all of the others.
+template <class S> void judge_rays(std::size_t count) {
+  Shaker<S> draw(11);
+  RowTable<Ray<S>> rays;
+  RowTable<Aabb<S>> boxes;
+  const S longest = std::numeric_limits<S>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto motion = batch_motion<Sphere<S>, Aabb<S>>(draw);
+    const std::array<S, 6> most = {1, S(0.5), longest, longest, 0, -1};
+    rays.push_back({motion.a.shape.center, motion.a.displacement, most[static_cast<std::size_t>(draw.pick(0, 5))]});
+    boxes.push_back(motion.b.shape);
+  }
+  for_each_target([&](const std::string& target) {
+    Answers<S> answers(count), one_ray(count), one_box(count);
+    const BatchReport report = raycast(rays.rows(), boxes.rows(), answers.rows());
+    raycast(rays[0], boxes.rows(), one_ray.rows());
+    raycast(rays.rows(), boxes[0], one_box.rows());
+    std::size_t wrong = 0, off = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Toi<S> toi = batch::cast(rays[i], boxes[i]);
+      const bool is_right = answers.status[i] == toi.status &&
+                            one_ray.status[i] == batch::cast(rays[0], boxes[i]).status &&
+                            one_box.status[i] == batch::cast(rays[i], boxes[0]).status;
+      wrong += is_right ? 0U : 1U;
+      const S within =
+          toi.status == ToiStatus::hit ? std::sqrt(std::numeric_limits<S>::epsilon()) * toi.time / 16 : S(0);
+      off += toi.status != ToiStatus::invalid && !(std::abs(answers.time[i] - toi.time) <= within) ? 1U : 0U;
+    }
+    std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu\n", "ray aabb", target.c_str(), count,
+                100.0 * double(report.asked_again) / double(count), wrong);
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_EQ(off, 0U);
+  });
+}
+
+template <class S> void judge_every_pair() {
+  const std::size_t count = thorough(slow_build ? 20'000 : 1'000'000);
+  judge_rows<Sphere<S>, Sphere<S>>("sphere sphere", count);
+  judge_rows<Aabb<S>, Sphere<S>>("aabb sphere", count);
+  judge_rows<Obb<S>, Sphere<S>>("obb sphere", count);
+  judge_rows<Capsule<S>, Sphere<S>>("capsule sphere", count);
+  judge_rows<Aabb<S>, Aabb<S>>("aabb aabb", count);
+  judge_rays<S>(count);
+  judge_one_against_many<Aabb<S>, Sphere<S>>("aabb, 1st of 16", count / 10);
+  judge_one_against_many<Obb<S>, Sphere<S>>("obb, 1st of 16", count / 10);
+}
+
+TEST(BatchVerdicts, are_the_scalar_codes_own_in_double) { judge_every_pair<double>(); }
+TEST(BatchVerdicts, are_the_scalar_codes_own_in_float) { judge_every_pair<float>(); }
+
+// ---- A table of spheres, certified: every row is proven, at every width of vector, on the worst motions.
+
+struct CertifiedAnswers {
+  std::vector<ToiStatus> verdict;
+  std::vector<double> lower, upper;
+  explicit CertifiedAnswers(std::size_t rows) : verdict(rows), lower(rows), upper(rows) {}
+  CertifiedRows rows() { return {verdict, lower, upper}; }
+};
+
+TEST(CertifiedBatch, is_proven_by_the_integers_at_every_width) {
+  Shaker<double> draw(1);
+  RowTable<Ball> a, b;
+  const std::size_t count = thorough(4000);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto motion = i % 2 == 0 ? worst_motion<Sphere<double>, Sphere<double>>(draw)
+                                   : plain_motion<Sphere<double>, Sphere<double>>(draw);
+    a.push_back(motion.a);
+    b.push_back(motion.b);
+  }
+  for_each_target([&](const std::string& target) {
+    CertifiedAnswers answers(count);
+    const BatchReport report = certified_time_of_impact(a.rows(), b.rows(), answers.rows(), {2});
+    std::printf("%-7s %.2f %% asked again\n", target.c_str(), 100.0 * double(report.asked_again) / double(count));
+    EXPECT_LT(report.asked_again, count / 2);
+    for (std::size_t i = 0; i < count && !::testing::Test::HasFailure(); ++i) {
+      SCOPED_TRACE(i);
+      const CertifiedToi toi{answers.verdict[i], answers.lower[i], answers.upper[i], DecidedBy::filter};
+      EXPECT_EQ(toi.verdict, certified_time_of_impact(a[i], b[i]).verdict);
+      EXPECT_TRUE(judge_exactly(a[i], b[i], toi));
+    }
+  });
+}
+
+TEST(CertifiedBatch, names_what_is_wrong) {
+  RowTable<Ball> rows;
+  rows.push_back({{{0, 0, 0}, -1}, {1, 0, 0}});
+  CertifiedAnswers answers(1);
+  certified_time_of_impact(rows[0], rows.rows(), answers.rows());
+  EXPECT_EQ(answers.verdict[0], ToiStatus::invalid);
+  EXPECT_THROW(certified_time_of_impact(rows[0], rows.rows(), {answers.verdict, answers.lower, answers.lower}),
+               std::invalid_argument);
 }
 
 }  // namespace
