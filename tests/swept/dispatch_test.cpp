@@ -104,9 +104,10 @@ TEST(PairGroups, hold_every_pair_once_by_type_and_in_order) {
   EXPECT_EQ(groups.start[1 * 4 + 2], 2U);
   EXPECT_EQ(groups.start[2 * 4 + 1], 4U);
   EXPECT_EQ(groups.start[16], 5U);
-  const PairGroups none = group_pairs(bodies, bodies, {});
-  EXPECT_TRUE(none.order.empty());
-  EXPECT_TRUE(answers(none, bodies, bodies, {}, 0, [](const auto&, const auto&) { return 1; }).empty());
+  const std::vector<IndexPair> none;
+  const PairGroups no_groups = group_pairs(bodies, bodies, none);
+  EXPECT_TRUE(no_groups.order.empty());
+  EXPECT_TRUE(answers(no_groups, bodies, bodies, none, 0, [](const auto&, const auto&) { return 1; }).empty());
 }
 
 TEST(MovingDispatch, asks_the_shapes_that_are_held_by_any_method_in_either_order) {
