@@ -340,7 +340,7 @@ TYPED_TEST(CapsuleOnTriangle, a_ball_on_a_triangle_without_area_leaves_sideways)
   EXPECT_EQ(separation(ball, moved(wire, there.normal)).distance, S(0));
 }
 
-// ---- What is no shape meets nothing: a field that is not finite, or a size below zero. Of axes: ObbAxes.
+// ---- What is no shape meets nothing: a field that is not finite, a size below zero, axes that lean.
 
 template <class S> class BadShapes : public ::testing::Test {};
 TYPED_TEST_SUITE(BadShapes, Scalars, ScalarNames);
@@ -358,11 +358,10 @@ TYPED_TEST(BadShapes, meet_nothing) {
     Ray<S> ray{{-4, 0.25, 0}, {1, 0, 0}};
     with_every_number<S>(ray, [&] { EXPECT_TRUE(valid(ray) || !raycast(ray, shape)); });
     with_every_number<S>(shape, [&](const std::string& name, const S& number) {
-      if (name.starts_with("axis")) return;
-      const bool is_size = name == "radius" || name.starts_with("half");
+      const bool is_axis = name.starts_with("axis"), is_size = name == "radius" || name.starts_with("half");
       const bool is_bad = !is_finite(number) || (is_size && number < 0);
-      EXPECT_EQ(valid(shape), !is_bad);
-      if (!is_bad) return;
+      EXPECT_TRUE(is_bad ? !valid(shape) : is_axis || valid(shape));  // which axes a box may have: ObbAxes
+      if (valid(shape)) return;
       EXPECT_FALSE(raycast(ray, shape));
       for_each_type(TypeList<Sphere<S>, Aabb<S>, A>{}, [&]<class B>(TypeTag<B> other) {
         if constexpr (ServedPair<A, B>) {

@@ -52,20 +52,16 @@ TYPED_TEST(Manifolds, box_on_a_floor_rests_on_its_four_corners) {
   }
 }
 
-TYPED_TEST(Manifolds, touching_faces_have_four_points_of_no_depth) {
+TYPED_TEST(Manifolds, touching_faces_have_four_points_of_no_depth_and_overhanging_ones_are_clipped) {
   using S = TypeParam;
   const Aabb<S> box{{1, -1, 2}, {1, 1, 1}};
   for (const auto& found : {manifold(this->floor, box), manifold(this->floor, to_obb(box))}) {
     ASSERT_EQ(found.size(), 4U);
     for (const Contact<S>& c : found) EXPECT_EQ(c.penetration, S(0));
   }
-}
-
-TYPED_TEST(Manifolds, overhanging_box_is_clipped) {
-  using S = TypeParam;
-  const auto found = manifold(this->floor, Obb<S>{{4, 4, 2}, {1, 1, 1}, Mat3<S>::Identity()});
-  ASSERT_EQ(found.size(), 4U);
-  EXPECT_EQ(spread(found), S(1));
+  const auto overhanging = manifold(this->floor, Obb<S>{{4, 4, 2}, {1, 1, 1}, Mat3<S>::Identity()});
+  ASSERT_EQ(overhanging.size(), 4U);
+  EXPECT_EQ(spread(overhanging), S(1));
 }
 
 TYPED_TEST(Manifolds, octagon_keeps_four_of_eight_corners_far_apart) {
@@ -246,26 +242,19 @@ TYPED_TEST(CapsuleManifolds, ends_beyond_the_face_are_clipped) {
   const Aabb<S> step{{1, 1, 0}, {S(1) / S(2), 1, 1}};
   this->expect_ends(manifold(this->lying, step), S(1) / S(2), 1);
   this->expect_ends(manifold(this->lying, to_obb(step)), S(1) / S(2), 1);
+  this->expect_ends(manifold(this->lying, Aabb<S>{{0, 0, 0}, {4, 1, 1}}), -1, 1);  // along the rim
 }
 
-TYPED_TEST(CapsuleManifolds, along_the_rim_of_a_face_counts) {
+TYPED_TEST(CapsuleManifolds, has_one_point_where_its_core_is_not_along) {
   using S = TypeParam;
-  const Aabb<S> step{{0, 0, 0}, {4, 1, 1}};
-  this->expect_ends(manifold(this->lying, step), -1, 1);
-}
-
-TYPED_TEST(CapsuleManifolds, standing_tilted_or_a_ball_it_has_one_point) {
-  using S = TypeParam;
-  EXPECT_EQ(manifold(Capsule<S>{{0, 0, S(3) / S(2)}, {0, 0, 4}, 1}, this->floor).size(), 1U);
+  EXPECT_EQ(manifold(Capsule<S>{{0, 0, S(3) / S(2)}, {0, 0, 4}, 1}, this->floor).size(), 1U);  // standing
   EXPECT_EQ(manifold(Capsule<S>{{0, 0, S(3) / S(2)}, {1, 0, S(25) / S(16)}, 1}, this->floor).size(), 1U);
-  EXPECT_EQ(manifold(Capsule<S>{{0, 0, S(3) / S(2)}, {0, 0, S(3) / S(2)}, 1}, this->floor).size(), 1U);
-}
-
-TYPED_TEST(CapsuleManifolds, all_but_parallel_it_keeps_two_points) {
-  using S = TypeParam;
-  Capsule<S> tilted = this->lying;
-  tilted.b[2] += parallel_sine<S>();
-  EXPECT_EQ(manifold(tilted, this->floor).size(), 2U);
+  EXPECT_EQ(manifold(Capsule<S>{{0, 0, S(3) / S(2)}, {0, 0, S(3) / S(2)}, 1}, this->floor).size(), 1U);  // a ball
+  EXPECT_EQ(manifold(this->lying, Capsule<S>{{0, 0, 1}, {0, 2, 1}, 1}).size(), 1U);
+  EXPECT_EQ(manifold(this->lying, Capsule<S>{{2, 1, S(3) / S(2)}, {3, 1, S(3) / S(2)}, 1}).size(), 1U);  // end to end
+  Capsule<S> all_but_parallel = this->lying;
+  all_but_parallel.b[2] += parallel_sine<S>();
+  EXPECT_EQ(manifold(all_but_parallel, this->floor).size(), 2U);
 }
 
 TYPED_TEST(CapsuleManifolds, core_inside_a_box_leaves_along_one_face) {
@@ -313,12 +302,6 @@ TYPED_TEST(CapsuleManifolds, side_by_side_capsules_have_two_points) {
   const auto other = manifold(below, this->lying);
   ASSERT_EQ(other.size(), 2U);
   EXPECT_EQ(other[0].normal, axis_vector<S>(2));
-}
-
-TYPED_TEST(CapsuleManifolds, crossed_or_end_to_end_capsules_have_one_point) {
-  using S = TypeParam;
-  EXPECT_EQ(manifold(this->lying, Capsule<S>{{0, 0, 1}, {0, 2, 1}, 1}).size(), 1U);
-  EXPECT_EQ(manifold(this->lying, Capsule<S>{{2, 1, S(3) / S(2)}, {3, 1, S(3) / S(2)}, 1}).size(), 1U);
 }
 
 TYPED_TEST(CapsuleManifolds, cores_on_one_line_share_a_stretch) {

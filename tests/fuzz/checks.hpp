@@ -119,7 +119,7 @@ Toi<typename A::Scalar> check_ray(const Scene<A, B>& scene, const Ray<typename A
   using S = typename A::Scalar;
   const Check check(scene);
   const auto hit = raycast(ray, scene.b.shape);
-  const auto show = [&] { return "ray " + testing::describe(ray); };
+  const auto show = [&] { return "ray" + numbers_of(ray); };
   if (!valid(ray) || !valid(scene.b.shape)) check(!hit, "raycast(): a hit though the input is not valid", show);
   if (!hit) return {};
   const bool inside = is_zero(hit->normal), ordinary = is_ordinary(S(magnitude(ray) + magnitude(scene.b.shape)));

@@ -30,11 +30,12 @@ template <Scalar S> std::string text(const Vec3<S>& v) {
   return "{" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + "}";
 }
 /// Its numbers by their names.
-template <class A> std::string text(const Moving<A>& m) {
-  std::string all(testing::shape_name<A>);
-  testing::each_number(m, [&](const std::string& name, const auto& x) { all += " " + name + " " + text(x); });
+template <class Thing> std::string numbers_of(const Thing& thing) {
+  std::string all;
+  testing::each_number(thing, [&](const std::string& name, const auto& x) { all += " " + name + " " + text(x); });
   return all;
 }
+template <class A> std::string text(const Moving<A>& m) { return std::string(testing::shape_name<A>) + numbers_of(m); }
 inline std::string text(ToiStatus status) {
   constexpr const char* names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};
   return names[static_cast<int>(status)];

@@ -27,7 +27,7 @@ void expect_gap(const A& a, const B& b, const std::type_identity_t<S>& distance,
   EXPECT_EQ(found->penetration, -distance);
 }
 
-/// The points of their contact, from the center of each.
+/// The points of their contact, from the center of each, whichever is asked first.
 template <class A, class B, class S = typename A::Scalar>
 void expect_contact_at(const A& a, const B& b, const std::type_identity_t<Vec3<S>>& local_a,
                        const std::type_identity_t<Vec3<S>>& local_b,
@@ -37,6 +37,8 @@ void expect_contact_at(const A& a, const B& b, const std::type_identity_t<Vec3<S
   ASSERT_TRUE(found && back);
   EXPECT_EQ(found->local_a, local_a);
   EXPECT_EQ(found->local_b, local_b);
+  EXPECT_EQ(back->local_a, local_b);
+  EXPECT_EQ(back->local_b, local_a);
 }
 
 /// Where a ray first meets a shape; no normal: it starts in it, or in touch.

@@ -423,9 +423,9 @@ template <class S> void judge_rays(std::size_t count) {
                             one_ray.status[i] == batch::cast(rays[0], boxes[i]).status &&
                             one_box.status[i] == batch::cast(rays[i], boxes[0]).status;
       wrong += is_right ? 0U : 1U;
-      const S within =
-          toi.status == ToiStatus::hit ? std::sqrt(std::numeric_limits<S>::epsilon()) * toi.time / 16 : S(0);
-      off += toi.status != ToiStatus::invalid && !(std::abs(answers.time[i] - toi.time) <= within) ? 1U : 0U;
+      if (toi.status == ToiStatus::invalid || answers.time[i] == toi.time) continue;
+      const S within = std::sqrt(std::numeric_limits<S>::epsilon()) * toi.time / 16;
+      off += toi.status == ToiStatus::hit && std::abs(answers.time[i] - toi.time) <= within ? 0U : 1U;
     }
     std::printf("%-16s %-7s %zu rows, %.4f %% asked again; wrong %zu\n", "ray aabb", target.c_str(), count,
                 100.0 * double(report.asked_again) / double(count), wrong);
