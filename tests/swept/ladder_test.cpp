@@ -10,6 +10,7 @@
 #include <thinwall/swept/shapes.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
+#include "support/numbers_of.hpp"
 #include "support/shaker.hpp"
 #include "support/thorough.hpp"
 
@@ -200,18 +201,18 @@ TYPED_TEST(Ladder, the_front_door_climbs_it) {  // from either side
 
 // ---- Which rung decides what: doubt, and beside it none.
 
-bool is_clear(const Moving<Ball>& ball, const Ball& target, double gap = 0) {
-  return clear_impact(ball, at_rest(target), gap).clear;
+const Moving<Ball> unit_ball = at_rest(Ball{{0, 0, 0}, 1});
+const Moving<Box> cube = at_rest(Box{{0, 0, 0}, {1, 1, 1}});
+
+Moving<Ball> shot(const V& from, const V& by, double radius = 1) { return {{from, radius}, by}; }
+Moving<Box> box_shot(const V& from, const V& by) { return {{from, {1, 1, 1}}, by}; }
+template <class A, class B> bool is_clear(const Moving<A>& a, const Moving<B>& b, double gap = 0) {
+  return clear_impact(a, b, gap).clear;
 }
-bool is_clear(const Box& box, const Moving<Ball>& ball, double gap = 0) {
-  return clear_impact(at_rest(box), ball, gap).clear;
-}
-bool is_clear(const Box& a, const Moving<Box>& b, double gap = 0) { return clear_impact(at_rest(a), b, gap).clear; }
 
 TEST(LadderFilters, a_graze_and_the_end_of_the_step_are_careful) {  // of which one is at height 2, and one at speed 2
-  const Ball ball{{0, 0, 0}, 1};
-  const auto at_height = [&](double y) { return is_clear({Ball{{-4, y, 0}, 1}, {8, 0, 0}}, ball); };
-  const auto at_speed = [&](double speed) { return is_clear({Ball{{-4, 0, 0}, 1}, {speed, 0, 0}}, ball); };
+  const auto at_height = [](double y) { return is_clear(shot({-4, y, 0}, {8, 0, 0}), unit_ball); };
+  const auto at_speed = [](double speed) { return is_clear(shot({-4, 0, 0}, {speed, 0, 0}), unit_ball); };
   for (const double off : {0.0, 0x1p-12, -0x1p-12}) EXPECT_FALSE(at_height(2 + off)) << off;
   for (const double off : {0.0, 0x1p-12}) EXPECT_FALSE(at_speed(2 + off)) << off;
   for (const double off : {0x1p-8, -0x1p-8}) EXPECT_TRUE(at_height(2 + off)) << off;
@@ -219,26 +220,23 @@ TEST(LadderFilters, a_graze_and_the_end_of_the_step_are_careful) {  // of which 
 }
 
 TEST(LadderFilters, a_start_in_touch_is_careful) {
-  const Box box{{0, 0, 0}, {1, 1, 1}};
-  for (const double x : {-1.5, -2.0, std::nextafter(-2.0, -3.0)}) {
-    EXPECT_FALSE(is_clear({Ball{{x, 0, 0}, 1}, {8, 0, 0}}, Ball{{0, 0, 0}, 1})) << x;
-    EXPECT_FALSE(is_clear(box, {Ball{{x, 0, 0}, 1}, {8, 0, 0}})) << x;
+  for (const double x : {-1.5, -2.0, std::nextafter(-2.0, -3.0), -2 - 0x1p-20}) {
+    const V from(x, 0, 0), by(8, 0, 0);
+    const bool is_beside = x < -2 - 0x1p-30;
+    EXPECT_EQ(is_clear(shot(from, by), unit_ball), is_beside) << x;
+    EXPECT_EQ(is_clear(cube, shot(from, by)), is_beside) << x;
+    EXPECT_EQ(is_clear(cube, box_shot(from, by)), is_beside) << x;
   }
-  EXPECT_FALSE(is_clear(box, {Box{{-2, 0, 0}, {1, 1, 1}}, {8, 0, 0}}));
-  EXPECT_TRUE(is_clear({Ball{{-2 - 0x1p-20, 0, 0}, 1}, {8, 0, 0}}, Ball{{0, 0, 0}, 1}));
-  EXPECT_TRUE(is_clear(box, {Ball{{-2 - 0x1p-20, 0, 0}, 1}, {8, 0, 0}}));
-  EXPECT_TRUE(is_clear(box, {Box{{-2 - 0x1p-20, 0, 0}, {1, 1, 1}}, {8, 0, 0}}));
 }
 
 TEST(LadderFilters, an_edge_met_by_an_edge_is_careful) {  // the slabs of x and y open and close at one time
-  const Box box{{0, 0, 0}, {1, 1, 1}};
-  EXPECT_FALSE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {4, 4, 0}}));
-  EXPECT_TRUE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {4, 3, 0}}));
+  EXPECT_FALSE(is_clear(cube, box_shot({-4, 0, 0}, {4, 4, 0})));
+  EXPECT_TRUE(is_clear(cube, box_shot({-4, 0, 0}, {4, 3, 0})));
 }
 
 TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps, and along it
   const auto is_sure = [](const V& from, const V& by) {
-    return clear_impact(at_rest(Rod{{0, 0, 0}, {0, 0, 4}, 1}), Moving<Ball>{{from, 1}, by}, 0).clear;
+    return is_clear(at_rest(Rod{{0, 0, 0}, {0, 0, 4}, 1}), shot(from, by));
   };
   EXPECT_FALSE(is_sure({-4, 2, 2}, {8, 0, 0}));
   EXPECT_FALSE(is_sure({-4, 0, 6}, {8, 0, 0}));
@@ -253,8 +251,7 @@ TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps,
 // A hundredth of the gap beside it, which is a few roundings.
 TEST(LadderFilters, an_end_within_the_noise_of_a_creep_is_careful) {
   const auto creep = [](double gap) {
-    const Moving<Ball> ball{{{-2 - gap, 0, 0}, 1}, {gap * 1.01, 0, 0}};
-    return clear_impact(at_rest(Turned{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}), ball, 0).clear;
+    return is_clear(at_rest(to_obb(cube.shape)), shot({-2 - gap, 0, 0}, {gap * 1.01, 0, 0}));
   };
   EXPECT_FALSE(creep(0x1p-43));
   EXPECT_TRUE(creep(0x1p-20));
@@ -265,13 +262,13 @@ TEST(LadderFilters, quotients_that_underflow_are_careful) {
   const Box plate{{0, 0, 0}, {1, 1e-300, 1}};
   const V above(0, std::nextafter(1e-300, 1.0), 0), by(1, -1e12, 0);
   EXPECT_FALSE(clear_raycast(Ray<double>{above, by}, plate).clear);
-  EXPECT_FALSE(is_clear(plate, {Box{above, {0, 0, 0}}, by}));
+  EXPECT_FALSE(is_clear(at_rest(plate), Moving{Box{above, {0, 0, 0}}, by}));
 }
 
 TEST(LadderFilters, axes_that_are_off_are_careful) {  // by more than a few roundings
-  Turned box{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
+  Turned box = to_obb(cube.shape);
   const auto is_sure = [&] {
-    const bool impact = clear_impact(at_rest(box), Moving<Ball>{{{-4, 0, 0}, 1}, {8, 0.5, 0.5}}, 0).clear;
+    const bool impact = is_clear(at_rest(box), shot({-4, 0, 0}, {8, 0.5, 0.5}));
     EXPECT_EQ(clear_raycast(Ray<double>{{-4, 0, 0}, {8, 0.5, 0.5}}, box).clear, impact);
     return impact;
   };
@@ -284,30 +281,34 @@ TEST(LadderFilters, axes_that_are_off_are_careful) {  // by more than a few roun
   EXPECT_FALSE(is_sure());
 }
 
-TEST(LadderFilters, what_is_no_question_or_out_of_range_is_careful) {
-  const Box box{{0, 0, 0}, {1, 1, 1}};
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto ball = [](double x, double radius, double speed) {
-    return Moving<Ball>{{{x, 0, 0}, radius}, {speed, 0, 0}};
+/// Any number of the two that is none, or out of range.
+template <class A, class B> void expect_careful_of_bad_numbers(Moving<A> a, Moving<B> b) {
+  EXPECT_TRUE(is_clear(a, b));
+  const auto spoil = [&](const std::string& name, double& number) {
+    const double usual = number;
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e300, -1e300}) {
+      number = bad;
+      EXPECT_FALSE(is_clear(a, b)) << name << " " << bad;
+    }
+    number = usual;
   };
-  for (const double bad : {nan, infinity, -infinity, 1e300, -1e300}) {
-    EXPECT_FALSE(is_clear(ball(bad, 1, 8), Ball{{0, 0, 0}, 1})) << bad;
-    EXPECT_FALSE(is_clear(ball(-4, 1, bad), Ball{{0, 0, 0}, 1})) << bad;
-    EXPECT_FALSE(is_clear(ball(-4, bad, 8), Ball{{0, 0, 0}, 1})) << bad;
-    EXPECT_FALSE(is_clear(box, ball(bad, 1, 8))) << bad;
-    EXPECT_FALSE(is_clear(box, ball(-4, 1, bad))) << bad;
-    EXPECT_FALSE(is_clear(box, ball(-4, bad, 8))) << bad;
-    EXPECT_FALSE(is_clear(box, {Box{{bad, 0, 0}, {1, 1, 1}}, {8, 0, 0}})) << bad;
-    EXPECT_FALSE(is_clear(box, {Box{{-4, 0, 0}, {1, bad, 1}}, {8, 0, 0}})) << bad;
-    EXPECT_FALSE(is_clear(box, {Box{{-4, 0, 0}, {1, 1, 1}}, {8, 0, bad}})) << bad;
+  each_number(a, spoil);
+  each_number(b, spoil);
+}
+
+TEST(LadderFilters, what_is_no_question_or_out_of_range_is_careful) {
+  const V from(-4, 0, 0), by(8, 0, 0);
+  expect_careful_of_bad_numbers(shot(from, by), unit_ball);
+  expect_careful_of_bad_numbers(cube, shot(from, by));
+  expect_careful_of_bad_numbers(cube, box_shot(from, by));
+  EXPECT_FALSE(is_clear(shot(from, by, -0.5), unit_ball));
+  for (const double gap : {-0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(is_clear(shot(from, by), unit_ball, gap)) << gap;
+    EXPECT_FALSE(is_clear(cube, shot(from, by), gap)) << gap;
   }
-  EXPECT_FALSE(is_clear(ball(-4, -0.5, 8), Ball{{0, 0, 0}, 1}));
-  EXPECT_FALSE(is_clear(ball(-4, 1, 8), Ball{{0, 0, 0}, 1}, -0.5));
-  EXPECT_FALSE(is_clear(ball(-4, 1, 8), Ball{{0, 0, 0}, 1}, nan));
-  EXPECT_FALSE(is_clear(box, ball(-4, 1, 8), -0.5));
-  EXPECT_FALSE(is_clear(Box{{0, 0, 0}, {1, -1, 1}}, ball(-4, 3, 8)));
-  EXPECT_FALSE(is_clear(ball(-4, 0, 8), Ball{{0, 0, 0}, 0}));
-  EXPECT_FALSE(is_clear(ball(-4, 1, 0), Ball{{0, 0, 0}, 1}));
+  EXPECT_FALSE(is_clear(at_rest(Box{{0, 0, 0}, {1, -1, 1}}), shot(from, by, 3)));
+  EXPECT_FALSE(is_clear(shot(from, by, 0), at_rest(Ball{{0, 0, 0}, 0})));
+  EXPECT_FALSE(is_clear(shot(from, {0, 0, 0}), unit_ball));
 }
 
 TEST(LadderFilters, a_size_below_zero_is_invalid_however_small_beside_the_rest) {
