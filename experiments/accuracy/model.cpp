@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thinwall/experiments/models/oracle.hpp>
 #include <thinwall/experiments/models/queries.hpp>
+#include <thinwall/experiments/models/truth.hpp>
 
 namespace thinwall {
 
@@ -52,9 +52,7 @@ void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, Acc
   const Digits50 tolerance = ldexp(Digits50(1), -140);
   const auto problem = oracle::pose<Digits50>(a, b);
   const bool timed = toi.status == ToiStatus::hit;
-  const Digits50 guess =
-      timed ? Digits50(toi.time) * (1 - ldexp(Digits50(1), -std::numeric_limits<S>::digits / 2)) : Digits50(0);
-  const auto truth = oracle::first_contact(problem, guess, tolerance);
+  const auto truth = oracle::first_contact(problem, guess_from<Digits50>(toi), tolerance);
   ++tally.queries;
   tally.hits += truth.verdict == oracle::Verdict::hit ? 1 : 0;
   tally.overlapping += truth.verdict == oracle::Verdict::overlapping ? 1 : 0;
@@ -79,8 +77,7 @@ template <class A, class B> void judge_verdict(const Moving<A>& a, const Moving<
   const auto toi = time_of_impact(a, b);
   const long double tolerance = std::ldexp(1.0L, -56);
   const auto problem = oracle::pose<long double>(a, b);
-  const auto rough = oracle::first_contact<long double>(
-      problem, toi.status == ToiStatus::hit ? static_cast<long double>(toi.time) * (1 - 0x1p-26L) : 0.0L, tolerance);
+  const auto rough = oracle::first_contact(problem, guess_from<long double>(toi), tolerance);
   if (agree(toi.status, rough.verdict)) {
     ++tally.queries;
     tally.hits += rough.verdict == oracle::Verdict::hit ? 1 : 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// The precision ladder: the axes along which one thing at a time is made extreme, the pairs of shapes and the precisions that are
-/// asked there, what comes of it, and where a method breaks. The kernels are instantiated in kernels/ask.cpp alone.
+/// asked there, what comes of it, where a method breaks, and what theory says. The kernels are instantiated in kernels/ask.cpp alone.
 
 #include <array>
 #include <cstddef>
@@ -12,11 +12,11 @@
 #include <vector>
 
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/lab/text.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 
-class Settings;
+// ---- What is asked.
 
 enum class ExtremeAxis { scale, distance, speed, thickness, offset, grazing, ratio };
 
@@ -50,25 +50,14 @@ Extreme extreme_at(const Place& place);
 /// Every value of every axis that the settings choose, axis by axis, from the least to the greatest. Throws UsageError.
 std::vector<Place> make_places(const Settings& settings);
 
-/// An axis from its usual value outward, to one side: along these a method survives, and then breaks.
-struct Arm {
-  ExtremeAxis axis;
-  int side;  ///< +1 to greater values, -1 to lesser
-  std::string_view name;
-};
-std::span<const Arm> all_arms();
-
-/// The values of an arm among the places, from the usual outward.
-std::vector<double> values_along(const Arm& arm, const std::vector<Place>& places);
-
-/// A precision, its name in the settings and its round-off.
-struct Precision {
-  std::string_view name;
-  double unit;           ///< [1] u
-  bool is_wide = false;  ///< in software
-};
-inline constexpr std::size_t precision_count = 4;
-const std::array<Precision, precision_count>& all_precisions();
+enum class Precision { in_float, in_double, in_long_double, at_50_digits };
+inline constexpr std::array all_precisions = {Precision::in_float, Precision::in_double, Precision::in_long_double,
+                                              Precision::at_50_digits};
+constexpr std::string_view name(Precision precision) {  // in the settings
+  constexpr std::array<std::string_view, 4> names{"float", "double", "long_double", "50_digits"};
+  return names[static_cast<std::size_t>(precision)];
+}
+double unit_of(Precision precision);  ///< [1] u, its round-off
 
 /// What came of one method on the queries of one place, pair and precision.
 struct ExtremeTally {
@@ -82,7 +71,8 @@ struct ExtremeTally {
   static constexpr auto fields() {
     using T = ExtremeTally;
     return record(
-        kept("method", &T::method), sum("queries", &T::queries, "1", "That the precision can hold."),
+        kept("method", &T::method, "", "Way to find the time of impact; textbook is a foil."),
+        sum("queries", &T::queries, "1", "That the precision can hold."),
         sum("touching", &T::touching, "1", "Of those, that touch, by the oracle."),
         sum("changed", &T::changed, "1", "Whose verdict rounding the input has changed, whatever the method."),
         sum("wrong", &T::wrong, "1", "Verdicts that are wrong, by however little."),
@@ -111,51 +101,54 @@ struct ExtremeInquiry {
 };
 using AskExtreme = std::vector<ExtremeTally> (*)(const ExtremeInquiry& inquiry);
 
+/// Who is asked about a pair. Boxes have no radius to give them a normal where they touch.
+enum class PairSet {
+  rounded,            ///< every method, in every precision: with a ball
+  boxes,              ///< the same: two boxes
+  closed_form_alone,  ///< and the foil, in float and double
+};
+constexpr std::string_view name(PairSet pairs) {
+  constexpr std::array<std::string_view, 3> names{"with a ball", "two boxes", "closed form alone"};
+  return names[static_cast<std::size_t>(pairs)];
+}
+
 struct ExtremePair {
   std::string_view name;
-  bool rounded;                                 ///< at least one shape has a radius
-  bool has_box;                                 ///< that can be thin
-  std::array<AskExtreme, precision_count> ask;  ///< null: not in that precision
-
-  bool every_method() const { return ask.back() != nullptr; }  ///< or the closed form and the foil, in float and double
+  PairSet set;
+  bool has_box;                                        ///< that can be thin
+  std::array<AskExtreme, all_precisions.size()> asks;  ///< null: not in that precision
 };
 std::span<const ExtremePair> extreme_pairs();
 
 /// Every method that is asked anywhere, the foil first.
 std::vector<std::string_view> extreme_method_names();
 
-/// A method at a place, on a pair, in a precision.
+/// A method at a place, on a pair, in a precision; of the queries that this can hold there is at least one.
 struct ExtremeRow {
   const ExtremePair* pair;
-  std::size_t precision;  ///< index into all_precisions()
+  Precision precision;
   Place place;
   ExtremeTally tally;
 };
 
-/// Some of the pairs. Boxes have no radius to give them a normal where they touch.
-enum class PairSet {
-  rounded,  ///< of the four that every method is asked, those with a ball
-  boxes,    ///< of the same, the two boxes
-  four,     ///< both
-  all,      ///< those of the closed form and the foil alone, too
-};
-
-bool is_in(const ExtremePair& pair, PairSet pairs);
-
-/// A method in a precision, on some of the pairs.
-struct ExtremeContender {
-  std::string_view method;
-  std::size_t precision;  ///< index into all_precisions()
-  PairSet pairs = PairSet::four;
-
-  bool has(const ExtremeRow& row) const;  ///< and it was asked
-};
-
-std::vector<std::size_t> precisions_of(const std::vector<ExtremeRow>& rows);  ///< that occur
-std::vector<Place> places_of(const std::vector<ExtremeRow>& rows);            ///< axis by axis, ascending
-
 /// What was asked of two balls along the distance: there the textbook loses by theory.
-std::vector<ExtremeRow> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method, std::size_t precision);
+std::vector<ExtremeRow> two_balls(const std::vector<ExtremeRow>& rows, std::string_view method, Precision precision);
+
+// ---- Where a method breaks.
+
+/// An axis from its usual value outward, to one side: along these a method survives, and then breaks.
+struct Arm {
+  ExtremeAxis axis;
+  int side;  ///< +1 to greater values, -1 to lesser
+  std::string_view name;
+
+  std::string_view side_name() const { return side > 0 ? "greater" : "lesser"; }
+};
+inline constexpr std::array all_arms = {Arm{ExtremeAxis::scale, -1, "small"},  Arm{ExtremeAxis::scale, 1, "large"},
+                                        Arm{ExtremeAxis::distance, 1, "far"},  Arm{ExtremeAxis::speed, -1, "slow"},
+                                        Arm{ExtremeAxis::speed, 1, "fast"},    Arm{ExtremeAxis::thickness, -1, "thin"},
+                                        Arm{ExtremeAxis::offset, 1, "offset"}, Arm{ExtremeAxis::grazing, -1, "graze"},
+                                        Arm{ExtremeAxis::ratio, -1, "unequal"}};
 
 /// Why a method is broken, the worst first.
 enum class Flaw {
@@ -164,24 +157,56 @@ enum class Flaw {
   nan,      ///< no number, or a valid input called invalid
   gave_up,  ///< out of evaluations
 };
-std::string_view name(Flaw flaw);
+constexpr std::string_view name(Flaw flaw) {
+  constexpr std::array<std::string_view, 4> names{"verdict", "error", "nan", "gave_up"};
+  return names[static_cast<std::size_t>(flaw)];
+}
 inline constexpr double break_verdict = 4;  ///< [u]
 inline constexpr double break_error = 100;  ///< [u kappa t] two decimals lost
 
 std::optional<Flaw> flaw_of(const ExtremeTally& tally);
 
-/// How far a method gets along an arm, on its pairs together.
+/// A method in a precision, on some of the pairs.
+struct ExtremeContender {
+  std::string method;
+  Precision precision;
+  PairSet pairs;
+};
+
+/// How far a contender gets along an arm, on its pairs together.
 struct Survival : ExtremeContender {
   const Arm* arm;
-  std::optional<double>
-      survived{};                  ///< the last value at which nothing was wrong, before the first where something was
-  std::optional<double> broken{};  ///< that first value
-  Flaw flaw = Flaw::verdict;       ///< the worst there
-  std::string_view pair{};         ///< whose
+  std::optional<double> survived{};  ///< the last value before the first at which something was wrong
+  std::optional<double> broken{};    ///< that first value
+  std::optional<Flaw> flaw{};        ///< the worst there
+  std::string_view pair{};           ///< whose
 
   bool is_asked() const { return survived || broken; }
 };
-/// `arm` is one of `all_arms`.
-Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const ExtremeContender& whose);
+/// `rows` are the contender's, at all places; `arm` is one of `all_arms`.
+Survival survival(const std::vector<ExtremeRow>& rows, const Arm& arm, const ExtremeContender& whose = {});
+
+// ---- The self-test: the textbook's loss against its theory, and the closed form against its contract.
+
+/// One thing that theory says, held against the cells of one precision.
+struct LadderTest {
+  std::string what;
+  Precision precision;
+  std::int64_t cells = 0;
+  double measured = 0;  ///< the worst of the cells, in the unit of `allowed`
+  double least = 0;     ///< what is allowed, from
+  double most = 0;      ///< ... to
+  std::string where{};  ///< the worst cell
+  bool passed() const { return least <= measured && measured <= most; }
+};
+
+/// What the textbook's form for two balls should lose: `u k (d / R)^exponent / 2` of the radius, with k <= `most` whatever d / R.
+struct LossTheory {
+  double exponent = 2;
+  double most = 16;   ///< [1] derived in docs/extremes.md
+  double spread = 4;  ///< [1] the largest root mean square of k over the least, from decade to decade
+};
+
+std::vector<LadderTest> ladder_tests(const std::vector<ExtremeRow>& rows, const LossTheory& theory = {});
 
 }  // namespace thinwall

@@ -33,6 +33,9 @@ namespace thinwall::oracle {
 template <class R> using Vec = std::array<R, 3>;
 
 template <class R> R dot(const Vec<R>& a, const Vec<R>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class R> Vec<R> cross(const Vec<R>& a, const Vec<R>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 template <class R> Vec<R> combination(const R& s, const Vec<R>& a, const R& t, const Vec<R>& b) {
   return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
 }

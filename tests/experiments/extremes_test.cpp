@@ -11,8 +11,8 @@
 
 #include <thinwall/experiments/accuracy/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/extremes/kernels/truth.hpp>
-#include <thinwall/experiments/extremes/theory.hpp>
+#include <thinwall/experiments/extremes/model.hpp>
+#include <thinwall/experiments/models/truth.hpp>
 #include <thinwall/swept/methods.hpp>
 
 #include "support/experiment_run.hpp"
@@ -83,34 +83,34 @@ TEST(ExtremeSettings, of_accuracy_are_a_thousand_units_a_row) {
 
 // ---- The precision ladder: who breaks where, known separations, and a self-test that fails a wrong theory.
 
-enum : std::size_t { in_float, in_double, in_long_double, at_50_digits };
+using enum Precision;
 
 /// The rows of one pair and precision along one axis.
-std::vector<ExtremeRow> extreme_rows(std::string_view pair_name, std::size_t precision, ExtremeAxis axis,
+std::vector<ExtremeRow> extreme_rows(std::string_view pair_name, Precision precision, ExtremeAxis axis,
                                      const std::vector<double>& values, std::int64_t queries,
                                      const std::vector<std::string>& methods) {
   const ExtremePair& pair = *std::ranges::find(extreme_pairs(), pair_name, &ExtremePair::name);
   std::vector<ExtremeRow> rows;
   for (const double value : values) {
     const Place place = {axis, value};
-    for (const ExtremeTally& tally : pair.ask[precision]({place, queries, 1, methods, 1}))
+    for (const ExtremeTally& tally : pair.asks[static_cast<std::size_t>(precision)]({place, queries, 1, methods, 1}))
       rows.push_back({&pair, precision, place, tally});
   }
   return rows;
 }
 
-ExtremeTally tally_of(std::string_view pair, std::size_t precision, const Place& place, std::int64_t queries,
+ExtremeTally tally_of(std::string_view pair, Precision precision, const Place& place, std::int64_t queries,
                       const std::string& method) {
   return extreme_rows(pair, precision, place.axis, {place.value}, queries, {method}).at(0).tally;
 }
 
 /// Two decades of the distance, two balls, the closed form and the foil, in a precision.
-std::vector<ExtremeRow> loss_rows(std::size_t precision, std::vector<double> distances = {10, 100}) {
+std::vector<ExtremeRow> loss_rows(Precision precision, std::vector<double> distances = {10, 100}) {
   return extreme_rows("sphere_sphere", precision, ExtremeAxis::distance, distances, 24, {"textbook", "closed_form"});
 }
 
 TEST(Extremes, the_textbook_fails_far_off_and_the_next_precision_takes_it_farther) {
-  const auto far_wrong = [](std::size_t precision, double distance, std::int64_t queries) {
+  const auto far_wrong = [](Precision precision, double distance, std::int64_t queries) {
     return tally_of("sphere_sphere", precision, {ExtremeAxis::distance, distance}, queries, "textbook").far_wrong;
   };
   EXPECT_GT(far_wrong(in_float, 1e4, 40), 8) << "u (d/R)^2 = 6";
@@ -179,41 +179,45 @@ TEST(Extremes, asks_every_method_of_the_list_and_the_foil) {
   });
 }
 
-/// Where a method breaks, on rows as none is. They lead from the usual value outward.
-Survival far_survival(const std::vector<std::pair<double, ExtremeTally>>& tallies) {
+/// Where a method breaks along an arm, on rows as none is.
+Survival survival_of(std::string_view arm, const std::vector<std::pair<double, ExtremeTally>>& tallies) {
+  const Arm& along = *std::ranges::find(all_arms, arm, &Arm::name);
   std::vector<ExtremeRow> rows;
-  for (const auto& [distance, tally] : tallies)
-    rows.push_back({extreme_pairs().data(), in_double, {ExtremeAxis::distance, distance}, tally});
-  return survival(rows, *std::ranges::find(all_arms(), "far", &Arm::name), {"", in_double});
+  for (const auto& [value, tally] : tallies)
+    rows.push_back({extreme_pairs().data(), in_double, {along.axis, value}, tally});
+  return survival(rows, along);
 }
 
 TEST(ExtremeBreaks, are_the_first_outward_and_the_worst_there) {
-  const Survival s = far_survival({{1000, {.queries = 9, .worst_wrong = 9}},
-                                   {1, {.queries = 9, .worst_wrong = 3.9, .forward_max = 99}},
-                                   {10, {.queries = 9}},
-                                   {100, {.queries = 9, .forward_max = 101}},
-                                   {100, {.queries = 9, .invalid = 1, .worst_wrong = 5}}});
+  const Survival s = survival_of("far", {{1000, {.worst_wrong = 9}},
+                                         {1, {.worst_wrong = 3.9, .forward_max = 99}},
+                                         {10, {}},
+                                         {100, {.forward_max = 101}},
+                                         {100, {.invalid = 1, .worst_wrong = 5}}});
   EXPECT_EQ(s.survived, 10);
   EXPECT_EQ(s.broken, 100);
   EXPECT_EQ(s.flaw, Flaw::verdict);
 }
 
-TEST(ExtremeBreaks, skip_what_was_not_asked_and_tell_all_from_none) {
-  const Survival never = far_survival({{1, {.queries = 9}}, {10, {}}});
+TEST(ExtremeBreaks, tell_all_from_none) {
+  const Survival never = survival_of("far", {{1, {}}});
   EXPECT_EQ(never.survived, 1);
   EXPECT_FALSE(never.broken);
-  const Survival at_once = far_survival({{1, {.queries = 9, .invalid = 1}}});
+  const Survival at_once = survival_of("far", {{1, {.invalid = 1}}});
   EXPECT_FALSE(at_once.survived);
   EXPECT_EQ(at_once.broken, 1);
   EXPECT_EQ(at_once.flaw, Flaw::nan);
-  EXPECT_FALSE(far_survival({{1, {}}}).is_asked());
+  EXPECT_FALSE(survival_of("far", {}).is_asked());
 }
 
-TEST(ExtremeArms, lead_outward_from_the_usual) {
-  std::vector<Place> places;
-  for (const double value : {1e-30, 1e-10, 1.0, 1e10}) places.push_back({ExtremeAxis::scale, value});
-  EXPECT_EQ(values_along(all_arms()[0], places), (std::vector<double>{1, 1e-10, 1e-30}));
-  EXPECT_EQ(values_along(all_arms()[1], places), (std::vector<double>{1, 1e10}));
+/// From the usual value, which both sides have, to either side.
+TEST(ExtremeBreaks, lie_on_their_arm_outward_from_the_usual) {
+  const ExtremeTally none = {}, silent = {.gave_up = 1};
+  const Survival small = survival_of("small", {{1e-30, silent}, {1e-10, none}, {1, none}, {1e10, silent}});
+  EXPECT_EQ(small.survived, 1e-10);
+  EXPECT_EQ(small.broken, 1e-30);
+  EXPECT_EQ(survival_of("large", {{1e-30, silent}, {1, none}, {1e10, none}}).survived, 1e10);
+  EXPECT_EQ(survival_of("large", {{1e-30, silent}, {1, silent}}).broken, 1);
 }
 
 /// One passes over the other, `height` above its center: contact below 2.
@@ -235,11 +239,11 @@ TEST(ExtremeTruth, margin_is_the_least_separation_over_its_scale) {
 TEST(ExtremeTruth, judges_a_time_by_how_late_and_by_how_deep) {
   const Sphere<double> ball = {{0, 0, 0}, 1};
   Truth truth(Moving{moved(ball, Vec3<double>(-4, 0, 0)), Vec3<double>(4, 0, 0)}, at_rest(ball),
-              Digits110(0.5 - 0x1p-30));
+              Toi<double>{ToiStatus::hit, 1, 0.5});
   ASSERT_EQ(truth.verdict(), oracle::Verdict::hit);
   const AnswerErrors late = truth.errors({ToiStatus::hit, 1, 0.5 + 8 * 0x1p-53});  // kappa t = (4 + 2 + 2) / 4 = 2
-  EXPECT_NEAR(late.forward.value(), 4, 1e-6);
-  EXPECT_NEAR(late.backward.value(), 4, 1e-6);
+  EXPECT_NEAR(late.time.value().forward, 4, 1e-6);
+  EXPECT_NEAR(late.time.value().backward, 4, 1e-6);
   EXPECT_FALSE(late.wrong);
   const AnswerErrors missed = truth.errors({ToiStatus::apart, 1});
   EXPECT_TRUE(missed.wrong);
@@ -249,7 +253,7 @@ TEST(ExtremeTruth, judges_a_time_by_how_late_and_by_how_deep) {
 bool all_passed(const std::vector<LadderTest>& tests) { return std::ranges::all_of(tests, &LadderTest::passed); }
 
 TEST(ExtremeTheory, holds_in_every_precision) {
-  for (const std::size_t precision : {in_float, in_double, in_long_double}) {
+  for (const Precision precision : {in_float, in_double, in_long_double}) {
     const auto tests = ladder_tests(loss_rows(precision));
     EXPECT_EQ(tests.size(), 7U);
     for (const LadderTest& t : tests) EXPECT_TRUE(t.passed()) << t.what << " " << t.measured << " at " << t.where;
@@ -311,6 +315,19 @@ TEST(ExtremesConfig, heat_maps_have_a_cell_for_all_that_is_asked) {
   }
   EXPECT_TRUE(holds(outcome.answer, "two balls wrong from 10^4 R apart in float and at no distance in double"));
   EXPECT_TRUE(holds(outcome.answer, "it breaks nowhere"));
+}
+
+/// Neither broken nor survived there.
+TEST(ExtremesConfig, what_a_precision_cannot_hold_is_in_no_table) {
+  const Outcome outcome = outcome_of(extremes_experiment(), small_toml("extremes") + "\nmethod = ['closed_form']");
+  const Table& cells = table_of(outcome, "cells");
+  for (std::size_t i = 0; i < cells.rows.size(); ++i) EXPECT_EQ(value_of(cells, i, "queries"), Value(std::int64_t{6}));
+  const Table& breaks = table_of(outcome, "breaks");
+  for (std::size_t i = 0; i < breaks.rows.size(); ++i) {
+    if (value_of(breaks, i, "side") != Value("lesser")) continue;
+    const bool in_float_there = value_of(breaks, i, "precision") == Value("float");
+    EXPECT_EQ(value_of(breaks, i, "survived"), Value(in_float_there ? 1 : 1e-100));
+  }
 }
 
 /// One answer a person can say: three sentences at most, and powers of ten as such.

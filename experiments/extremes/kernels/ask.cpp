@@ -10,23 +10,24 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <numeric>
 #include <span>
 
-#include <thinwall/experiments/extremes/kernels/foil.hpp>
-#include <thinwall/experiments/extremes/kernels/truth.hpp>
 #include <thinwall/experiments/extremes/model.hpp>
 #include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/models/queries.hpp>
+#include <thinwall/experiments/models/textbook.hpp>
+#include <thinwall/experiments/models/truth.hpp>
 #include <thinwall/swept/methods.hpp>
 
 namespace thinwall {
 
 namespace {
 
+template <class S> constexpr int digits = std::numeric_limits<S>::digits;
+
 /// One query, as drawn or as a precision has it, and what it is meant to be before it is rounded.
-template <class A, class B> struct ExtremeQuery {
-  Moving<A> a;
-  Moving<B> b;
+template <class A, class B> struct ExtremeQuery : MovingPair<A, B> {
   bool meant_to_touch;
 };
 
@@ -38,15 +39,13 @@ template <class A> A plain_shape(QueryNumbers& u) {
   } else if constexpr (std::same_as<A, Aabb<double>>) {
     return {origin, random_half_extents(u, 0.3)};
   } else if constexpr (std::same_as<A, Obb<double>>) {
-    const Vec3<double> half = random_half_extents(u, 0.3);
-    return {origin, half, random_axes(u)};
+    return {origin, random_half_extents(u, 0.3), random_axes(u)};
   } else if constexpr (std::same_as<A, Capsule<double>>) {
     const Vec3<double> direction = u.direction();
     const Vec3<double> half = direction * u.between(0.3, 1);
     return {-half, half, u.between(0.2, 0.5)};
   } else {
-    const Vec3<double> a = u.direction(), b = u.direction(), c = u.direction();
-    return {a, b, c};
+    return {u.direction(), u.direction(), u.direction()};
   }
 }
 
@@ -71,20 +70,15 @@ template <class A, class S> A stretched(const A& a, const S& factor) {
 double size_of(const Sphere<double>& s) { return s.radius; }
 template <class A> double size_of(const A& shape) { return safe_norm(half_widths(shape)); }
 
-template <class B>
-concept HasHalfExtents = requires(const B& box) { box.half_extents; };
-template <class A>
-concept HasRadius = requires(const A& ball) { ball.radius; };
-
 /// One query in two moves along a coordinate axis beside a body at rest at the origin: so that what rounding does to a far
 /// path does not turn it away from what it should meet. The others run any way, and both bodies move.
 template <class A, class B> ExtremeQuery<A, B> draw_extreme(QueryNumbers& u, const Extreme& e) {
   StraightPass<A, B> pass;
   pass.a = stretched(plain_shape<A>(u), e.ratio);
   pass.b = plain_shape<B>(u);
-  if constexpr (HasHalfExtents<B>) {
+  if constexpr (requires { pass.b.half_extents; }) {
     pass.b.half_extents[0] *= e.thickness;
-    if constexpr (HasRadius<A>) pass.a.radius *= e.thickness;
+    if constexpr (requires { pass.a.radius; }) pass.a.radius *= e.thickness;
   }
   pass.reach = size_of(pass.a) + size_of(pass.b);
   const double size = pass.reach;
@@ -103,14 +97,13 @@ template <class A, class B> ExtremeQuery<A, B> draw_extreme(QueryNumbers& u, con
   const double lead = e.speed > 0 ? std::min(3.0, phase * e.speed) * size : e.distance * size;
   const double path = e.speed > 0 ? e.speed * size : lead / phase;
 
-  const Vec3<double> origin = e.offset > 0 ? Vec3<double>(off * (e.offset * size))
-                                           : Vec3<double>(upright ? Vec3<double>::Zero() : Vec3<double>(off * size));
-  const Vec3<double> drift = upright ? Vec3<double>::Zero() : Vec3<double>(drifting * (path / 4));
+  const double off_origin = e.offset > 0 ? e.offset : upright ? 0 : 1;
+  const Vec3<double> origin = off * (off_origin * size);
+  const Vec3<double> drift = drifting * (upright ? 0 : path / 4);
   const Vec3<double> start = origin + pass.aside * share + pass.along * (contact - lead);
-  const A a = moved(pass.a, start);
-  const B b = moved(pass.b, origin);
-  const Vec3<double> v = pass.along * path + drift;
-  return {stretched(Moving<A>{a, v}, e.scale), stretched(Moving<B>{b, drift}, e.scale), touches};
+  const Moving<A> a = {moved(pass.a, start), pass.along * path + drift};
+  const Moving<B> b = {moved(pass.b, origin), drift};
+  return {{stretched(a, e.scale), stretched(b, e.scale)}, touches};
 }
 
 /// Rounded to S. The axes of a box are made orthonormal again: a box in S has axes that are so to the round-off of S.
@@ -126,12 +119,8 @@ template <class S> Obb<S> rounded_to(const Obb<double>& shape) {
 /// The moving shape in S. A double in a wider S has many bits of zeros, and products without rounding: there all lengths are
 /// multiplied by 4/3, which changes no answer and fills them.
 template <class S, class A> auto rounded_to(const Moving<A>& m) {
-  const Moving<decltype(rounded_to<S>(m.shape))> rounded = {rounded_to<S>(m.shape), m.displacement.template cast<S>()};
-  if constexpr (std::numeric_limits<S>::digits > std::numeric_limits<double>::digits) {
-    return stretched(rounded, S(S(4) / S(3)));
-  } else {
-    return rounded;
-  }
+  const Moving rounded = {rounded_to<S>(m.shape), Vec3<S>(m.displacement.template cast<S>())};
+  return stretched(rounded, digits<S> > digits<double> ? S(S(4) / S(3)) : S(1));
 }
 
 /// True if no number of the query is lost, neither to zero nor to infinity, nor loses digits below the least normal number.
@@ -143,23 +132,23 @@ template <class S, class A> bool holds(const Moving<A>& m) {
     if constexpr (std::same_as<Length, double>) {
       check(x);
     } else {
-      std::for_each(x.data(), x.data() + x.size(), check);
+      std::ranges::for_each(x, check);
     }
     return x;
   });
   return all;
 }
 
-template <class A, class B, class S> auto rounded_queries(const ExtremeInquiry& inquiry) {
-  using Query = ExtremeQuery<decltype(cast<S>(A{})), decltype(cast<S>(B{}))>;
-  const std::array<double, 4> factors = {double{A::rank}, double{B::rank}, static_cast<double>(inquiry.place.axis),
-                                         inquiry.place.value};
+template <template <class> class A, template <class> class B, class S>
+auto rounded_queries(const ExtremeInquiry& inquiry) {
+  const std::array<double, 4> factors = {double{A<double>::rank}, double{B<double>::rank},
+                                         static_cast<double>(inquiry.place.axis), inquiry.place.value};
   const RandomStream stream = {inquiry.seed, stream_of(factors)};
-  std::vector<Query> queries;
+  std::vector<ExtremeQuery<A<S>, B<S>>> queries;
   for (std::int64_t i = 0; i < inquiry.queries; ++i) {
     QueryNumbers numbers(stream, static_cast<std::uint64_t>(i));
-    const ExtremeQuery<A, B> q = draw_extreme<A, B>(numbers, extreme_at(inquiry.place));
-    if (holds<S>(q.a) && holds<S>(q.b)) queries.push_back({rounded_to<S>(q.a), rounded_to<S>(q.b), q.meant_to_touch});
+    const auto q = draw_extreme<A<double>, B<double>>(numbers, extreme_at(inquiry.place));
+    if (holds<S>(q.a) && holds<S>(q.b)) queries.push_back({{rounded_to<S>(q.a), rounded_to<S>(q.b)}, q.meant_to_touch});
   }
   return queries;
 }
@@ -183,62 +172,52 @@ template <class Query, class A, class B, class S>
 ExtremeTally judged(const std::vector<Query>& queries, std::vector<Truth<A, B>>& truths,
                     const std::vector<Toi<S>>& answers) {
   ExtremeTally tally;
-  std::vector<double> forward, backward;
-  double squares = 0;
-  std::int64_t losses = 0;
+  std::vector<double> forward, backward, losses;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const bool touches = truths[i].verdict() != oracle::Verdict::apart;
+    const Toi<S>& toi = answers[i];
+    const bool touches = truths[i].verdict() != oracle::Verdict::apart, gave_up = toi.status == ToiStatus::gave_up;
+    const bool is_number = toi.time == toi.time && toi.status != ToiStatus::invalid;
     ++tally.queries;
     tally.touching += touches ? 1 : 0;
     tally.changed += touches != queries[i].meant_to_touch ? 1 : 0;
-    const Toi<S>& toi = answers[i];
-    tally.gave_up += toi.status == ToiStatus::gave_up ? 1 : 0;
-    const bool number = toi.time == toi.time && toi.status != ToiStatus::invalid;
-    tally.invalid += number ? 0 : 1;
-    if (!number || toi.status == ToiStatus::gave_up) continue;
+    tally.gave_up += gave_up ? 1 : 0;
+    tally.invalid += is_number ? 0 : 1;
+    if (!is_number || gave_up) continue;
     const AnswerErrors errors = truths[i].errors(toi);
     tally.wrong += errors.wrong ? 1 : 0;
     tally.far_wrong += errors.wrongness > break_verdict ? 1 : 0;
     tally.worst_wrong = std::max(tally.worst_wrong, errors.wrongness);
-    if (errors.forward) forward.push_back(*errors.forward);
-    if (errors.backward) backward.push_back(*errors.backward);
-    if (errors.loss) {
-      squares += *errors.loss * *errors.loss;
-      ++losses;
-      tally.loss_max = std::max(tally.loss_max, *errors.loss);
-    }
+    if (!errors.time) continue;
+    forward.push_back(errors.time->forward);
+    backward.push_back(errors.time->backward);
+    if (errors.time->loss) losses.push_back(*errors.time->loss);
   }
-  tally.timed = static_cast<std::int64_t>(forward.size());
+  tally.timed = std::ssize(forward);
   if (!forward.empty()) {
     tally.forward_median = quantile(forward, 0.5);
     tally.forward_max = quantile(forward, 1);
     tally.backward_median = quantile(backward, 0.5);
     tally.backward_max = quantile(backward, 1);
   }
-  if (losses > 0) tally.loss_rms = std::sqrt(squares / static_cast<double>(losses));
+  if (!losses.empty()) {
+    const double squares = std::inner_product(losses.begin(), losses.end(), losses.begin(), 0.0);
+    tally.loss_rms = std::sqrt(squares / static_cast<double>(losses.size()));
+    tally.loss_max = quantile(losses, 1);
+  }
   return tally;
 }
 
 /// The methods of a list that serve the pair and are asked for, each on the same queries.
-template <class A, class B, class S, class List> std::vector<ExtremeTally> ask_extreme(const ExtremeInquiry& inquiry) {
-  using AS = decltype(cast<S>(A{}));
-  using BS = decltype(cast<S>(B{}));
+template <template <class> class A, template <class> class B, class S, class List>
+std::vector<ExtremeTally> ask_extreme(const ExtremeInquiry& inquiry) {
   const auto queries = rounded_queries<A, B, S>(inquiry);
-  using Real = typename Truth<AS, BS>::Real;
-  std::vector<Truth<AS, BS>> truths;
-  for (const auto& q : queries) {
-    const Toi<S> near = kernel_impact(ClosedForm<S>{}, q.a, q.b);
-    const Real guess = near.status == ToiStatus::hit
-                           ? Real(Real(near.time) * (1 - ldexp(Real(1), -std::numeric_limits<S>::digits / 2)))
-                           : Real(0);
-    truths.emplace_back(q.a, q.b, guess);
-  }
+  std::vector<Truth<A<S>, B<S>>> truths;
+  for (const auto& q : queries) truths.emplace_back(q.a, q.b, kernel_impact(ClosedForm<S>{}, q.a, q.b));
   std::vector<ExtremeTally> tallies;
   std::vector<Toi<S>> answers(queries.size());
   for_each_type(List{}, [&]<class Method>(TypeTag<Method>) {
-    if constexpr (serves<Method, AS, BS>) {
-      const auto& names = inquiry.methods;
-      if (std::find(names.begin(), names.end(), Method::name) == names.end()) return;
+    if constexpr (serves<Method, A<S>, B<S>>) {
+      if (std::ranges::count(inquiry.methods, Method::name) == 0) return;
       Method method;
       if constexpr (requires { method.tolerance; }) {
         method.tolerance = S(inquiry.tolerance) * std::numeric_limits<S>::epsilon();
@@ -257,42 +236,41 @@ template <class S, class... Types> TypeList<Textbook<S>, Types...> after_the_foi
 template <class S> using EveryMethod = decltype(after_the_foil<S>(Methods<S>{}));
 template <class S> using ClosedFormAlone = TypeList<Textbook<S>, ClosedForm<S>>;
 
-template <class A, class B, template <class> class List, class... Scalars>
-constexpr ExtremePair pair_of(std::string_view name) {
-  return {name, HasRadius<A>, HasHalfExtents<B>, {&ask_extreme<A, B, Scalars, List<Scalars>>...}};
+template <template <class> class A, template <class> class B, template <class> class List, class... Scalars>
+constexpr ExtremePair pair_of(std::string_view name, PairSet set) {
+  constexpr bool has_box = requires(const B<double>& box) { box.half_extents; };
+  return {name, set, has_box, {&ask_extreme<A, B, Scalars, List<Scalars>>...}};
 }
-template <class A, class B> constexpr ExtremePair every_method(std::string_view name) {
-  return pair_of<A, B, EveryMethod, float, double, long double, Digits50>(name);
+template <template <class> class A, template <class> class B>
+constexpr ExtremePair every_method(std::string_view name, PairSet set) {
+  return pair_of<A, B, EveryMethod, float, double, long double, Digits50>(name, set);
 }
-template <class A, class B> constexpr ExtremePair closed_form_alone(std::string_view name) {
-  return pair_of<A, B, ClosedFormAlone, float, double>(name);
+template <template <class> class A, template <class> class B>
+constexpr ExtremePair closed_form_alone(std::string_view name) {
+  return pair_of<A, B, ClosedFormAlone, float, double>(name, PairSet::closed_form_alone);
 }
 
 }  // namespace
 
-const std::array<Precision, precision_count>& all_precisions() {
-  static const std::array<Precision, precision_count> list{{
-      {"float", 0x1p-24},
-      {"double", 0x1p-53},
-      {"long_double", std::ldexp(1.0, -std::numeric_limits<long double>::digits)},
-      {"50_digits", std::ldexp(1.0, -std::numeric_limits<Digits50>::digits), true},
-  }};
-  return list;
+double unit_of(Precision precision) {
+  constexpr std::array all = {digits<float>, digits<double>, digits<long double>, digits<Digits50>};
+  return std::ldexp(1.0, -all[static_cast<std::size_t>(precision)]);
 }
 
 std::span<const ExtremePair> extreme_pairs() {
-  using Ball = Sphere<double>;
-  using Upright = Aabb<double>;
-  using Turned = Obb<double>;
-  using Rod = Capsule<double>;
-  using Flat = Triangle<double>;
   static constexpr std::array list = {
-      every_method<Ball, Ball>("sphere_sphere"),        every_method<Ball, Upright>("sphere_aabb"),
-      every_method<Ball, Rod>("sphere_capsule"),        every_method<Turned, Turned>("obb_obb"),
-      closed_form_alone<Upright, Upright>("aabb_aabb"), closed_form_alone<Ball, Turned>("sphere_obb"),
-      closed_form_alone<Upright, Turned>("aabb_obb"),   closed_form_alone<Ball, Flat>("sphere_triangle"),
-      closed_form_alone<Rod, Rod>("capsule_capsule"),   closed_form_alone<Rod, Upright>("capsule_aabb"),
-      closed_form_alone<Rod, Turned>("capsule_obb"),    closed_form_alone<Rod, Flat>("capsule_triangle"),
+      every_method<Sphere, Sphere>("sphere_sphere", PairSet::rounded),
+      every_method<Sphere, Aabb>("sphere_aabb", PairSet::rounded),
+      every_method<Sphere, Capsule>("sphere_capsule", PairSet::rounded),
+      every_method<Obb, Obb>("obb_obb", PairSet::boxes),
+      closed_form_alone<Aabb, Aabb>("aabb_aabb"),
+      closed_form_alone<Sphere, Obb>("sphere_obb"),
+      closed_form_alone<Aabb, Obb>("aabb_obb"),
+      closed_form_alone<Sphere, Triangle>("sphere_triangle"),
+      closed_form_alone<Capsule, Capsule>("capsule_capsule"),
+      closed_form_alone<Capsule, Aabb>("capsule_aabb"),
+      closed_form_alone<Capsule, Obb>("capsule_obb"),
+      closed_form_alone<Capsule, Triangle>("capsule_triangle"),
   };
   return list;
 }
