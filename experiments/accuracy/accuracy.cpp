@@ -72,7 +72,7 @@ template <class Error> Panel error_panel(const std::vector<Row>& rows, std::stri
   const auto columns =
       columns_of<Row>(text("scalar", "", [](const Row& r) { return name(r.inquiry); }),
                       value("place", "", "", [](const Row& r) { return r.place; }), value("error", "", "", drawn));
-  Panel panel = plot(table("drawn", "", columns, rows))
+  Panel panel = plot(columns, rows)
                     .x("place", Axis::linear, "pair, in the order of the table")
                     .y("error", Axis::log, std::move(label))
                     .by("scalar");

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <thinwall/experiments/crossing_bullets/model.hpp>
-#include <thinwall/experiments/crossing_bullets/theory.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 

@@ -12,7 +12,7 @@
 
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
-#include <thinwall/experiments/swept_bounds/theory.hpp>
+#include <thinwall/experiments/swept_bounds/model.hpp>
 
 namespace thinwall {
 

@@ -155,7 +155,7 @@ std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptB
   for (const std::string_view form : swept_form_names) {
     const auto shown = only(those, [&](const Row& row) { return name(row.sweep.form) == form; });
     if (shown.empty()) continue;
-    Plot panel = plot(table("drawn", "", row_columns(), shown))
+    Plot panel = plot(row_columns(), shown)
                      .x(along.column, along.axis, along.label)
                      .y("false_fraction", Axis::linear, fmt::format("false share [1], {}", form))
                      .by("bound")

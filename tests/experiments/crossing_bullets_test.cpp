@@ -11,7 +11,6 @@
 
 #include <thinwall/experiments/crossing_bullets/model.hpp>
 #include <thinwall/experiments/crossing_bullets/rules.hpp>
-#include <thinwall/experiments/crossing_bullets/theory.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/swept/methods.hpp>
@@ -51,78 +50,71 @@ TEST(CrossingBullets, agrees_with_theory) {
   EXPECT_EQ(table_of(outcome, "times").rows.size(), 3U);
 }
 
-/// Lines of a run that is large enough to tell theories apart.
-std::vector<CrossingRow> measured() {
-  const Experiment experiment = crossing_bullets_experiment();
-  const Settings settings("speed = [10, 300]\nratio = [0.5, 1]\nangle_deg = [30, 90, 150]\noffset = [1, 4]",
-                          "test.toml", experiment.default_toml);
-  const std::vector<std::string> names = {"swept_overlap", "end_of_step", "sweep_then_confirm", "closed_form"};
-  const std::vector<Crossing> cells = make_crossings(settings);
-  const std::vector<CrossingRule> rules = crossing_rules(names);
-  std::vector<CrossingTally> tallies;
-  for (const Crossing& c : cells) {
-    for (const CrossingRule& rule : rules) tallies.push_back(ask_all(rule, c, 1, 10000));
-  }
-  std::vector<CrossingRow> rows;
-  for (const Crossing& c : cells) {
-    const CrossingTheory theory = theory_of(c);
-    for (const CrossingRule& rule : rules)
-      rows.push_back({c, rule.name, theory, rule.expects(theory), tallies[rows.size()]});
-  }
-  return rows;
+/// Rows of a run that is large enough to tell theories apart.
+const std::vector<CrossingRow>& measured() {
+  static const std::vector<CrossingRow> all = [] {
+    const Experiment experiment = crossing_bullets_experiment();
+    const Settings settings("speed = [10, 300]\nratio = [0.5, 1]\nangle_deg = [30, 90, 150]\noffset = [1, 4]",
+                            "test.toml", experiment.default_toml);
+    const std::vector<std::string> names = {"swept_overlap", "end_of_step", "sweep_then_confirm", "closed_form"};
+    std::vector<CrossingRow> rows;
+    for (const Crossing& c : make_crossings(settings)) {
+      const CrossingTheory theory = theory_of(c);
+      for (const CrossingRule& rule : crossing_rules(names))
+        rows.push_back({c, rule.name, theory, rule.expects(theory), ask_all(rule, c, 1, 10000)});
+    }
+    return rows;
+  }();
+  return all;
 }
 
 /// Does the self-test pass if one rule's expected reports are those of another theory?
-bool passes(std::vector<CrossingRow> lines, const std::string& rule,
-            const std::function<double(const CrossingRow&)>& theory) {
-  for (CrossingRow& line : lines) {
-    if (line.rule == rule) line.expected.reported = std::min(1.0, theory(line));
+bool passes(const std::string& rule, const std::function<double(const CrossingRow&)>& theory) {
+  std::vector<CrossingRow> rows = measured();
+  for (CrossingRow& row : rows) {
+    if (row.rule == rule) row.expected.reported = std::min(1.0, theory(row));
   }
-  return all_passed(self_test(counts_of(lines)));
+  return all_passed(self_test(counts_of(rows)));
 }
 
 TEST(CrossingBullets, fails_a_wrong_theory) {
-  const std::vector<CrossingRow> lines = measured();
-  const auto confirmed = [](const CrossingRow& l) { return l.theory.confirmed.share; };
-  EXPECT_TRUE(passes(lines, "sweep_then_confirm", confirmed));
-  EXPECT_FALSE(passes(lines, "sweep_then_confirm", [](const CrossingRow& l) {  // forgets where a step begins and ends
-    const double turn = l.cell.angle_deg * (std::numbers::pi / 180), ratio = l.cell.ratio;
-    return l.theory.touch * std::sqrt(3.0) / std::numbers::pi * std::sin(turn) /
+  const auto confirmed = [](const CrossingRow& r) { return r.theory.confirmed.share; };
+  EXPECT_TRUE(passes("sweep_then_confirm", confirmed));
+  EXPECT_FALSE(passes("sweep_then_confirm", [](const CrossingRow& r) {  // forgets where a step begins and ends
+    const double turn = r.cell.angle_deg * (std::numbers::pi / 180), ratio = r.cell.ratio;
+    return r.theory.touch * std::sqrt(3.0) / std::numbers::pi * std::sin(turn) /
            std::sqrt(1 + ratio * ratio - 2 * ratio * std::cos(turn));
   }));
-  EXPECT_FALSE(
-      passes(lines, "sweep_then_confirm", [](const CrossingRow& l) { return l.theory.confirmed.share * 0.95; }));
-  EXPECT_FALSE(passes(lines, "closed_form", [](const CrossingRow& l) {  // takes the disc for a segment
-    return 1 / l.cell.offset;
+  EXPECT_FALSE(passes("sweep_then_confirm", [](const CrossingRow& r) { return r.theory.confirmed.share * 0.95; }));
+  EXPECT_FALSE(passes("closed_form", [](const CrossingRow& r) {  // takes the disc for a segment
+    return 1 / r.cell.offset;
   }));
-  EXPECT_FALSE(passes(lines, "swept_overlap", [](const CrossingRow& l) {  // tracks without ends
-    const double k = l.cell.offset;
+  EXPECT_FALSE(passes("swept_overlap", [](const CrossingRow& r) {  // tracks without ends
+    const double k = r.cell.offset;
     return 2 / std::numbers::pi * (std::asin(1 / k) + std::sqrt(k * k - 1) / (k * k));
   }));
-  EXPECT_FALSE(passes(lines, "end_of_step", [](const CrossingRow& l) {  // takes the radius for the contact distance
-    return l.theory.touch_at_end / 8;
+  EXPECT_FALSE(passes("end_of_step", [](const CrossingRow& r) {  // takes the radius for the contact distance
+    return r.theory.touch_at_end / 8;
   }));
 }
 
 TEST(CrossingBullets, fails_wrong_times) {
-  const std::vector<CrossingRow> lines = measured();
-  const auto passes_with = [&](const std::function<void(CrossingRow&)>& change) {
-    std::vector<CrossingRow> changed = lines;
-    for (CrossingRow& line : changed) change(line);
-    const auto tests = timing_test(changed);
-    return std::all_of(tests.begin(), tests.end(), [](const TimingTest& t) { return t.passed(); });
+  const auto passes_with = [](const std::function<void(CrossingRow&)>& change) {
+    std::vector<CrossingRow> rows = measured();
+    for (CrossingRow& row : rows) change(row);
+    return all_passed(timing_test(rows));
   };
   EXPECT_TRUE(passes_with([](CrossingRow&) {}));
-  EXPECT_FALSE(passes_with([](CrossingRow& l) { l.theory.confirmed.lateness_mean *= 1.1; }));
-  EXPECT_FALSE(passes_with([](CrossingRow& l) { l.tally.widest = 1e-6; }));    // apart at the answered time
-  EXPECT_FALSE(passes_with([](CrossingRow& l) { l.tally.deepest = -1e-6; }));  // the closed form would be late
-  EXPECT_FALSE(passes_with([](CrossingRow& l) { l.tally.latest = 1; }));       // after contact has ended
+  EXPECT_FALSE(passes_with([](CrossingRow& r) { r.theory.confirmed.lateness_mean *= 1.1; }));
+  EXPECT_FALSE(passes_with([](CrossingRow& r) { r.tally.widest = 1e-6; }));    // apart at the answered time
+  EXPECT_FALSE(passes_with([](CrossingRow& r) { r.tally.deepest = -1e-6; }));  // the closed form would be late
+  EXPECT_FALSE(passes_with([](CrossingRow& r) { r.tally.latest = 1; }));       // after contact has ended
 }
 
 TEST(CrossingBullets, every_miss_has_a_cause) {
-  for (const CrossingRow& line : measured()) {
-    const CrossingTally& t = line.tally;
-    EXPECT_EQ(t.inside + t.early + t.late + t.beside, line.rule == "sweep_then_confirm" ? line.tally.missed : 0);
+  for (const CrossingRow& row : measured()) {
+    const CrossingTally& t = row.tally;
+    EXPECT_EQ(t.inside + t.early + t.late + t.beside, row.rule == "sweep_then_confirm" ? row.tally.missed : 0);
   }
 }
 

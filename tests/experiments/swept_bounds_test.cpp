@@ -16,7 +16,6 @@
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 #include <thinwall/experiments/swept_bounds/bounds.hpp>
-#include <thinwall/experiments/swept_bounds/theory.hpp>
 #include <thinwall/swept/swept_volume.hpp>
 
 #include "support/experiment_run.hpp"

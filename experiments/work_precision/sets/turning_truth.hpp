@@ -66,9 +66,6 @@ class TurningTruth {
   };
 
   static R length(const Vec<R>& v) { return std::sqrt(dot(v, v)); }
-  static Vec<R> cross(const Vec<R>& a, const Vec<R>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
 
   Gap<R> gap(R at) const {
     Problem<R> there = start_;
