@@ -57,7 +57,7 @@ void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, Acc
   tally.hits += truth.verdict == oracle::Verdict::hit ? 1 : 0;
   tally.overlapping += truth.verdict == oracle::Verdict::overlapping ? 1 : 0;
   tally.gave_up += toi.status == ToiStatus::gave_up ? 1 : 0;
-  if (!agree(toi.status, truth.verdict)) {
+  if (toi.status != truth.verdict) {
     ++tally.wrong_verdicts;
     tally.largest_wrong = std::max(tally.largest_wrong, wrongness(problem, toi, truth, tolerance));
     return;
@@ -78,7 +78,7 @@ template <class A, class B> void judge_verdict(const Moving<A>& a, const Moving<
   const long double tolerance = std::ldexp(1.0L, -56);
   const auto problem = oracle::pose<long double>(a, b);
   const auto rough = oracle::first_contact(problem, guess_from<long double>(toi), tolerance);
-  if (agree(toi.status, rough.verdict)) {
+  if (toi.status == rough.verdict) {
     ++tally.queries;
     tally.hits += rough.verdict == oracle::Verdict::hit ? 1 : 0;
     tally.overlapping += rough.verdict == oracle::Verdict::overlapping ? 1 : 0;

@@ -1,7 +1,6 @@
 #include <thinwall/experiments/advise/advice.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 #include <tuple>
@@ -32,13 +31,9 @@ void put_advised_first(std::vector<AdviceRow>& rows, std::ptrdiff_t meeting) {
 /// Steps of the shots that the thin wall fires, `back` steps before the one in which the ball touches.
 std::vector<ShotStep> steps_before(const Cell& cell, std::int64_t count, double back) {
   const Target aimed = target(cell);
-  const RandomStream stream = random_stream(cell, 0);
   std::vector<ShotStep> steps;
-  for (std::int64_t i = 0; i < count; ++i) {
-    const Vec3<double> start = random_start(aimed, stream, static_cast<std::uint64_t>(i)) - back * aimed.displacement;
-    steps.push_back({{Sphere<double>{start, aimed.radius}, aimed.displacement},
-                     at_rest(Aabb<double>{Vec3<double>::Zero(), aimed.half_extents})});
-  }
+  for (std::int64_t i = 0; i < count; ++i)
+    steps.push_back(random_step(aimed, random_stream(cell, 0), static_cast<std::uint64_t>(i), back));
   return steps;
 }
 
@@ -163,12 +158,7 @@ std::vector<std::int64_t> offered_poses(const Wish& wish) {
   return offered_poses(wish, [&](int poses) { return pose_theory(wish.cell, poses); });
 }
 
-std::vector<Candidate> candidates(const Wish& wish) {
-  const std::vector<std::string_view> names = method_names();
-  const std::vector<std::string> methods(names.begin(), names.end());
-  const std::array<std::string, 1> scalars = {"double"};
-  return candidates_of(thin_wall_methods(methods, offered_poses(wish), scalars));
-}
+std::vector<Candidate> candidates(const Wish& wish) { return candidates_of(thin_wall_methods(offered_poses(wish))); }
 
 std::vector<Candidate> candidates_of(std::span<const ThinWallMethod> methods) {
   std::vector<Candidate> all;

@@ -54,9 +54,9 @@ struct RodStep {
 };
 
 struct Candidate {
-  std::string name;  ///< as the thin wall calls it: substeps_8
-  int poses;         ///< [1] that it tests a step and nothing else; 0 if it does more
-  bool fired;        ///< the thin wall can fire it
+  std::string name = {};  ///< as the thin wall calls it: substeps_8
+  int poses = 0;          ///< [1] that it tests a step and nothing else; 0 if it does more
+  bool fired = false;     ///< the thin wall can fire it
   std::function<Theory(const Cell&)> theory;
   std::function<void(std::span<const ShotStep>)> ask = {};     ///< to be timed
   std::function<void(std::span<const RodStep>)> ask_rod = {};  ///< of a rod, in its place
@@ -110,8 +110,8 @@ struct AdviceRow {
   Theory theory;  ///< at the step of the wish
   StepCost cost;
   bool meets;  ///< the wish
-  std::optional<double>
-      longest_step;  ///< [s] at which it would, a rod at its spin and any slower one; nothing if it does at none
+  /// [s] At which it would, a rod at its spin and any slower one; nothing if it does at none.
+  std::optional<double> longest_step;
 
   bool may_be_advised() const { return meets && !method.hits_falsely; }
 };

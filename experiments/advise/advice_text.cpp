@@ -99,9 +99,8 @@ std::string how_cheap(const Advice& advice) {
   const double own = advice.advised()->cost.dearer().value;
   const bool tied = std::ranges::any_of(
       advice.rows, [&](const AdviceRow& row) { return row.may_be_advised() && row.cost.dearer().value < own; });
-  const char* const also = advice.wish.rod ? " and hit nothing falsely" : "";
-  if (meeting == 1)
-    return fmt::format("no other method here meets the wish{}", advice.wish.rod ? " and hits nothing falsely" : "");
+  const char* const also = advice.wish.rod ? " without false hits" : "";
+  if (meeting == 1) return fmt::format("no other method here meets the wish{}", also);
   return fmt::format("{} of the {} methods here that meet the wish{}", tied ? "as little as any" : "the least", meeting,
                      also);
 }

@@ -47,44 +47,33 @@ void bound_lateness(Theory& theory, const RodFlight& flight, const Cell& cell, i
 /// The chance at a spin [deg/s], and the lateness at the rod's own and any slower one.
 Theory pose_theory_at(const Wish& wish, const Cell& cell, double spin, int poses) {
   const RodFlight flight = flight_of(wish, cell, spin);
-  Theory theory;
-  theory.probability = rod_miss_probability(clearance(flight), reach(flight), step_length(flight) / poses,
-                                            radians(flight.spin_deg) / poses);
-  theory.why = poses == 1 ? "E max(0, 1 - (b + c m) / (v h cos a))" : "E max(0, 1 - n (b + c m) / (v h cos a))";
+  Theory theory = {
+      .probability = rod_miss_probability(clearance(flight), reach(flight), step_length(flight) / poses,
+                                          radians(flight.spin_deg) / poses),
+      .why = poses == 1 ? "E max(0, 1 - (b + c m) / (v h cos a))" : "E max(0, 1 - n (b + c m) / (v h cos a))"};
   const bool touches_once = radians(wish.rod->spin * cell.step) * reach(flight) <= step_length(flight);
   bound_lateness(theory, flight, cell, poses, touches_once);
   return theory;
 }
 
-Theory never_late(const char* why) {
-  Theory theory;
-  theory.probability = 0;
-  theory.latest = 0;
-  theory.why = why;
-  theory.why_late = "0";
-  return theory;
-}
+Theory never_late(const char* why) { return {.probability = 0, .latest = 0, .why = why, .why_late = "0"}; }
 
-// What theory says of a method that turns, at its spin and at no more than that; nothing of one that is not named here.
+// What theory says of a method that turns, at its spin and at no more than that, as a candidate without a name; nothing of one that is not named
+// here.
 
-struct RodTheories {
-  std::function<Theory(const Cell&)> at_spin = [](const Cell&) { return Theory{}; };
-  std::function<Theory(const Cell&)> up_to_its_spin = at_spin;
-  bool hits_falsely = false;
-};
-RodTheories same(const Theory& theory, bool hits_falsely = false) {
+Candidate same(const Theory& theory, bool hits_falsely = false) {
   const auto always = [theory](const Cell&) { return theory; };
-  return {always, always, hits_falsely};
+  return {.theory = always, .up_to_its_spin = always, .hits_falsely = hits_falsely};
 }
-RodTheories of_poses(const Wish& wish, int poses) {
-  return {[=](const Cell& cell) { return pose_theory_at(wish, cell, wish.rod->spin, poses); },
-          [=](const Cell& cell) { return pose_theory_at(wish, cell, 0, poses); }};
+Candidate of_poses(const Wish& wish, int poses) {
+  return {.theory = [=](const Cell& cell) { return pose_theory_at(wish, cell, wish.rod->spin, poses); },
+          .up_to_its_spin = [=](const Cell& cell) { return pose_theory_at(wish, cell, 0, poses); }};
 }
 
-template <class Method> RodTheories rod_theories(const Method&, const Wish&) { return {}; }
-RodTheories rod_theories(const EndOfStep<double>&, const Wish& wish) { return of_poses(wish, 1); }
-RodTheories rod_theories(const Substeps<double>& method, const Wish& wish) { return of_poses(wish, method.n); }
-RodTheories rod_theories(const LinearSweep<double>&, const Wish& wish) {
+template <class Method> Candidate rod_theories(const Method&, const Wish&) { return same({}); }
+Candidate rod_theories(const EndOfStep<double>&, const Wish& wish) { return of_poses(wish, 1); }
+Candidate rod_theories(const Substeps<double>& method, const Wish& wish) { return of_poses(wish, method.n); }
+Candidate rod_theories(const LinearSweep<double>&, const Wish& wish) {
   Theory theory = never_late("0: the sweeps join at the wall's middle");
   const bool spins = wish.rod->spin > 0;
   if (spins) {
@@ -93,20 +82,19 @@ RodTheories rod_theories(const LinearSweep<double>&, const Wish& wish) {
   }
   return same(theory, spins);
 }
-RodTheories rod_theories(const Speculative<double>&, const Wish& wish) {
+Candidate rod_theories(const Speculative<double>&, const Wish& wish) {
   return same(never_late("0: it looks a whole step ahead"), wish.rod->spin > 0);
 }
-RodTheories rod_theories(const ConservativeAdvancement<double>&, const Wish&) {
+Candidate rod_theories(const ConservativeAdvancement<double>&, const Wish&) {
   return same(never_late("0: free up to its answer, proven"));
 }
 
-template <class Ask> Candidate rod_candidate(std::string name, int poses, const RodTheories& theories, const Ask& ask) {
-  Candidate candidate = {std::move(name), poses, false, theories.at_spin};
+template <class Ask> Candidate rod_candidate(std::string name, int poses, Candidate candidate, const Ask& ask) {
+  candidate.name = std::move(name);
+  candidate.poses = poses;
   candidate.ask_rod = [ask](std::span<const RodStep> steps) {
     for (const RodStep& step : steps) keep(ask(step));
   };
-  candidate.up_to_its_spin = theories.up_to_its_spin;
-  candidate.hits_falsely = theories.hits_falsely;
   return candidate;
 }
 

@@ -144,8 +144,8 @@ template <class R> struct Problem {
   std::vector<Vec<R>> generators{};  ///< [length] half edges: all sums of them with factors of -1 to 1
   std::vector<Vec<R>> corners{};     ///< [length] of a triangle, to add one of; empty: none
   R reach = 0;                       ///< [length] the sum of the radii
-  Vec<R> start_size{},
-      speed_size{};  ///< [length] what a computation adds up along each axis: |cA| + |cB| + h, |vA| + |vB|
+  /// [length] What a computation adds up along each axis: |cA| + |cB| + h, |vA| + |vB|.
+  Vec<R> start_size{}, speed_size{};
 
   void add(const Vec<R>& generator) { generators.push_back(generator); }
 };
@@ -236,16 +236,7 @@ template <class R> Gap<R> gap_at(const Problem<R>& problem, const R& time, const
   return gap;
 }
 
-enum class Verdict { apart, hit, overlapping };
-
-inline bool agree(ToiStatus status, Verdict verdict) {
-  switch (status) {
-    case ToiStatus::apart: return verdict == Verdict::apart;
-    case ToiStatus::hit: return verdict == Verdict::hit;
-    case ToiStatus::overlapping: return verdict == Verdict::overlapping;
-    default: return false;
-  }
-}
+using Verdict = ToiStatus;  ///< apart, hit or overlapping
 
 template <class R> struct Impact {
   Verdict verdict = Verdict::apart;
@@ -265,7 +256,8 @@ template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& g
     impact.time = 0;
     return impact;
   }
-  R time = 0;
+  R time = 0, conditioning = 0;
+  const auto hit = [&](const R& at) { return Impact<R>{Verdict::hit, at, conditioning, impact.start_margin}; };
   if (guess > 0 && guess < 1) {
     const Gap<R> near = gap_at(problem, guess, tolerance);
     if (near.core - problem.reach > tolerance * near.scale && near.closing > 0) {
@@ -273,32 +265,19 @@ template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& g
       gap = near;
     }
   }
-  R conditioning = 0;
   for (int round = 0; round < 400; ++round) {
     if (!(gap.closing > 0)) {  // where cores touch to the last digits the side they do it from is rounding
-      if (round == 0 || gap.core - problem.reach > 4096 * tolerance * gap.scale) return impact;
-      impact.verdict = Verdict::hit;
-      impact.time = time;
-      impact.conditioning = conditioning;
-      return impact;
+      return round == 0 || gap.core - problem.reach > 4096 * tolerance * gap.scale ? impact : hit(time);
     }
     conditioning = gap.scale / gap.closing;
     const R next = time + (gap.core - problem.reach) / gap.closing;
     if (next > 1) return impact;  // the tangent bounds the separation from below, all the way to the end
     const Gap<R> there = gap_at(problem, next, tolerance);
-    if (there.core - problem.reach <= tolerance * there.scale || there.core == 0 || next == time) {
-      impact.verdict = Verdict::hit;
-      impact.time = next;
-      impact.conditioning = conditioning;
-      return impact;
-    }
+    if (there.core - problem.reach <= tolerance * there.scale || there.core == 0 || next == time) return hit(next);
     time = next;
     gap = there;
   }
-  impact.verdict = Verdict::hit;  // a double root, approached by halves: closer than any input could tell
-  impact.time = time;
-  impact.conditioning = conditioning;
-  return impact;
+  return hit(time);  // a double root, approached by halves: closer than any input could tell
 }
 
 /// The least of |separation| / scale by which the verdict, hit or miss, is decided; > 0 apart, < 0 in contact.

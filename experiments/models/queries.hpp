@@ -58,52 +58,45 @@ inline Vec3<double> random_half_extents(QueryNumbers& u, double least) {
   return {x, y, z};
 }
 
-template <class A> struct ShapeDraw;
-template <> struct ShapeDraw<Sphere<double>> {
-  static Sphere<double> draw(QueryNumbers& u, double size) { return {Vec3<double>::Zero(), size * u.decades(-1, 0)}; }
-};
-template <> struct ShapeDraw<Aabb<double>> {
-  static Aabb<double> draw(QueryNumbers& u, double size) {
-    const double thinnest = u.one_in(3) ? -6 : -1;
-    const double z = u.decades(-1, 0);
-    const double y = u.decades(-1, 0);
-    const double x = u.decades(thinnest, 0);
-    return {Vec3<double>::Zero(), Vec3<double>(x, y, z) * size};
+/// Of a size up to this.
+template <class A> A draw_shape(QueryNumbers& u, double size);
+template <> inline Sphere<double> draw_shape(QueryNumbers& u, double size) {
+  return {Vec3<double>::Zero(), size * u.decades(-1, 0)};
+}
+template <> inline Aabb<double> draw_shape(QueryNumbers& u, double size) {
+  const double thinnest = u.one_in(3) ? -6 : -1;
+  const double z = u.decades(-1, 0);
+  const double y = u.decades(-1, 0);
+  const double x = u.decades(thinnest, 0);
+  return {Vec3<double>::Zero(), Vec3<double>(x, y, z) * size};
+}
+template <> inline Obb<double> draw_shape(QueryNumbers& u, double size) {
+  const Vec3<double> half = draw_shape<Aabb<double>>(u, size).half_extents;
+  Mat3<double> axes = random_axes(u);
+  if (u.one_in(4)) {  // next to upright: nearly parallel edges
+    const double tilt = u.decades(-16, -2);
+    axes.col(0) = safe_unit(Vec3<double>(1, tilt, 0));
+    axes.col(1) = safe_unit(Vec3<double>(-tilt, 1, 0));
   }
-};
-template <> struct ShapeDraw<Obb<double>> {
-  static Obb<double> draw(QueryNumbers& u, double size) {
-    const Vec3<double> half = ShapeDraw<Aabb<double>>::draw(u, size).half_extents;
-    Mat3<double> axes = random_axes(u);
-    if (u.one_in(4)) {  // next to upright: nearly parallel edges
-      const double tilt = u.decades(-16, -2);
-      axes.col(0) = safe_unit(Vec3<double>(1, tilt, 0));
-      axes.col(1) = safe_unit(Vec3<double>(-tilt, 1, 0));
-    }
-    axes.col(2) = cross<double>(axes.col(0), axes.col(1));
-    return {Vec3<double>::Zero(), half, axes};
-  }
-};
-template <> struct ShapeDraw<Capsule<double>> {
-  static Capsule<double> draw(QueryNumbers& u, double size) {
-    const double half_length = size * u.decades(-2, 0);
-    const Vec3<double> half = u.vector(half_length);
-    const double radius = size * u.decades(-3, 0);
-    return {-half, half, radius};
-  }
-};
-template <> struct ShapeDraw<Triangle<double>> {
-  static Triangle<double> draw(QueryNumbers& u, double size) {
-    const auto corner = [&] {
-      const double from_middle = size * u.decades(-1, 0);
-      return u.vector(from_middle);
-    };
-    const Vec3<double> a = corner();
-    const Vec3<double> b = corner();
-    const Vec3<double> c = corner();
-    return {a, b, c};
-  }
-};
+  axes.col(2) = cross<double>(axes.col(0), axes.col(1));
+  return {Vec3<double>::Zero(), half, axes};
+}
+template <> inline Capsule<double> draw_shape(QueryNumbers& u, double size) {
+  const double half_length = size * u.decades(-2, 0);
+  const Vec3<double> half = u.vector(half_length);
+  const double radius = size * u.decades(-3, 0);
+  return {-half, half, radius};
+}
+template <> inline Triangle<double> draw_shape(QueryNumbers& u, double size) {
+  const auto corner = [&] {
+    const double from_middle = size * u.decades(-1, 0);
+    return u.vector(from_middle);
+  };
+  const Vec3<double> a = corner();
+  const Vec3<double> b = corner();
+  const Vec3<double> c = corner();
+  return {a, b, c};
+}
 
 /// Between the last that touches, from 0 on, and the first that does not, up to `farthest`, `halvings` times halved.
 template <class Touches> double last_that_touches(const Touches& touches, double farthest, int halvings) {
@@ -143,8 +136,8 @@ template <class A, class B> struct MovingPair {
 template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double digits) {
   const double small = u.one_in(3) ? u.decades(-digits, 0) : u.decades(-1, 0);
   const bool a_small = u.one_in(2);
-  const A a = ShapeDraw<A>::draw(u, a_small ? small : 1.0);
-  const B b = ShapeDraw<B>::draw(u, a_small ? 1.0 : small);
+  const A a = draw_shape<A>(u, a_small ? small : 1.0);
+  const B b = draw_shape<B>(u, a_small ? 1.0 : small);
   const double reach = safe_norm(half_widths(a)) + safe_norm(half_widths(b));
   const double farthest = u.one_in(3) ? digits : 1;
   const double distance = reach * (1 + u.decades(-3, farthest));

@@ -234,6 +234,12 @@ bool has_left(const Target& target, const Flight& flight) {
   return false;
 }
 
+ShotStep random_step(const Target& target, const RandomStream& stream, std::uint64_t shot, double back) {
+  const Vec3<double> start = random_start(target, stream, shot) - back * target.displacement;
+  return {{Sphere<double>{start, target.radius}, target.displacement},
+          at_rest(Aabb<double>{Vec3<double>::Zero(), target.half_extents})};
+}
+
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;
   for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
@@ -253,6 +259,12 @@ std::vector<ThinWallMethod> thin_wall_methods(std::span<const std::string> names
     if (scalar == "double") append<double>(names, substeps, response, all);
   }
   return all;
+}
+
+std::vector<ThinWallMethod> thin_wall_methods(std::span<const std::int64_t> substeps) {
+  const std::vector<std::string_view> names = method_names();
+  return thin_wall_methods(std::vector<std::string>(names.begin(), names.end()), substeps,
+                           std::array<std::string, 1>{"double"});
 }
 
 std::vector<Volley> volleys_of(std::int64_t shots, std::int64_t most) {

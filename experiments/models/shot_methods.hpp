@@ -89,6 +89,9 @@ struct ShotStep {
   Moving<Aabb<double>> wall;
 };
 
+/// Of a random shot: `back` steps before the one in which the ball touches.
+ShotStep random_step(const Target& target, const RandomStream& stream, std::uint64_t shot, double back);
+
 struct StepAnswer {
   ToiStatus status;
   double time;  ///< [1] of the step
@@ -113,6 +116,9 @@ inline constexpr int least_substeps = 2, most_substeps = 1000;  ///< poses a ste
 std::vector<ThinWallMethod> thin_wall_methods(std::span<const std::string> names,
                                               std::span<const std::int64_t> substeps,
                                               std::span<const std::string> scalars, Response response = Response::none);
+
+/// All of them, in double.
+std::vector<ThinWallMethod> thin_wall_methods(std::span<const std::int64_t> substeps);
 
 /// Shots `first`, `first + 1`, ... of a cell: a piece that is short enough to lose. What the pieces count adds up to what one
 /// would, to the bit: a shot's random numbers depend on its number alone.

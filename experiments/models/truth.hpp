@@ -139,7 +139,7 @@ template <class A, class B> class Truth {
   AnswerErrors errors(const Toi<S>& toi) {
     using std::abs;
     const Real u = Real(std::numeric_limits<S>::epsilon()) / 2;
-    if (!agree(toi.status, impact_.verdict)) {
+    if (toi.status != impact_.verdict) {
       const Real& input = margin(toi.status == ToiStatus::overlapping, u);
       return {.wrong = true, .wrongness = static_cast<double>(abs(input) / u)};
     }

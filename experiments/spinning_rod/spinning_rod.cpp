@@ -2,8 +2,11 @@
 /// docs/spinning_rod.md.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,7 +18,7 @@
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/models/rod_methods.hpp>
+#include <thinwall/experiments/models/rods.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -23,6 +26,46 @@ namespace thinwall {
 namespace {
 
 using Tally = RodTally;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr Range a_length = {.lower = 1e-3, .upper = 1e3, .unit = "m"};
+constexpr Range a_thickness = {.lower = 0, .upper = 1e3, .unit = "m"};
+
+const Factors<RodFlight> rod_factors = factors<RodFlight>(
+    number("half_length", &RodFlight::half_length, a_length, "From the middle of the rod's core to its end."),
+    number("radius", &RodFlight::radius, a_length, "Radius of the rod."),
+    number("thickness", &RodFlight::thickness, a_thickness, "Of the wall."),
+    numbers("tilt_deg", &RodFlight::tilt_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+            "Between the axis of spin and the wall's normal."),
+    numbers("spin_deg", &RodFlight::spin_deg, {.lower = 0, .upper = 720, .unit = "deg"},
+            "How far the rod turns in a step."),
+    numbers("step_ratio", &RodFlight::step_ratio, {.lower = 0.05, .upper = 1e4},
+            "The step over wall and rod at their widest, w + 2 r + 2 L sin(tilt)."));
+
+const Factors<BladePass> blade_factors = factors<BladePass>(
+    number("half_length", &BladePass::half_length, a_length, "From the axis to the end of the blade's core."),
+    number("radius", &BladePass::radius, a_length, "Radius of the blade."),
+    number("post_radius", &BladePass::post_radius, a_thickness, "Radius of the post."),
+    number("post_distance", &BladePass::post_distance, a_length, "From the blade's axis to the post's."),
+    numbers("post_spin_deg", &BladePass::post_spin_deg, {.lower = 0, .upper = 180, .lower_open = true, .unit = "deg"},
+            "How far the blade turns in a step."));
+
+std::vector<BladePass> make_passes(const Settings& settings, std::size_t each) {
+  const std::vector<BladePass> cells = blade_factors.cells(settings, each);
+  for (const BladePass& c : cells) {
+    if (c.post_distance <= c.radius + c.post_radius || c.post_distance > c.half_length) {
+      settings.complain("post_distance",
+                        fmt::format("more than radius + post_radius, and at most half_length: not so at {}, {} and {}",
+                                    c.radius, c.post_radius, c.half_length));
+    }
+    if (radians(c.post_spin_deg) > std::numbers::pi - 2 * half_window(c)) {
+      settings.complain("post_spin_deg",
+                        fmt::format("at most {:.6g}, so that one end alone is near the post; it is not at {}",
+                                    180 - 2 * half_window(c) * 180 / std::numbers::pi, c.post_spin_deg));
+    }
+  }
+  return cells;
+}
 
 /// A cell at a method.
 template <class Cell> struct RowOf {
@@ -50,49 +93,49 @@ double path_of(const BladePass& c) { return radians(c.post_spin_deg) * (c.half_l
 
 // What the tables show.
 
-template <class Row> Columns<Row> tunneled_columns() {
+/// What is counted of a row.
+auto of(auto part) {
+  return [part](const auto& row) { return std::invoke(part, row.tally); };
+}
+
+auto late_share(std::string description) {
+  return share("late_share", std::move(description), of(&Tally::late), of(&Tally::detected), "late_");
+}
+
+/// `own`: a column of such cells alone.
+template <class Row, class Cell, class Own> Columns<Row> cell_columns(const Factors<Cell>& factors, const Own& own) {
   return columns_of<Row>(
+      text("method", "Way of detecting the hit.", &Row::method), factors.columns(&Row::cell), own,
       fields(&Row::tally, {"trials", "tunneled"}),
-      share(
-          "probability", "tunneled / trials.", [](const Row& r) { return r.tally.tunneled; },
-          [](const Row& r) { return r.tally.trials; }),
+      share("probability", "tunneled / trials.", of(&Tally::tunneled), of(&Tally::trials)),
       value("theory", "1", "The same by theory; missing where there is none.", &Row::theory),
       value("residual", "1", "Standard errors between the two, where at least five are expected of either.",
             [](const Row& r) -> std::optional<double> {
               if (!r.theory || !can_be_judged(r.tally.trials, *r.theory)) return std::nullopt;
               return standard_residual(r.tally.tunneled, r.tally.trials, *r.theory);
-            }));
+            }),
+      late_share("late over the trials with a hit."),
+      value("lateness_mean", "step", "Mean time from first contact to the hit.",
+            [](const Row& r) { return r.tally.lateness.mean(); }),
+      fields(&Row::tally, {"lateness_max", "lateness_min", "gap_max", "gap_min", "false_hits", "undecided", "steps",
+                           "evaluations"}));
 }
 
-template <class Row> auto late_share(std::string description) {
-  return share(
-      "late_share", std::move(description), [](const Row& r) { return r.tally.late; },
-      [](const Row& r) { return r.tally.detected(); }, "late_");
-}
-
-template <class Row> Columns<Row> timing_columns() {
-  return columns_of<Row>(late_share<Row>("late over the trials with a hit."),
-                         value("lateness_mean", "step", "Mean time from first contact to the hit.",
-                               [](const Row& r) { return r.tally.lateness.mean(); }),
-                         fields(&Row::tally, {"lateness_max", "lateness_min", "gap_max", "gap_min", "false_hits",
-                                              "undecided", "steps", "evaluations"}));
+Columns<FlightRow> flight_columns() {
+  return cell_columns<FlightRow>(rod_factors, value("step", "m", "How far the rod flies in a step.",
+                                                    [](const FlightRow& r) { return step_length(r.cell); }));
 }
 
 Table flights_table(const std::vector<FlightRow>& rows) {
-  const auto columns = columns_of<FlightRow>(
-      text("method", "Way of detecting the hit.", &FlightRow::method), rod_factors().columns(&FlightRow::cell),
-      value("step", "m", "How far the rod flies in a step.", [](const FlightRow& r) { return step_length(r.cell); }),
-      tunneled_columns<FlightRow>(), timing_columns<FlightRow>());
-  return table("flights", "Every cell of a spinning rod's flight at the wall, at every method.", columns, rows);
+  return table("flights", "Every cell of a spinning rod's flight at the wall, at every method.", flight_columns(),
+               rows);
 }
 
 Table passes_table(const std::vector<PassRow>& rows) {
-  const auto columns = columns_of<PassRow>(
-      text("method", "Way of detecting the hit.", &PassRow::method), blade_factors().columns(&PassRow::cell),
-      value("window_deg", "deg", "How far the blade turns while it touches the post.",
-            [](const PassRow& r) { return 2 * half_window(r.cell) / radians(1); }),
-      tunneled_columns<PassRow>(), timing_columns<PassRow>());
-  return table("passes", "Every cell of a blade that turns past the post, at every method.", columns, rows);
+  const auto window = value("window_deg", "deg", "How far the blade turns while it touches the post.",
+                            [](const PassRow& r) { return 2 * half_window(r.cell) / radians(1); });
+  return table("passes", "Every cell of a blade that turns past the post, at every method.",
+               cell_columns<PassRow>(blade_factors, window), rows);
 }
 
 /// A method over all of its cells, or over those of one spin.
@@ -125,7 +168,7 @@ Table methods_table(const std::vector<Total>& totals) {
       text("obstacle", "What is in the way.", &Total::obstacle),
       text("method", "Way of detecting the hit.", &Total::method), fields(&Total::tally, {"trials", "tunneled"}),
       value("expected", "1", "Tunneled by theory; missing where it has none.", &Total::tunneled_theory),
-      late_share<Total>("First hits later than first contact, by more than a millionth of a step."),
+      late_share("First hits later than first contact, by more than a millionth of a step."),
       fields(&Total::tally, {"false_hits", "lateness_max", "gap_min", "gap_max"}),
       value("looks", "1", "Looks at a pose and closed forms a step.", [](const Total& t) {
         return static_cast<double>(t.tally.evaluations) / static_cast<double>(t.tally.steps);
@@ -149,11 +192,9 @@ Table spins_table(const std::vector<Total>& totals) {
   const auto columns =
       columns_of<Total>(value("spin_deg", "deg", "How far the rod turns in a step.", &Total::spin_deg),
                         fields(&Total::tally, {"trials", "tunneled"}),
-                        late_share<Total>("First hits later than first contact, by more than a millionth of a step."),
-                        share(
-                            "false_share", "Hits reported in a step by whose end nothing has touched yet.",
-                            [](const Total& t) { return t.tally.false_hits; },
-                            [](const Total& t) { return t.tally.detected(); }, "false_"),
+                        late_share("First hits later than first contact, by more than a millionth of a step."),
+                        share("false_share", "Hits reported in a step by whose end nothing has touched yet.",
+                              of(&Tally::false_hits), of(&Tally::detected), "false_"),
                         fields(&Total::tally, {"lateness_max", "gap_min", "gap_max"}));
   return in_report(table("linear_sweep",
                          "A linear sweep at the wall, which leaves the spin out, over all cells of a spin.", columns,
@@ -215,30 +256,10 @@ double nearest(const std::vector<FlightRow>& rows, double RodFlight::*factor, do
   return std::ranges::min_element(rows, {}, distance)->cell.*factor;
 }
 
-/// The theory of a method along the step ratio, one curve for each distinct cell but for that, as one series with gaps.
-Series theory_curves(const std::vector<FlightRow>& rows, const std::vector<RodMethod>& methods) {
-  Series series = {.label = "theory", .mark = Mark::line};
-  const auto [least, most] = std::ranges::minmax(rows, {}, [](const FlightRow& r) { return r.cell.step_ratio; });
-  for (const Group<FlightRow>& group : group_by(
-           rows, [](const FlightRow& r) { return std::pair(r.method, std::pair(r.cell.spin_deg, r.cell.tilt_deg)); })) {
-    const auto method = std::ranges::find(methods, group[0]->method, &RodMethod::name);
-    const auto theory = [&](double ratio) {
-      RodFlight c = group[0]->cell;
-      c.step_ratio = ratio;
-      return method->wall_theory(c).value_or(std::numeric_limits<double>::quiet_NaN());
-    };
-    add_curve(series, least.cell.step_ratio, most.cell.step_ratio, Axis::log, theory, 200);
-    series.end_line();
-  }
-  return series;
-}
-
 /// The flights with the spin in words.
 Table drawn_table(const std::vector<FlightRow>& rows) {
   const auto columns = columns_of<FlightRow>(
-      text("method", "", &FlightRow::method), rod_factors().columns(&FlightRow::cell),
-      text("spin", "", [](const FlightRow& r) { return fmt::format("{:g} deg", r.cell.spin_deg); }),
-      tunneled_columns<FlightRow>(), timing_columns<FlightRow>(),
+      flight_columns(), text("spin", "", [](const FlightRow& r) { return fmt::format("{:g} deg", r.cell.spin_deg); }),
       value("depth_max", "m", "", [](const FlightRow& r) -> std::optional<double> {
         if (r.tally.detected() == 0) return std::nullopt;
         return std::max(0.0, -r.tally.deepest);
@@ -248,12 +269,20 @@ Table drawn_table(const std::vector<FlightRow>& rows) {
 
 constexpr const char* step_axis = "step / (w + 2 r + 2 L sin(tilt)) [1]";
 
-/// Tunneling along the step ratio, a series for each spin or method, and the theory.
+/// Tunneling along the step ratio, a series for each spin or method, and the theory of each cell but for that ratio.
 Panel tunneled_panel(const std::vector<FlightRow>& rows, const char* by, const std::string& label,
                      const std::vector<RodMethod>& methods) {
-  Panel panel =
+  Plot panel =
       plot(drawn_table(rows)).x("step_ratio", Axis::log, step_axis).y("probability", Axis::linear, label).by(by);
-  panel.series.push_back(theory_curves(rows, methods));
+  const auto series = [](const FlightRow& r) { return std::tuple(r.method, r.cell.spin_deg, r.cell.tilt_deg); };
+  for (const Group<FlightRow>& group : group_by(rows, series)) {
+    const auto method = std::ranges::find(methods, group[0]->method, &RodMethod::name);
+    panel.curve("theory", [theory = method->wall_theory, cell = group[0]->cell](double ratio) {
+      RodFlight c = cell;
+      c.step_ratio = ratio;
+      return theory(c).value_or(nan);
+    });
+  }
   return panel;
 }
 
@@ -300,21 +329,17 @@ std::vector<Figure> flight_figures(const std::vector<FlightRow>& rows, const std
 }
 
 Figure pass_figure(const std::vector<PassRow>& rows, const std::vector<RodMethod>& methods) {
-  Plot passes = plot(passes_table(rows)).x("post_spin_deg", Axis::linear, "spin a step [deg]").by("method");
-  passes.y("probability", Axis::linear, "tunneled [1]");
-  Panel panel = passes;
-  Series curves = {.label = "theory", .mark = Mark::line};
-  const auto [least, most] = std::ranges::minmax(rows, {}, [](const PassRow& r) { return r.cell.post_spin_deg; });
+  Plot passes = plot(passes_table(rows))
+                    .x("post_spin_deg", Axis::linear, "spin a step [deg]")
+                    .y("probability", Axis::linear, "tunneled [1]")
+                    .by("method");
   for (const RodMethod& method : methods) {
-    const auto theory = [&](double spin) {
-      BladePass c = rows[0].cell;
+    passes.curve("theory", [&method, cell = rows[0].cell](double spin) {
+      BladePass c = cell;
       c.post_spin_deg = spin;
-      return method.post_theory(c).value_or(std::numeric_limits<double>::quiet_NaN());
-    };
-    add_curve(curves, least.cell.post_spin_deg, most.cell.post_spin_deg, Axis::linear, theory, 200);
-    curves.end_line();
+      return method.post_theory(c).value_or(nan);
+    });
   }
-  panel.series.push_back(std::move(curves));
   return {
       .name = "post",
       .title = "How often a blade turns past a post unseen",
@@ -322,7 +347,7 @@ Figure pass_figure(const std::vector<PassRow>& rows, const std::vector<RodMethod
                              "touches the post over {:.3g} degrees; linear_sweep and end_of_step, both without a "
                              "path to sweep, are the same.",
                              2 * half_window(rows[0].cell) / radians(1)),
-      .panels = {std::move(panel)}};
+      .panels = {passes}};
 }
 
 // What it says.
@@ -392,17 +417,17 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   std::vector<FlightRow> flights;
   std::vector<PassRow> passes;
   std::vector<Task<Tally>> flight_tasks, pass_tasks;
-  for (const RodFlight& cell : make_flights(settings, methods.size())) {
+  for (const RodFlight& cell : rod_factors.cells(settings, methods.size())) {
     for (const RodMethod& method : methods) {
       flights.push_back({cell, method.name, method.claims, method.wall_theory(cell)});
-      flight_tasks.push_back({fmt::format("wall {} {}", rod_factors().key(cell), method.name), trials,
+      flight_tasks.push_back({fmt::format("wall {} {}", rod_factors.key(cell), method.name), trials,
                               [cell, method, trials, seed = options.seed] { return fly(cell, method, trials, seed); }});
     }
   }
   for (const BladePass& cell : make_passes(settings, methods.size())) {
     for (const RodMethod& method : methods) {
       passes.push_back({cell, method.name, method.claims, method.post_theory(cell)});
-      pass_tasks.push_back({fmt::format("post {} {}", blade_factors().key(cell), method.name), trials,
+      pass_tasks.push_back({fmt::format("post {} {}", blade_factors.key(cell), method.name), trials,
                             [cell, method, trials, seed = options.seed] { return pass(cell, method, trials, seed); }});
     }
   }

@@ -49,13 +49,7 @@ TEST(Explorer, describes_every_method_of_the_experiment_and_its_look) {
 
 TEST(Explorer, fires_the_shots_of_the_experiment) {
   ASSERT_STREQ(explorer_set(300, 0.002, 0.004, 0.002, 25, 7), "");
-  const Cell cell = {.speed = 300,
-                     .step = 0.002,
-                     .radius = 0.004,
-                     .thickness = 0.002,
-                     .angle_deg = 25,
-                     .wall = Wall::infinite,
-                     .wall_size = 0};
+  const Cell cell = {300, 0.002, 0.004, 0.002, 25};
   const std::vector<std::string> wanted = {"end_of_step"}, scalars = {"double"};
   const Tally tally = fire(cell, thin_wall_methods(wanted, {}, scalars).front(), {0, 5000}, 7);
   const int method = number_of("end_of_step");

@@ -9,9 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/experiment_list.hpp>
-#include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
-#include <thinwall/experiments/models/rod_methods.hpp>
+#include <thinwall/experiments/models/rods.hpp>
 
 #include "support/experiment_run.hpp"
 
@@ -81,8 +80,9 @@ TEST(SpinningRodOracle, finds_the_first_contact) {
     for (std::uint64_t i = 0; i < 50; ++i) {
       const RodMotion m = random_motion(c, random_stream(c, 7), i);
       constexpr int looks = 5000;
-      for (int k = 0; k < looks; ++k) ASSERT_GT(gap_at(c, m, m.contact * k / looks), 0) << rod_factors().key(c);
-      EXPECT_NEAR(gap_at(c, m, m.contact), 0, 1e-15) << rod_factors().key(c);
+      for (int k = 0; k < looks; ++k)
+        ASSERT_GT(gap_at(c, m, m.contact * k / looks), 0) << c.spin_deg << " deg, " << c.step_ratio;
+      EXPECT_NEAR(gap_at(c, m, m.contact), 0, 1e-15) << c.spin_deg << " deg, " << c.step_ratio;
     }
   }
   for (std::uint64_t i = 0; i < 50; ++i) {
@@ -190,9 +190,9 @@ TEST(SpinningRod, a_linear_sweep_is_so_deep_at_worst) {
       const RodFlight c = rod_flight(spin, ratio, 50);
       const double worst = reach(c) * std::sin(radians(std::min(spin, 90.0)));
       const RodTally tally = fly(c, rod_method("linear_sweep"), 3000, 1);
-      EXPECT_GE(tally.deepest, -worst - 1e-12) << rod_factors().key(c);
+      EXPECT_GE(tally.deepest, -worst - 1e-12) << c.spin_deg << " deg, " << c.step_ratio;
       if (ratio == 2) {
-        EXPECT_LE(tally.deepest, -0.9 * worst + 1e-12) << rod_factors().key(c);
+        EXPECT_LE(tally.deepest, -0.9 * worst + 1e-12) << c.spin_deg << " deg, " << c.step_ratio;
       }
     }
   }
