@@ -88,45 +88,6 @@ std::string how_to_build(const std::string& name) {
   return "configure with -DTHINWALL_BUILD_BENCH=ON and build again (Debian: libbenchmark-dev)";
 }
 
-constexpr std::string_view peers_program = "peers";
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> peer_names = {{{"bullet", "Bullet"},
-                                                                                       {"ode", "ODE"},
-                                                                                       {"fcl", "FCL"},
-                                                                                       {"libccd", "libccd"},
-                                                                                       {"rapier", "Rapier"},
-                                                                                       {"jolt", "Jolt"},
-                                                                                       {"physx", "PhysX"},
-                                                                                       {"havok", "Havok"},
-                                                                                       {"box2d3", "Box2D 3"},
-                                                                                       {"thinwall", "thinwall"}}};
-
-std::string in_words(std::string text) {
-  text = spaced(std::move(text));
-  std::ranges::replace(text, '/', ' ');
-  for (const auto& [low, high] : {std::pair{"gjk", "GJK"}, {"mpr", "MPR"}}) {
-    if (const std::size_t at = text.find(low); at != std::string::npos) text.replace(at, 3, high);
-  }
-  return text;
-}
-
-void add_round(TimedWay& timed, const BenchRow& row) {
-  std::vector<Counter> errors;
-  for (const Counter& counter : row.counters) {
-    if (counter.name == "floor_ns") {
-      timed.floor_ns.push_back(counter.value);
-    } else if (counter.name == "to_floor") {
-      timed.to_floor.push_back(counter.value);
-    } else if (counter.name == "call_ns") {
-      timed.call_ns.push_back(counter.value);
-    } else {
-      errors.push_back(counter);
-    }
-  }
-  if (timed.nanoseconds.empty()) timed.errors = errors;
-  timed.errors_agree = timed.errors_agree && timed.errors == errors;
-  timed.nanoseconds.push_back(row.nanoseconds);
-}
-
 }  // namespace
 
 BenchOutput bench_output_from_json(const std::string& program, const std::string& json) {
@@ -190,78 +151,6 @@ BenchOutput run_bench_program(const fs::path& folder, const std::string& name, c
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("{}: {}", program.string(), error.what()));
   }
-}
-
-std::optional<double> TimedWay::error(std::string_view counter) const {
-  const auto found = std::ranges::find(errors, counter, &Counter::name);
-  return found == errors.end() ? std::nullopt : std::optional(found->value);
-}
-
-bool TimedWay::is_front_door() const { return way == "front_door" || (program == peers_program && way == "thinwall"); }
-
-bool TimedWay::is_peer() const { return program == peers_program && !is_front_door(); }
-
-bool TimedWay::must_be_right() const { return kind == "time_of_impact" && is_front_door() && error("missed"); }
-
-std::string TimedWay::name() const {
-  if (is_front_door()) return "thinwall, front door";
-  if (way == "plain") return "plain form";
-  if (program != peers_program) return "thinwall, " + in_words(way);
-  for (const auto& [prefix, name] : peer_names) {
-    if (!way.starts_with(prefix)) continue;
-    const std::string rest = way.substr(prefix.size());
-    return rest.empty() ? std::string(name) : std::string(name) + "," + in_words(rest);
-  }
-  return way;
-}
-
-std::vector<Tic> tics_from_top(const std::vector<std::string>& names) {
-  std::vector<Tic> tics;
-  for (std::size_t i = names.size(); i > 0; --i) tics.push_back({static_cast<double>(tics.size() + 1), names[i - 1]});
-  return tics;
-}
-
-std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds) {
-  std::vector<TimedWay> all;
-  for (const std::string_view program : bench_program_names()) {
-    for (const BenchOutput& output : rounds) {
-      if (output.program != program) continue;
-      for (const BenchRow& row : output.rows) {
-        auto found = std::ranges::find_if(all, [&](const TimedWay& c) {
-          return c.program == program && c.kind == row.kind && c.subject == row.subject && c.way == row.way;
-        });
-        if (found == all.end()) {
-          found = all.insert(
-              all.end(), {.program = std::string(program), .kind = row.kind, .subject = row.subject, .way = row.way});
-        }
-        add_round(*found, row);
-      }
-    }
-  }
-  return all;
-}
-
-std::vector<TimedWay> drawn_ways(const std::vector<TimedWay>& all) {
-  std::vector<TimedWay> drawn;
-  for (const TimedWay& c : all) {
-    if (c.kind != "time_of_impact" || !c.error("p99_length") || c.program == "methods") continue;
-    const auto beyond = [&](const TimedWay& other) { return other.subject == c.subject; };
-    const auto same = [&](const TimedWay& other) { return beyond(other) && other.name() == c.name(); };
-    if (std::ranges::any_of(drawn, same)) continue;
-    const auto last = std::find_if(drawn.rbegin(), drawn.rend(), beyond);  // pairs stay together
-    drawn.insert(last == drawn.rend() ? drawn.end() : last.base(), c);
-  }
-  return drawn;
-}
-
-const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed) {
-  const TimedWay* found = nullptr;
-  for (const TimedWay& c : all) {
-    if (c.kind != timed.kind || c.subject != timed.subject || !c.is_front_door()) continue;
-    if (c.program == timed.program) return &c;  // the same run
-    if (found == nullptr) found = &c;
-  }
-  return found;
 }
 
 }  // namespace thinwall

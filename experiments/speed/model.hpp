@@ -1,17 +1,13 @@
 #pragma once
-/// The benchmark programs: which there are, where they lie, running one, what it said, and all rounds of one of its rows.
+/// The benchmark programs: which there are, where they lie, running one, and what it said.
 
-#include <algorithm>
+#include <array>
 #include <filesystem>
-#include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <thinwall/experiments/lab/figure.hpp>
-#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 
 namespace thinwall {
@@ -77,57 +73,5 @@ struct BenchOptions {
 /// not there gives an output that says so and what to do. Throws std::runtime_error, in one line, if it fails.
 BenchOutput run_bench_program(const std::filesystem::path& folder, const std::string& name,
                               const BenchOptions& options);
-
-/// All rounds of one row, and what follows from them.
-struct TimedWay {
-  std::string program, kind, subject, way;
-  std::vector<double> nanoseconds = {};              ///< [ns] an answer, one of each round
-  std::vector<double> floor_ns = {}, to_floor = {};  ///< of each round, where the program says them
-  std::vector<double> call_ns = {};  ///< [ns] what calling another language takes, not in the time; so, too
-  std::vector<Counter> errors = {};  ///< its other counters, in the first round
-  bool errors_agree = true;          ///< the same in every round
-
-  Measured time() const { return median_of_rounds(nanoseconds); }
-  std::optional<double> error(std::string_view counter) const;  ///< where the row has it
-  double wrong_verdicts() const { return error("missed").value_or(0) + error("false").value_or(0); }
-
-  std::string name() const;    ///< what a picture calls it: "thinwall, careful", "Bullet, subsimplex cast"
-  bool is_front_door() const;  ///< the program's own answer through it
-  bool is_peer() const;        ///< another library answers
-  bool must_be_right()
-      const;  ///< our own, on queries where a wrong verdict has no excuse: not the ones made to be hard
-};
-
-/// The least and the most of numbers > 0.
-struct Extremes {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-
-  void add(double x) {
-    least = std::min(least, x);
-    most = std::max(most, x);
-  }
-  bool any() const { return most > 0; }
-};
-
-/// Names along an axis, the first at the far end: the last is at 1.
-std::vector<Tic> tics_from_top(const std::vector<std::string>& names);
-
-/// By program in the order of the suite, then as the program lists its rows.
-std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds);
-
-/// Asked for a time of impact, and its errors counted: what the picture shows, pair by pair. Of those of one name and pair, the
-/// first.
-std::vector<TimedWay> drawn_ways(const std::vector<TimedWay>& all);
-
-/// The program's own answer through the front door, for the subject of `timed`; null if it is not there.
-const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed);
-
-// ---- What the benchmark of batches says: the picture of it, and a sentence.
-
-/// What a row of a batch takes, by pair, scalar and width of vector; without panels where no batch was timed.
-Figure batch_figure(const std::vector<TimedWay>& all);
-
-/// A sentence on batches, after a space; empty where none was timed.
-std::string batch_text(const std::vector<TimedWay>& all);
 
 }  // namespace thinwall

@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <regex>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
+#include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -24,6 +26,168 @@ namespace thinwall {
 namespace {
 
 constexpr double rows_of_a_program = 700;  // about, on average: for the estimate of a dry run, which starts none
+
+constexpr std::string_view peers_program = "peers";
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> peer_names = {{{"bullet", "Bullet"},
+                                                                                       {"ode", "ODE"},
+                                                                                       {"fcl", "FCL"},
+                                                                                       {"libccd", "libccd"},
+                                                                                       {"rapier", "Rapier"},
+                                                                                       {"jolt", "Jolt"},
+                                                                                       {"physx", "PhysX"},
+                                                                                       {"havok", "Havok"},
+                                                                                       {"box2d3", "Box2D 3"},
+                                                                                       {"thinwall", "thinwall"}}};
+
+std::string in_words(std::string text) {
+  text = spaced(std::move(text));
+  std::ranges::replace(text, '/', ' ');
+  for (const auto& [low, high] : {std::pair{"gjk", "GJK"}, {"mpr", "MPR"}}) {
+    if (const std::size_t at = text.find(low); at != std::string::npos) text.replace(at, 3, high);
+  }
+  return text;
+}
+
+// What the programs said, row by row.
+
+/// All rounds of one row, and what follows from them.
+struct TimedWay {
+  std::string program, kind, subject, way;
+  std::vector<double> nanoseconds = {};              ///< [ns] an answer, one of each round
+  std::vector<double> floor_ns = {}, to_floor = {};  ///< of each round, where the program says them
+  std::vector<double> call_ns = {};  ///< [ns] what calling another language takes, not in the time; so, too
+  std::vector<Counter> errors = {};  ///< its other counters, in the first round
+  bool errors_agree = true;          ///< the same in every round
+
+  Measured time() const { return median_of_rounds(nanoseconds); }
+  double wrong_verdicts() const { return error("missed").value_or(0) + error("false").value_or(0); }
+
+  /// Where the row has it.
+  std::optional<double> error(std::string_view counter) const {
+    const auto found = std::ranges::find(errors, counter, &Counter::name);
+    return found == errors.end() ? std::nullopt : std::optional(found->value);
+  }
+  /// The program's own answer through it.
+  bool is_front_door() const { return way == "front_door" || (program == peers_program && way == "thinwall"); }
+  /// Another library answers.
+  bool is_peer() const { return program == peers_program && !is_front_door(); }
+  /// Our own, on queries where a wrong verdict has no excuse: not the ones made to be hard.
+  bool must_be_right() const { return kind == "time_of_impact" && is_front_door() && error("missed"); }
+  /// What a picture calls it: "thinwall, careful", "Bullet, subsimplex cast".
+  std::string name() const {
+    if (is_front_door()) return "thinwall, front door";
+    if (way == "plain") return "plain form";
+    if (program != peers_program) return "thinwall, " + in_words(way);
+    for (const auto& [prefix, name] : peer_names) {
+      if (!way.starts_with(prefix)) continue;
+      const std::string rest = way.substr(prefix.size());
+      return rest.empty() ? std::string(name) : std::string(name) + "," + in_words(rest);
+    }
+    return way;
+  }
+};
+
+void add_round(TimedWay& timed, const BenchRow& row) {
+  std::vector<Counter> errors;
+  for (const Counter& counter : row.counters) {
+    if (counter.name == "floor_ns") {
+      timed.floor_ns.push_back(counter.value);
+    } else if (counter.name == "to_floor") {
+      timed.to_floor.push_back(counter.value);
+    } else if (counter.name == "call_ns") {
+      timed.call_ns.push_back(counter.value);
+    } else {
+      errors.push_back(counter);
+    }
+  }
+  if (timed.nanoseconds.empty()) timed.errors = errors;
+  timed.errors_agree = timed.errors_agree && timed.errors == errors;
+  timed.nanoseconds.push_back(row.nanoseconds);
+}
+
+/// By program in the order of the suite, then as the program lists its rows.
+std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds) {
+  std::vector<TimedWay> all;
+  for (const std::string_view program : bench_program_names()) {
+    for (const BenchOutput& output : rounds) {
+      if (output.program != program) continue;
+      for (const BenchRow& row : output.rows) {
+        auto found = std::ranges::find_if(all, [&](const TimedWay& c) {
+          return c.program == program && c.kind == row.kind && c.subject == row.subject && c.way == row.way;
+        });
+        if (found == all.end()) {
+          found = all.insert(
+              all.end(), {.program = std::string(program), .kind = row.kind, .subject = row.subject, .way = row.way});
+        }
+        add_round(*found, row);
+      }
+    }
+  }
+  return all;
+}
+
+/// Asked for a time of impact, and its errors counted: what the picture shows, pair by pair. Of those of one name and pair, the
+/// first.
+std::vector<TimedWay> drawn_ways(const std::vector<TimedWay>& all) {
+  std::vector<TimedWay> drawn;
+  for (const TimedWay& c : all) {
+    if (c.kind != "time_of_impact" || !c.error("p99_length") || c.program == "methods") continue;
+    const auto beyond = [&](const TimedWay& other) { return other.subject == c.subject; };
+    const auto same = [&](const TimedWay& other) { return beyond(other) && other.name() == c.name(); };
+    if (std::ranges::any_of(drawn, same)) continue;
+    const auto last = std::find_if(drawn.rbegin(), drawn.rend(), beyond);  // pairs stay together
+    drawn.insert(last == drawn.rend() ? drawn.end() : last.base(), c);
+  }
+  return drawn;
+}
+
+/// The program's own answer through the front door, for the subject of `timed`; null if it is not there.
+const TimedWay* front_door_for(const std::vector<TimedWay>& all, const TimedWay& timed) {
+  const TimedWay* found = nullptr;
+  for (const TimedWay& c : all) {
+    if (c.kind != timed.kind || c.subject != timed.subject || !c.is_front_door()) continue;
+    if (c.program == timed.program) return &c;  // the same run
+    if (found == nullptr) found = &c;
+  }
+  return found;
+}
+
+/// A row of a batch: sphere_sphere, f64/cache/AVX2.
+struct BatchRow {
+  std::string what, where, how;  ///< "sphere_sphere f64", "cache", "AVX2"
+  const TimedWay* timed;
+};
+
+std::vector<BatchRow> batch_rows(const std::vector<TimedWay>& all) {
+  std::vector<BatchRow> rows;
+  for (const TimedWay& c : all) {
+    const std::size_t first = c.way.find('/'), second = c.way.find('/', first + 1);
+    if (c.kind != "batch" || first == std::string::npos || second == std::string::npos) continue;
+    rows.push_back({c.subject + " " + c.way.substr(0, first), c.way.substr(first + 1, second - first - 1),
+                    c.way.substr(second + 1), &c});
+  }
+  return rows;
+}
+
+std::string way_label(const std::string& how) {
+  if (how == "scalar") return "row after row, front door";
+  if (how == "SCALAR") return "batch, without vectors";
+  if (how == "row_by_row") return "batch, pair by pair";
+  if (how == "two_threads") return "batch, two threads";
+  if (how.starts_with("AVX3")) return "batch, AVX-512";
+  return "batch, " + how;
+}
+
+/// The least and the most of numbers > 0.
+struct Extremes {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+
+  void add(double x) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  bool any() const { return most > 0; }
+};
 
 // What the tables show.
 
@@ -227,10 +391,21 @@ std::vector<Panel> panels_by_pair(const std::vector<TimedWay>& drawn) {
   return panels;
 }
 
+/// Where a name is along an axis that has the first at its far end: the last is at 1.
+double place_from_top(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<double>(names.end() - std::ranges::find(names, name));
+}
+std::vector<Tic> tics_from_top(const std::vector<std::string>& names) {
+  std::vector<Tic> tics;
+  for (const std::string& name : names) tics.push_back({place_from_top(names, name), name});
+  std::ranges::reverse(tics);
+  return tics;
+}
+
 /// Wrong verdicts of each, by pair; who has none is not there.
 Figure verdict_figure(const std::vector<TimedWay>& drawn) {
   const std::vector<std::string> subjects = subjects_of(drawn);
-  const auto place = [&](const TimedWay& c) { return subjects.end() - std::ranges::find(subjects, c.subject); };
+  const auto place = [&](const TimedWay& c) { return place_from_top(subjects, c.subject); };
   Figure figure = {.name = "wrong_verdicts",
                    .title = "Wrong verdicts",
                    .caption = "Who is not there has none. " + wrong_text(drawn)};
@@ -244,6 +419,42 @@ Figure verdict_figure(const std::vector<TimedWay>& drawn) {
                       .by("who");
     panel.y_tics = tics_from_top(subjects);
     if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+/// What a row of a batch takes, by pair, scalar and width of vector; without panels where no batch was timed.
+Figure batch_figure(const std::vector<TimedWay>& all) {
+  const std::vector<BatchRow> rows = batch_rows(all);
+  const std::vector<std::string> subjects = distinct(rows, &BatchRow::what);
+  const auto place = [&](const BatchRow& row) { return place_from_top(subjects, row.what); };
+  const auto columns = columns_of<BatchRow>(
+      text("where", "", &BatchRow::where), text("who", "", [](const BatchRow& row) { return way_label(row.how); }),
+      measured("time", "", "", [](const BatchRow& row) { return row.timed->time(); }), value("place", "", "", place));
+  Figure figure = {
+      .name = "batches",
+      .title = "What a row of a batch takes",
+      .caption =
+          "Bars: 95 % bootstrap intervals of the median over rounds, by the clock on the wall. In the cache the floor is that of the divisions and "
+          "square roots of scalar code, which vectors may go below; from memory it is to stream a row's bytes, one obstacle against many.",
+      .is_timing = true};
+  for (const std::string& where : distinct(rows, &BatchRow::where)) {
+    Panel panel = plot(columns, rows)
+                      .where("where", where)
+                      .x("time", Axis::log, "ns a row")
+                      .y("place", Axis::linear,
+                         where == "cache"    ? "in the first cache"
+                         : where == "memory" ? "streamed from memory"
+                                             : where)
+                      .by("who");
+    Series floor{.label = "floor", .color = "#000000"};
+    for (const BatchRow& row : rows) {
+      if (row.where != where || row.timed->floor_ns.empty() || row.how == "row_by_row") continue;
+      if (std::ranges::find(floor.y, place(row)) == floor.y.end()) floor.add(median(row.timed->floor_ns), place(row));
+    }
+    if (!floor.x.empty()) panel.series.push_back(std::move(floor));
+    panel.y_tics = tics_from_top(subjects);
+    figure.panels.push_back(std::move(panel));
   }
   return figure;
 }
@@ -292,6 +503,29 @@ std::string self_test_words(const std::vector<TimedWay>& all) {
       "Self-test: in {} rows with an oracle the errors are the same in every round, and our front door has no wrong "
       "verdict.{}",
       judged, broken.empty() ? " It holds." : broken);
+}
+
+/// A sentence on batches, after a space; empty where none was timed.
+std::string batch_text(const std::vector<TimedWay>& all) {
+  const std::vector<BatchRow> rows = batch_rows(all);
+  Extremes times, gains;
+  for (const BatchRow& scalar : rows) {
+    if (scalar.how != "scalar") continue;
+    Extremes others;
+    for (const BatchRow& row : rows) {
+      if (row.what != scalar.what || row.where != scalar.where || row.how == "scalar" || row.how == "two_threads")
+        continue;
+      others.add(median(row.timed->nanoseconds));
+    }
+    if (!others.any()) continue;  // nothing but the scalar code
+    times.add(others.least);
+    gains.add(median(scalar.timed->nanoseconds) / others.least);
+  }
+  if (!times.any()) return "";
+  return fmt::format(
+      " A batch on one thread takes {} to {} ns a row at its quickest, {} to {} times as fast as the same rows one after another.",
+      rounded_text(times.least, 2), rounded_text(times.most, 2), rounded_text(gains.least, 2),
+      rounded_text(gains.most, 2));
 }
 
 std::string answer_of(const std::vector<TimedWay>& all) {
