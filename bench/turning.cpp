@@ -9,7 +9,7 @@
 
 #include <thinwall/swept/certified/turning_certified.hpp>
 
-#include "errors.hpp"
+#include "query_sets.hpp"
 
 namespace thinwall::bench {
 
@@ -78,13 +78,10 @@ template <class A, class B> const QuerySet<Spin<A, B>>& any_spins() {
 template <class Method, class A, class B>
 void add_method(const std::string& pair, const std::string& shown, const Method& method) {
   const auto set = &any_spins<A, B>;
-  const auto time_of = [method](const Spin<A, B>& q) {
-    const Toi<double> toi = time_of_impact(method, q.a, q.b);
-    return toi.status == ToiStatus::apart ? never : toi.time;
-  };
-  const auto count = counted_once([set, time_of] { return errors_of(set(), time_of); });
+  const auto ask = [method](const Spin<A, B>& q) { return time_of(time_of_impact(method, q.a, q.b)); };
+  const auto count = counted_once([set, ask] { return errors_of(set(), ask); });
   benchmark::RegisterBenchmark(("turning/" + pair + "/" + shown).c_str(), [=](benchmark::State& state) {
-    time_queries(state, set().queries, time_of);
+    time_queries(state, set().queries, ask);
     count(state);
     double looks = 0;
     for (const Spin<A, B>& q : set().queries) looks += time_of_impact(method, q.a, q.b).evaluations;

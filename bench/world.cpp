@@ -4,13 +4,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/world.hpp>
 
 #include "floors.hpp"
@@ -117,11 +117,6 @@ const bool added = [] {
   add("full plan", 1000, full);
   return true;
 }();
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 void print_table() {
   std::printf("\n%-28s%8s%10s%9s%9s |%10s%8s%8s%10s%8s |%9s%8s%9s\n", "rain", "balls", "ms/step", "ns/body", "x floor",

@@ -80,7 +80,7 @@ bool add_libccd() {
     };
     const auto overlap_row = [&](const char* name, CcdVerdict ask) {
       add_row("overlaps/" + pair + "/" + name, set, {}, prepare,
-              [ask, ccd = ccd_settings()](const CcdPair& q) { return ask(&q.a, &q.b, &ccd) != 0 ? -1.0 : never; });
+              [ask, ccd = ccd_settings()](const CcdPair& q) { return depth_of(ask(&q.a, &q.b, &ccd) != 0); });
     };
     contact_row("libccd_gjk", &ccdGJKPenetration);
     contact_row("libccd_mpr", &ccdMPRPenetration);

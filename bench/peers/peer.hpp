@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "errors.hpp"
+#include "query_sets.hpp"
 
 namespace thinwall::bench {
 
