@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -104,22 +103,6 @@ PlanScene town(std::int64_t count, std::uint64_t seed) {
   scene.options.gravity = {0, -9.81, 0};
   return scene;
 }
-
-/// Source: the 64-bit FNV-1a hash, by half words.
-class Digest {
- public:
-  void add(std::uint64_t word) {
-    for (const std::uint64_t half : {word & 0xffffffff, word >> 32}) hash_ = (hash_ ^ half) * 0x100000001b3;
-  }
-  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  void add(const Vec3<double>& v) {
-    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
-};
 
 /// The state, and what was asked for: hits where anybody could read them, events where they are read.
 void add_step(Digest& digest, const World& world) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -20,15 +21,105 @@
 
 namespace thinwall {
 
+// ---- Bodies that turn.
+
 namespace {
 
-template <class BroadPhase> struct Named final : PairFinder {
-  BroadPhase options;
-  typename BroadPhase::Memory memory;
-  void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) override {
-    find_pairs(options, proxies, pairs, max_pairs, memory);
+Obb<double> true_axes(const Obb<double>& box) {
+  Mat3<double> axes;
+  axes.col(0) = safe_unit(Vec3<double>(box.axes.col(0)));
+  const Vec3<double> second = box.axes.col(1) - axes.col(0) * axes.col(0).dot(box.axes.col(1));
+  axes.col(1) = safe_unit(second);
+  const Vec3<double> third = cross<double>(axes.col(0), axes.col(1));
+  axes.col(2) = third.dot(box.axes.col(2)) < 0 ? Vec3<double>(-third) : third;  // a mirrored frame stays one
+  return {box.center, box.half_extents, axes};
+}
+
+struct TurnedTrue {
+  const Mat3<double>& turn;
+
+  AnyShape operator()(const Obb<double>& box) const { return true_axes(turned(box, turn)); }
+  AnyShape operator()(const Capsule<double>& capsule) const {
+    const Vec3<double> middle = center(capsule), half = (capsule.b - capsule.a) / 2, now = turn * half;
+    const double length = safe_norm(now);
+    const Vec3<double> kept = length > 0 ? Vec3<double>(now * (safe_norm(half) / length)) : now;
+    return Capsule<double>{middle - kept, middle + kept, capsule.radius};
   }
+  template <class A> AnyShape operator()(const A& shape) const { return shape; }
 };
+
+/// Cylinder and hemispheres share the mass as their volumes, pi r^2 length and 4/3 pi r^3.
+Gyration gyration(const Capsule<double>& capsule) {
+  const double r = capsule.radius, length = safe_norm(Vec3<double>(capsule.b - capsule.a)), ends = r * 4 / 3;
+  const double cylinder = length + ends > 0 ? length / (length + ends) : 0, hemispheres = 1 - cylinder;
+  const double along = cylinder * r * r / 2 + hemispheres * r * r * 2 / 5;
+  const double across = cylinder * (length * length / 12 + r * r / 4) +
+                        hemispheres * (r * r * 2 / 5 + length * length / 4 + length * r * 3 / 8);
+  Gyration gyration{Mat3<double>::Identity(), {across, across, along}};
+  if (length == 0) return gyration;
+  const Vec3<double> axis = safe_unit(Vec3<double>(capsule.b - capsule.a));
+  int least = 0;
+  axis.cwiseAbs().minCoeff(&least);
+  const Vec3<double> side = safe_unit(cross(axis, axis_vector<double>(least)));
+  gyration.axes.col(0) = side;
+  gyration.axes.col(1) = cross(axis, side);
+  gyration.axes.col(2) = axis;
+  return gyration;
+}
+
+Gyration gyration(const Obb<double>& box) {
+  const Vec3<double> square = box.half_extents.cwiseAbs2() / 3;
+  return {box.axes, {square[1] + square[2], square[0] + square[2], square[0] + square[1]}};
+}
+Gyration gyration(const Aabb<double>& box) { return gyration(to_obb(box)); }
+Gyration gyration(const Sphere<double>& ball) {
+  return {Mat3<double>::Identity(), Vec3<double>::Constant(ball.radius * ball.radius * 2 / 5)};
+}
+Gyration gyration(const std::monostate&) { return {}; }
+
+}  // namespace
+
+AnyShape turned_true(const AnyShape& shape, const Mat3<double>& turn) { return std::visit(TurnedTrue{turn}, shape); }
+
+Gyration gyration_of(const AnyShape& shape) {
+  return std::visit([](const auto& held) { return gyration(held); }, shape);
+}
+
+Mat3<double> inverse_inertia(const AnyShape& shape, double inverse_mass) {
+  const Gyration of = gyration_of(shape);
+  Vec3<double> inverse;
+  for (int i = 0; i < 3; ++i) inverse[i] = of.squares[i] > 0 ? inverse_mass / of.squares[i] : 0;
+  return of.axes * inverse.asDiagonal() * of.axes.transpose();
+}
+
+long double energy_of_turning(const Body& body) {
+  using Wide = long double;
+  const Gyration of = gyration_of(body.shape);
+  const Vec3<Wide> rate = of.axes.cast<Wide>().transpose() * body.angular_velocity.cast<Wide>();
+  return Wide(body.mass) * rate.cwiseAbs2().dot(of.squares.cast<Wide>()) / 2;
+}
+
+double farthest_point(const AnyShape& shape) {
+  return of_shape(shape, 0.0, []<class A>(const A& held) {
+    if constexpr (std::is_same_v<A, Aabb<double>>) {
+      return safe_norm(held.half_extents);
+    } else {
+      return farthest(core_vectors(held)) + skin_radius(held);
+    }
+  });
+}
+
+Yield yield_of(const Mover& m, const Vec3<double>& arm, const Vec3<double>& normal) {
+  const double inverse = inverse_mass(m.body);
+  if (!m.spin || inverse == 0) return {Vec3<double>::Zero(), inverse};
+  const Vec3<double> moment = cross(arm, normal);
+  const Vec3<double> turn = inverse_inertia(turned_true(m.body.shape, m.spin->turned), inverse) * moment;
+  return {turn, inverse + turn.dot(moment)};
+}
+
+// ---- Asking pairs.
+
+namespace {
 
 using SphereOrAabb = std::variant<std::monostate, Sphere<double>, Aabb<double>>;
 
@@ -142,12 +233,10 @@ template <class Held> Held as_held(const AnyShape& shape) {
       shape);
 }
 
-template <class Held> void turn_held(Held& shape, const Mat3<double>& by) {
-  std::visit(
-      [&]<class A>(A& s) {
-        if constexpr (looks_turned<A>) s = turned(s, by);
-      },
-      shape);
+template <class Held> void turn_held(Held& held, const Mat3<double>& by) {
+  with_shape(held, [&]<class A>(A& shape) {
+    if constexpr (looks_turned<A>) shape = turned(shape, by);
+  });
 }
 
 /// with_spin: of bodies that turn as well; each pair of which neither does is asked as without.
@@ -254,6 +343,11 @@ template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
     });
   }
 
+  /// True where a query is asked of two that do not turn: at an instant, of any two.
+  template <class Answer> bool is_straight(const ProxyPair& pair) const {
+    return !std::is_same_v<Answer, Swept> || !turns(pair);
+  }
+
   template <class Answer, class Query> Answer one(const Query& query, const ProxyPair& pair) const {
     if constexpr (with_spin && std::is_same_v<Answer, Swept>) {
       if (turns(pair)) return visit_turning(pair, Answer{}, query);
@@ -268,26 +362,16 @@ template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
   void ask_block(std::span<const ProxyPair> pairs, double start, const Query& query, Block& block) {
     block.touches.clear();
     block.asked = {};
-    std::vector<IndexPair> places;
-    places.reserve(pairs.size());
-    if constexpr (with_spin && std::is_same_v<Answer, Swept>) {
-      std::vector<std::size_t> straight;
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (turns(pairs[i])) continue;
-        straight.push_back(i);
-        places.push_back({pairs[i].first, pairs[i].second});
-      }
-      const auto grouped = answers(group_pairs(list_, list_, places), list_, list_, places, Answer{}, query);
-      std::size_t next = 0;
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const bool is_straight = next < straight.size() && straight[next] == i;
-        keep(pairs[i], start, is_straight ? grouped[next++] : one<Answer>(query, pairs[i]), block.touches, block.asked);
-      }
-      return;
+    std::vector<IndexPair> straight;
+    straight.reserve(pairs.size());
+    for (const ProxyPair& pair : pairs) {
+      if (is_straight<Answer>(pair)) straight.push_back({pair.first, pair.second});
     }
-    for (const ProxyPair& pair : pairs) places.push_back({pair.first, pair.second});
-    const auto all = answers(group_pairs(list_, list_, places), list_, list_, places, Answer{}, query);
-    for (std::size_t i = 0; i < pairs.size(); ++i) keep(pairs[i], start, all[i], block.touches, block.asked);
+    const auto grouped = answers(group_pairs(list_, list_, straight), list_, list_, straight, Answer{}, query);
+    auto next = grouped.begin();
+    for (const ProxyPair& pair : pairs) {
+      keep(pair, start, is_straight<Answer>(pair) ? *next++ : one<Answer>(query, pair), block.touches, block.asked);
+    }
   }
 
   oneapi::tbb::task_arena arena_;
@@ -299,6 +383,14 @@ template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
 };
 
 }  // namespace
+
+std::unique_ptr<NarrowPhase> make_narrow_phase(const Plan& plan, int threads) {
+  if (plan.sphere_aabb) return std::make_unique<Kernels<SphereOrAabb, false>>(false, threads);
+  if (plan.spin) return std::make_unique<Kernels<AnyShape, true>>(plan.spin_within_gap, threads);
+  return std::make_unique<Kernels<AnyShape, false>>(false, threads);
+}
+
+// ---- Whom a body may meet.
 
 constexpr std::size_t searches_by_loop = 4;  // then a tree pays: it costs as much as a few dozen passes over the boxes
 
@@ -406,6 +498,20 @@ std::size_t Neighbors::bytes() const {
   return tree_ ? sum + tree_->boxes.size() * sizeof(r_tree::Entry) : sum;
 }
 
+// ---- Broad phases by name.
+
+namespace {
+
+template <class BroadPhase> struct Named final : PairFinder {
+  BroadPhase options;
+  typename BroadPhase::Memory memory;
+  void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) override {
+    find_pairs(options, proxies, pairs, max_pairs, memory);
+  }
+};
+
+}  // namespace
+
 const std::vector<std::string_view>& pair_finder_names() {
   static const std::vector<std::string_view> all = [] {
     std::vector<std::string_view> names;
@@ -422,20 +528,6 @@ std::unique_ptr<PairFinder> make_pair_finder(std::string_view name) {
   });
   if (!finder) throw std::invalid_argument("there is no broad phase '" + std::string(name) + "'");
   return finder;
-}
-
-Yield yield_of(const Mover& m, const Vec3<double>& arm, const Vec3<double>& normal) {
-  const double inverse = inverse_mass(m.body);
-  if (!m.spin || inverse == 0) return {Vec3<double>::Zero(), inverse};
-  const Vec3<double> moment = cross(arm, normal);
-  const Vec3<double> turn = inverse_inertia(turned_true(m.body.shape, m.spin->turned), inverse) * moment;
-  return {turn, inverse + turn.dot(moment)};
-}
-
-std::unique_ptr<NarrowPhase> make_narrow_phase(const Plan& plan, int threads) {
-  if (plan.sphere_aabb) return std::make_unique<Kernels<SphereOrAabb, false>>(false, threads);
-  if (plan.spin) return std::make_unique<Kernels<AnyShape, true>>(plan.spin_within_gap, threads);
-  return std::make_unique<Kernels<AnyShape, false>>(false, threads);
 }
 
 }  // namespace thinwall

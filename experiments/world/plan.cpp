@@ -4,7 +4,6 @@
 #include <array>
 
 #include <thinwall/experiments/world/pairs.hpp>
-#include <thinwall/experiments/world/spin.hpp>
 
 namespace thinwall {
 namespace {
@@ -61,6 +60,10 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
     plan.lines.push_back({what, goes, !could_go ? if_not : goes ? if_gone : "could go: " + if_gone});
     return !goes;
   };
+  // True if it is done though it could go.
+  const auto kept = [&](const std::string& what, bool could_go, const std::string& if_gone, const std::string& if_not) {
+    return line(what, could_go, if_gone, if_not) && could_go;
+  };
 
   const bool asked_for = options.response || options.events;
   plan.contacts = line("contacts", !asked_for, "nobody reads events, and no response is asked for",
@@ -75,22 +78,18 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
        of(census.with_shape, "shape", "shapes") + ": the half loop over boxes is cheaper than to sort them",
        plan.broad_phase + (options.broad_phase == "auto" ? ", as there are " : ", as asked for; there are ") +
            of(census.with_shape, "shape", "shapes"));
-  plan.all_bounds = line("pairs of disjoint boxes", census.with_shape > 1,
-                         std::string("a body stays in its ") + (swept ? "swept box" : "box") +
-                             ": if two are disjoint, so are the bodies",
-                         "there is no pair") &&
-                    census.with_shape > 1;
-  plan.static_pairs = line("static pairs", census.at_rest > 1, pairs_of(census.at_rest) + " of bodies that never move",
-                           "fewer than two static bodies") &&
-                      census.at_rest > 1;
-  plan.masked_pairs = line("masked pairs", census.masks, "a mask leaves out a group that is there",
-                           "every mask has every group that is there") &&
-                      census.masks;
+  plan.all_bounds = kept(
+      "pairs of disjoint boxes", census.with_shape > 1,
+      std::string("a body stays in its ") + (swept ? "swept box" : "box") + ": if two are disjoint, so are the bodies",
+      "there is no pair");
+  plan.static_pairs = kept("static pairs", census.at_rest > 1, pairs_of(census.at_rest) + " of bodies that never move",
+                           "fewer than two static bodies");
+  plan.masked_pairs = kept("masked pairs", census.masks, "a mask leaves out a group that is there",
+                           "every mask has every group that is there");
   plan.resting_bounds =
-      line("motion of bodies at rest", census.at_rest > 0,
+      kept("motion of bodies at rest", census.at_rest > 0,
            "the boxes of " + of(census.at_rest, "static body", "static bodies") + " stay from step to step",
-           "every body can move") &&
-      census.at_rest > 0;
+           "every body can move");
 
   const bool only_two = census.shapes[3] + census.shapes[4] == 0;
   plan.sphere_aabb = !line("kernels of absent shapes", only_two, "spheres and axis-aligned boxes alone",
@@ -107,15 +106,9 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
 }
 
 std::span<const std::string_view> omission_names() {
-  static constexpr std::array<std::string_view, 9> names = {"contacts",
-                                                            "events",
-                                                            "response",
-                                                            "broad phase",
-                                                            "pairs of disjoint boxes",
-                                                            "static pairs",
-                                                            "masked pairs",
-                                                            "motion of bodies at rest",
-                                                            "kernels of absent shapes"};
+  static constexpr auto names = std::to_array<std::string_view>(
+      {"contacts", "events", "response", "broad phase", "pairs of disjoint boxes", "static pairs", "masked pairs",
+       "motion of bodies at rest", "kernels of absent shapes"});
   return names;
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <thinwall/experiments/world/pairs.hpp>
-#include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
 
@@ -32,7 +31,6 @@ class Stepper {
   std::size_t bytes() const;
 
  private:
-  // step.cpp
   void begin(double dt, bool changed_by_hand);
   void fall(double dt);
   void box(double dt);
@@ -41,10 +39,8 @@ class Stepper {
   void finish();
   void find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask);
   void mark_proxies(bool as_they_are);
-  void count(const Asked& asked);
   void sampled_step(int parts);
   void respond_at_instant(std::vector<BodyMotion>& motions, std::vector<Spin>& spins);
-  // swept_step.cpp
   void swept_step();
   void go_straight_on();
   void play(std::vector<BodyMotion>& motions, std::vector<Spin>& spins, std::vector<Touch>& processed,
@@ -94,19 +90,18 @@ class EventLoop {
     std::span<const Body> bodies;
     double dt;       ///< [s] of the step
     int max_events;  ///< of a body; then it waits
-    int contact_rounds;
-    double correction;
-    double gate;
+    const WorldOptions& options;
     NarrowPhase& narrow;   ///< all placed at the start
     Neighbors& neighbors;  ///< begun
   };
 
-  EventLoop(const Scene& scene, std::vector<BodyMotion>& motions, std::vector<Spin>& spins)
-      : scene_(scene), motions_(motions), spins_(spins) {}
+  /// Moves `motions` and `spins`, appends the contacts that come about to `processed`, and adds to `counts`.
+  EventLoop(const Scene& scene, std::vector<BodyMotion>& motions, std::vector<Spin>& spins,
+            std::vector<Touch>& processed, StepReport& counts)
+      : scene_(scene), motions_(motions), spins_(spins), processed_(processed), counts_(counts) {}
 
-  /// Bounces and moves the bodies through the step, given what touches on the paths they start with. Appends the contacts that
-  /// come about to `processed`.
-  void run(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts);
+  /// Bounces and moves the bodies through the step, given what touches on the paths they start with.
+  void run(std::span<const Touch> found);
 
  private:
   struct Event {
@@ -123,36 +118,38 @@ class EventLoop {
     }
   };
 
-  void resolve_start(std::span<const Touch> found, std::vector<Touch>& processed, StepReport& counts);
-  void sweep_changed_at_start(StepReport& counts);
+  void resolve_start(std::span<const Touch> found);
+  void sweep_changed_at_start();
   void schedule(const Touch& touch);
-  void happen(const Event& event, std::vector<Touch>& processed, StepReport& counts);
+  void happen(const Event& event);
   bool is_on_course(const Event& event) const;
   bool was_on_course(const Event& event) const;
   bool press(const Touch& touch);
   bool may_sink(const Touch& touch);
-  void tell(const Touch& touch, std::vector<Touch>& processed);
+  void tell(const Touch& touch);
   void keep_no_more_speed(std::uint32_t which);
   double closing(const Touch& touch, bool in_effect);
   void look_later(const Touch& touch, double time);
-  void look(const Event& event, StepReport& counts);
+  void look(const Event& event);
   enum class Answer { take_event, go_on, wait };  // a contact; one that goes on; one that has been looked at too often
-  void answer(const Touch& touch, Answer how, StepReport& counts);
+  void answer(const Touch& touch, Answer how);
   Mover mover(std::uint32_t which) {
     const Body& body = scene_.bodies[which];
     return {body, motions_[which], spin_of(spins_, body, which)};
   }
   void place(std::uint32_t which, double time);
-  void sweep_again(std::uint32_t which, std::uint32_t done, double time, StepReport& counts);
+  void sweep_again(std::uint32_t which, std::uint32_t done, double time);
   void advance(std::uint32_t which, double time);
   void change_course(std::uint32_t which);
-  void ask(double time, StepReport& counts);
+  void ask(double time);
   bool goes_on(std::uint32_t which) const;
   bool is_free(std::uint32_t which) const;
 
   const Scene& scene_;
   std::vector<BodyMotion>& motions_;
   std::vector<Spin>& spins_;
+  std::vector<Touch>& processed_;
+  StepReport& counts_;
   std::priority_queue<Event> queue_;
   std::vector<bool> changed_;                               // by the contacts at the start
   std::vector<Touch> contacts_;                             // at the start

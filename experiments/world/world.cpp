@@ -1,12 +1,9 @@
 #include <thinwall/experiments/world/world.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include <thinwall/discrete/raised_flag.hpp>
-#include <thinwall/experiments/world/pairs.hpp>
-#include <thinwall/experiments/world/spin.hpp>
 #include <thinwall/experiments/world/step.hpp>
 
 namespace thinwall {
@@ -27,15 +24,11 @@ bool is_in_the_world(const AnyShape& shape, const Vec3<double>& displacement) {
 
 void require_valid(const Body& body) {
   const auto complain = [&](const std::string& what) { throw WorldError(called(body) + ": " + what); };
-  std::visit(
-      [&](const auto& shape) {
-        if constexpr (!std::is_same_v<decltype(shape), const std::monostate&>) {
-          if (!is_finite(magnitude(shape))) complain("its shape must have finite numbers only");
-          if (!has_valid_sizes(shape)) complain("the sizes of its shape must be >= 0");
-          if (!valid(shape)) complain("the axes of its box must be unit vectors at right angles");
-        }
-      },
-      body.shape);
+  with_shape(body.shape, [&](const auto& shape) {
+    if (!is_finite(magnitude(shape))) complain("its shape must have finite numbers only");
+    if (!has_valid_sizes(shape)) complain("the sizes of its shape must be >= 0");
+    if (!valid(shape)) complain("the axes of its box must be unit vectors at right angles");
+  });
   const Vec3<double>& v = body.velocity;
   if (!is_finite(v)) complain("its velocity must be finite");
   if (!is_in_the_world(body.shape, Vec3<double>::Zero())) complain("its place is out of the range of coordinates");
@@ -107,7 +100,9 @@ struct World::Impl {
   void step(double dt);
   void commit(double dt);
   void tell(double start, double dt);
+  const Body* find(std::uint32_t id) const;
   std::size_t place_of(std::uint32_t id) const;
+  template <class Change> void change(std::uint32_t id, const Change& by_hand);
 
   WorldOptions options;
   std::vector<Body> bodies;
@@ -171,10 +166,24 @@ void World::Impl::tell(double start, double dt) {
   told.finish_step(time);
 }
 
-std::size_t World::Impl::place_of(std::uint32_t id) const {
+const Body* World::Impl::find(std::uint32_t id) const {
   const auto at = std::ranges::lower_bound(bodies, id, {}, &Body::id);
-  if (at == bodies.end() || at->id != id) throw WorldError("world: there is no body with id " + std::to_string(id));
-  return static_cast<std::size_t>(at - bodies.begin());
+  return at == bodies.end() || at->id != id ? nullptr : &*at;
+}
+
+std::size_t World::Impl::place_of(std::uint32_t id) const {
+  const Body* const found = find(id);
+  if (!found) throw WorldError("world: there is no body with id " + std::to_string(id));
+  return static_cast<std::size_t>(found - bodies.data());
+}
+
+/// If the world can hold what comes of it.
+template <class Change> void World::Impl::change(std::uint32_t id, const Change& by_hand) {
+  Body& body = bodies[place_of(id)];
+  Body changed = body;
+  by_hand(changed);
+  require_valid(changed);
+  body = std::move(changed);
 }
 
 World::World(std::vector<Body> bodies, WorldOptions options) {
@@ -191,10 +200,7 @@ const StepReport& World::step(double dt) {
 }
 
 const std::vector<Body>& World::bodies() const { return impl_->bodies; }
-const Body* World::find(std::uint32_t id) const {
-  const auto at = std::ranges::lower_bound(impl_->bodies, id, {}, &Body::id);
-  return at == impl_->bodies.end() || at->id != id ? nullptr : &*at;
-}
+const Body* World::find(std::uint32_t id) const { return impl_->find(id); }
 double World::time() const { return impl_->time; }
 const StepReport& World::report() const { return impl_->report; }
 const std::vector<Hit>& World::hits() const { return impl_->hits; }
@@ -204,19 +210,11 @@ const Plan& World::plan() const { return impl_->plan; }
 const WorldOptions& World::options() const { return impl_->options; }
 
 void World::set_velocity(std::uint32_t id, const Vec3<double>& velocity) {
-  Body& body = impl_->bodies[impl_->place_of(id)];
-  Body changed = body;
-  changed.velocity = velocity;
-  require_valid(changed);
-  body = std::move(changed);
+  impl_->change(id, [&](Body& body) { body.velocity = velocity; });
 }
 
 void World::move(std::uint32_t id, const Vec3<double>& by) {
-  Body& body = impl_->bodies[impl_->place_of(id)];
-  Body changed = body;
-  move_shape(changed.shape, by);
-  require_valid(changed);
-  body = std::move(changed);
+  impl_->change(id, [&](Body& body) { move_shape(body.shape, by); });
   impl_->changed_by_hand = true;
 }
 
@@ -242,37 +240,24 @@ double World::energy() const {
   return static_cast<double>(sum);
 }
 
-/// Source: the 64-bit FNV-1a hash, by words of 32 bits.
 std::uint64_t World::state_hash() const {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };
-  const auto add_vector = [&](const Vec3<double>& v) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto word = std::bit_cast<std::uint64_t>(v[axis]);
-      add(word & 0xffffffff);  // the multiplication spreads what is low, not what is high
-      add(word >> 32);
-    }
-  };
+  Digest digest;
   for (const Body& body : impl_->bodies) {
-    add(body.id);
-    add_vector(body.velocity);
-    std::visit(
-        [&](const auto& shape) {
-          if constexpr (!std::is_same_v<decltype(shape), const std::monostate&>) {
-            add_vector(center(shape));
-            add_vector(half_widths(shape));
-          }
-        },
-        body.shape);
+    digest.add(body.id);
+    digest.add(body.velocity);
+    with_shape(body.shape, [&](const auto& shape) {
+      digest.add(center(shape));
+      digest.add(half_widths(shape));
+    });
     if (!body.turns) continue;
-    add_vector(body.angular_velocity);
+    digest.add(body.angular_velocity);
     if (const auto* const box = std::get_if<Obb<double>>(&body.shape)) {
-      for (int k = 0; k < 3; ++k) add_vector(box->axes.col(k));
+      for (int k = 0; k < 3; ++k) digest.add(box->axes.col(k));
     } else if (const auto* const capsule = std::get_if<Capsule<double>>(&body.shape)) {
-      add_vector(capsule->b);
+      digest.add(capsule->b);
     }
   }
-  return hash;
+  return digest.value();
 }
 
 }  // namespace thinwall

@@ -2,6 +2,7 @@
 /// A world of bodies that moves in steps: options, bodies, what a step reports, its plan.
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -74,13 +75,17 @@ template <class Answer> Answer of_shape(const AnyShape& shape, const Answer& non
       shape);
 }
 
-/// If it is a shape at all. `Held`: AnyShape, or a variant of fewer.
-template <class Held> void move_shape(Held& shape, const Vec3<double>& by) {
+/// use(shape), where there is one. `Held`: AnyShape, or a variant of fewer.
+template <class Held> void with_shape(Held& held, const auto& use) {
   std::visit(
-      [&]<class A>(A& held) {
-        if constexpr (!std::is_same_v<A, std::monostate>) held = moved(held, by);
+      [&]<class A>(A& shape) {
+        if constexpr (!std::is_same_v<std::remove_const_t<A>, std::monostate>) use(shape);
       },
-      shape);
+      held);
+}
+
+template <class Held> void move_shape(Held& held, const Vec3<double>& by) {
+  with_shape(held, [&](auto& shape) { shape = moved(shape, by); });
 }
 
 /// Two bodies meet only if each belongs to a group that the other's mask has: (a.group & b.mask) and (b.group & a.mask).
@@ -197,6 +202,24 @@ void require_valid(const WorldOptions& options);
 
 /// The same bodies in the order of ids. Throws WorldError.
 std::vector<Body> checked_and_sorted(std::vector<Body> bodies);
+
+/// Of numbers, to the bit. Source: the 64-bit FNV-1a hash, by words of 32 bits: its multiplication spreads what is low, not what is high.
+class Digest {
+ public:
+  void add(std::uint32_t word) { hash_ = (hash_ ^ word) * 0x100000001b3; }
+  void add(std::uint64_t words) {
+    add(static_cast<std::uint32_t>(words));
+    add(static_cast<std::uint32_t>(words >> 32));
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(const Vec3<double>& v) {
+    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
 
 // ---- Bodies that move, meet and bounce. docs/world.md says what a step does under each policy, and proves it bounded.
 //

@@ -15,11 +15,14 @@ namespace thinwall {
 namespace {
 
 /// The races of few steps, scene by scene.
-std::vector<PlanRace> few_races() {
-  std::vector<PlanRace> races;
-  for (const std::string_view name : plan_scene_names())
-    races.push_back(race_plans(make_plan_scene(name, 60, 5), {.steps = 8, .rounds = 2, .gate = 0.5}));
-  return races;
+const std::vector<PlanRace>& few_races() {
+  static const std::vector<PlanRace> all = [] {
+    std::vector<PlanRace> races;
+    for (const std::string_view name : plan_scene_names())
+      races.push_back(race_plans(make_plan_scene(name, 60, 5), {.steps = 8, .rounds = 2, .gate = 0.5}));
+    return races;
+  }();
+  return all;
 }
 
 TEST(Plan, takes_back_each_omission_alone_and_changes_no_bit) {
@@ -35,7 +38,7 @@ TEST(Plan, takes_back_each_omission_alone_and_changes_no_bit) {
 }
 
 TEST(Plan, has_scenes_that_need_everything_something_and_nothing) {
-  const std::vector<PlanRace> races = few_races();
+  const std::vector<PlanRace>& races = few_races();
   const auto find = [&](std::size_t k, std::string_view what) {
     return std::ranges::find(races[k].ways, what, &Way::name);
   };
@@ -99,33 +102,27 @@ TEST(PlanGate, self_test_fails_a_wrong_count_an_early_meeting_and_a_miss_without
     const GateCell cell{target, 3, 4, 400};
     rows.push_back({cell, shoot_at_gate(cell, 1, 5)});
   }
+  const auto is_right_with = [&](std::size_t row, std::int64_t GateTally::*count, std::int64_t made_up) {
+    std::vector<GateRow> changed = rows;
+    changed[row].tally.*count = made_up;
+    return gate_is_right(changed);
+  };
   EXPECT_TRUE(gate_is_right(rows));
-  std::vector<GateRow> wrong = rows;
-  wrong[0].tally.missed = 0;  // of 400, where 120 are due
-  EXPECT_FALSE(gate_is_right(wrong));
-  wrong = rows;
-  wrong[0].tally.early = 1;
-  EXPECT_FALSE(gate_is_right(wrong));
-  wrong = rows;
-  wrong[1].tally.missed_swept = 1;
-  EXPECT_FALSE(gate_is_right(wrong));
+  EXPECT_FALSE(is_right_with(0, &GateTally::missed, 0));  // of 400, where 120 are due
+  EXPECT_FALSE(is_right_with(0, &GateTally::early, 1));
+  EXPECT_FALSE(is_right_with(1, &GateTally::missed_swept, 1));
 }
 
 TEST(Plan, self_test_fails_a_bit_that_differs_and_a_pair_that_passes_unseen) {
-  const PlanRace right = race_plans(make_plan_scene("town", 60, 5), {.steps = 8, .rounds = 1, .gate = 0.5});
-  EXPECT_TRUE(is_right(right));
-  PlanRace wrong = right;
-  wrong.ways[1].outcome ^= 1;
-  EXPECT_FALSE(is_right(wrong));
-  wrong = right;
-  wrong.ways[1].repeated_alike = false;
-  EXPECT_FALSE(is_right(wrong));
-  wrong = right;
-  wrong.ways[0].tunneled = 1;
-  EXPECT_FALSE(is_right(wrong));
-  wrong = right;
-  wrong.ways.back().outcome ^= 1;  // the gate's may differ
-  EXPECT_TRUE(is_right(wrong));
+  const auto is_right_with = [](const auto& spoil) {
+    PlanRace race = few_races()[2];
+    spoil(race);
+    return is_right(race);
+  };
+  EXPECT_FALSE(is_right_with([](PlanRace& race) { race.ways[1].outcome ^= 1; }));
+  EXPECT_FALSE(is_right_with([](PlanRace& race) { race.ways[1].repeated_alike = false; }));
+  EXPECT_FALSE(is_right_with([](PlanRace& race) { race.ways[0].tunneled = 1; }));
+  EXPECT_TRUE(is_right_with([](PlanRace& race) { race.ways.back().outcome ^= 1; }));  // the gate's may differ
 }
 
 /// Whatever a unit of the run finds decides: the last one here is made up.

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <thinwall/experiments/world.hpp>
-#include <thinwall/experiments/world/spin.hpp>
+#include <thinwall/experiments/world/pairs.hpp>
 
 #include "experiments/world/random_world.hpp"
 #include "support/said.hpp"
@@ -68,11 +68,10 @@ TEST(Spin, inertia_is_that_of_the_solid) {
 
 TEST(Spin, a_body_that_nothing_touches_turns_by_its_rate_and_stays_true) {
   for (const TimePolicy policy : all_policies) {
-    const WorldOptions options = {.policy = policy, .substeps = 3};
     const Vec3<double> rate(0.3, -0.5, 0.9);
     const Body rod = spinning_body(1, rod_along_x(1, 0.1), rate),
                box = spinning_body(2, Obb<double>{{9, 0, 0}, {1, 2, 3}, Mat3<double>::Identity()}, rate);
-    World world({rod, box}, options);
+    World world({rod, box}, {.policy = policy, .substeps = 3});
     const double energy = world.energy();
     for (int k = 0; k < 1000; ++k) world.step(0.01);
     const Mat3<double> turn = Eigen::AngleAxisd(10 * rate.norm(), rate.normalized()).toRotationMatrix();
@@ -95,8 +94,7 @@ TEST(Spin, a_rod_struck_by_a_ball_turns_as_the_arm_says) {
     for (const double arm : {0.0, 0.35, -0.7}) {
       Body ball = body_of(2, Sphere<double>{{arm, -2.3, 0}, ball_radius}, ball_mass);
       ball.velocity = {0, speed, 0};
-      const WorldOptions options = {.policy = policy};
-      World world({spinning_body(1, rod_along_x(half_core, radius), {0, 0, 0}, rod_mass), ball}, options);
+      World world({spinning_body(1, rod_along_x(half_core, radius), {0, 0, 0}, rod_mass), ball}, {.policy = policy});
       world.step(0.3);  // they meet after 2 m: at 0.25 s
       const double impulse = 2 * speed / (1 / rod_mass + 1 / ball_mass + arm * arm / inertia);
       ASSERT_EQ(world.hits().size(), 1U);
@@ -140,10 +138,9 @@ TEST(Spin, a_rod_that_spins_meets_a_wall_at_its_angle_and_is_thrown_back) {
   const double inertia = mass * gyration_of_rod(half_core, radius, false);
   const double impulse = 2 * rate * arm / (1 / mass + arm * arm / inertia);
   for (const TimePolicy policy : swept_policies) {
-    const WorldOptions options = {.policy = policy};
     World world({spinning_body(1, rod_along_x(half_core, radius), {0, 0, rate}, mass),
                  fixed(body_of(2, Aabb<double>{{0, distance + 1, 0}, {5, 1, 5}}))},
-                options);
+                {.policy = policy});
     world.step(1.01 * angle / rate);
     ASSERT_EQ(world.hits().size(), 1U) << name_of(policy);
     EXPECT_NEAR(world.hits()[0].time, angle / rate, 1e-11);
@@ -197,8 +194,7 @@ TEST(Spin, a_collision_keeps_momentum_angular_momentum_and_energy) {
       bodies.push_back(spinning_body(id, shape, draw.vector(3, false), draw.in(0.1, 10)));
       bodies.back().velocity = draw.vector(3, false) + Vec3<double>(id == 0 ? 5.0 : -5.0, 0, 0);
     }
-    const WorldOptions options = {.policy = TimePolicy::clamp};
-    World world(bodies, options);
+    World world(bodies, {.policy = TimePolicy::clamp});
     const double energy = world.energy();
     world.step(1);
     if (world.hits().size() != 1 || world.hits()[0].at_start) continue;
