@@ -21,7 +21,6 @@
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
-#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 #include <thinwall/experiments/world/world.hpp>
 

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/scenes/comparison.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -189,10 +189,6 @@ Columns<Contest> compare_columns() {
       value("repeated_alike", "", "Every repeat gave the same bits.", &Contest::repeated_alike));
 }
 
-Table compare_table(const std::vector<Contest>& contests) {
-  return in_report(table("compare", "Each time policy and step against the exact run.", compare_columns(), contests));
-}
-
 Table compare_timings_table(const Comparison& comparison, const std::vector<Contest>& contests) {
   const double duration = comparison.scene.duration();
   const auto columns =
@@ -251,9 +247,19 @@ Figure error_against_time_figure(const Comparison& comparison, const std::vector
           .is_timing = true};
 }
 
-Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const std::vector<Contest>& contests) {
-  Outcome out;
+Outcome outcome_of(const Comparison& comparison, const std::vector<Trial>& trials) {
+  const std::size_t count = comparison.contenders.size();
+  const Trial& exact = trials.back();
   const double duration = comparison.scene.duration();
+  std::vector<Contest> contests;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<Trial> repeats;
+    for (std::size_t at = i; at + 1 < trials.size(); at += count) repeats.push_back(trials[at]);
+    const Scene stepped = scene_for(comparison, comparison.contenders[i]);
+    const double last_step = duration - stepped.length_of(stepped.steps);
+    contests.push_back(contest(comparison.contenders[i], repeats, exact, last_step));
+  }
+  Outcome out;
   out.answer = answer_text(comparison, exact, contests);
   const Table shown = table(
       "compare",
@@ -264,30 +270,18 @@ Outcome compare_outcome(const Comparison& comparison, const Trial& exact, const 
       columns_of<Contest>(compare_columns(), run_time_column(duration)), contests);
   out.summary = terminal(
       shown, {"policy", "dt", "tunneled", "met", "unmet", "extra", "error_median", "error_largest", "seconds"});
-  bool held = true;
+  bool held = exact.tunneled == 0;
   for (const Contest& c : contests) {
     held &= c.repeated_alike;
     if (looks_at_all_motion(c.contender.policy, comparison.scene.options.gate)) held &= c.trial.tunneled == 0;
   }
-  out.summary += fmt::format("\nSelf-test: {}.\n", verdict_text(held && exact.tunneled == 0));
-  out.tables = {compare_table(contests), compare_timings_table(comparison, contests)};
+  out.summary += fmt::format("\nSelf-test: {}.\n", verdict_text(held));
+  out.tables = {
+      in_report(table("compare", "Each time policy and step against the exact run.", compare_columns(), contests)),
+      compare_timings_table(comparison, contests)};
   out.figures = {compare_figure(comparison, contests), error_against_time_figure(comparison, contests)};
-  out.self_test_passed = held && exact.tunneled == 0;
+  out.self_test_passed = held;
   return out;
-}
-
-Outcome outcome_of(const Comparison& comparison, const std::vector<Trial>& trials) {
-  const std::size_t count = comparison.contenders.size();
-  const Trial& exact = trials.back();
-  std::vector<Contest> contests;
-  for (std::size_t i = 0; i < count; ++i) {
-    std::vector<Trial> repeats;
-    for (std::size_t at = i; at + 1 < trials.size(); at += count) repeats.push_back(trials[at]);
-    const Scene stepped = scene_for(comparison, comparison.contenders[i]);
-    const double last_step = comparison.scene.duration() - stepped.length_of(stepped.steps);
-    contests.push_back(contest(comparison.contenders[i], repeats, exact, last_step));
-  }
-  return compare_outcome(comparison, exact, contests);
 }
 
 /// A unit for each repeat of each contender, repeats outermost so that they lie apart in time; the exact run last.

@@ -16,7 +16,6 @@
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/lab/text.hpp>
-#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/world/pairs.hpp>
 #include <thinwall/experiments/world/world.hpp>
 

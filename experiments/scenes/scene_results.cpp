@@ -1,4 +1,4 @@
-#include <thinwall/experiments/scenes/comparison.hpp>
+#include <thinwall/experiments/scenes/scene.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -10,6 +10,7 @@
 
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall_embedded.hpp>
 
@@ -47,16 +48,22 @@ std::string log_text(const Scene& scene, const Playback& playback) {
   return text.empty() ? "nothing met anything\n" : text;
 }
 
-std::string phases_text(const Playback& playback) {
-  const double steps = static_cast<double>(playback.rows.size());
-  std::string text = fmt::format("{:<12}{:>14}{:>14}{:>9}\n", "phase", "mean [us]", "most [us]", "share");
-  for (std::size_t i = 0; i < phase_names.size(); ++i) {
-    const PhaseTime& phase = playback.phases[i];
-    const double whole = playback.phases.back().total;
-    text += fmt::format("{:<12}{:>14.1f}{:>14.1f}{:>8.1f}%\n", phase_names[i], 1e6 * phase.total / steps,
-                        1e6 * phase.most, whole > 0 ? 100 * phase.total / whole : 0);
-  }
-  return text;
+Table phases_table(const Playback& playback) {
+  struct Row {
+    std::string_view phase;
+    PhaseTime time;
+  };
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < phase_names.size(); ++i) rows.push_back({phase_names[i], playback.phases[i]});
+  const double whole = playback.phases.back().total;
+  const auto columns = columns_of<Row>(
+      text("phase", "Part of a step; `step` is all of it.", &Row::phase),
+      value("mean_us", "us", "Mean over the steps.",
+            [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()).value_or(0); }),
+      value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
+      value("share", "1", "Part of the whole step.",
+            [whole](const Row& row) { return share_of(row.time.total, whole).value_or(0); }));
+  return in_report(timing(table("timings", "Time a step by phase, on this machine.", columns, rows)));
 }
 
 std::string summary_text(const Scene& scene, const Plan& plan, const Playback& playback) {
@@ -79,7 +86,7 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
   text += fmt::format("state hash     {:016x}\n", playback.hash);
   text += fmt::format("broad phase    {}; the plan leaves out {} of {} things ({})\n\n", plan.broad_phase, omitted,
                       plan.lines.size(), plan.full ? "full" : "lean");
-  return text + phases_text(playback);
+  return text + terminal(phases_table(playback));
 }
 
 /// Who met whom.
@@ -133,24 +140,6 @@ Table plan_table(const Plan& plan) {
                                             text("why", "The proof, or why it is needed.", &PlanLine::why));
   return in_report(table("plan", "What the scene needs, what was left out, and why that changes nothing.", columns,
                          std::vector<PlanLine>(plan.lines.begin(), plan.lines.end())));
-}
-
-Table phases_table(const Playback& playback) {
-  struct Row {
-    std::string_view phase;
-    PhaseTime time;
-  };
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < phase_names.size(); ++i) rows.push_back({phase_names[i], playback.phases[i]});
-  const double whole = playback.phases.back().total;
-  const auto columns = columns_of<Row>(
-      text("phase", "Part of a step; `step` is all of it.", &Row::phase),
-      value("mean_us", "us", "Mean over the steps.",
-            [&](const Row& row) { return 1e6 * share_of(row.time.total, playback.rows.size()).value_or(0); }),
-      value("most_us", "us", "The longest.", [](const Row& row) { return 1e6 * row.time.most; }),
-      value("share", "1", "Part of the whole step.",
-            [whole](const Row& row) { return share_of(row.time.total, whole).value_or(0); }));
-  return in_report(timing(table("timings", "Time a step by phase, on this machine.", columns, rows)));
 }
 
 constexpr std::size_t most_outlines = 400;

@@ -14,7 +14,6 @@
 #include <pybind11/stl.h>
 
 #include <thinwall/experiments/lab/settings.hpp>
-#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 #include <thinwall/experiments/world/world.hpp>
 

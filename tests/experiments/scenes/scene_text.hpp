@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include <thinwall/experiments/scenes/comparison.hpp>
 #include <thinwall/experiments/scenes/scene.hpp>
 
 namespace thinwall {
