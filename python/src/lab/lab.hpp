@@ -7,7 +7,6 @@
 namespace thinwall {
 
 void bind_run(pybind11::module_& module);
-void bind_theory(pybind11::module_& module);
 void bind_world(pybind11::module_& module);
 
 }  // namespace thinwall

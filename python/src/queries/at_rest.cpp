@@ -17,39 +17,20 @@ template <class A, class B> struct AskedForManifold {
   static constexpr bool value = ServedPair<A, B> && serves_manifold<A, B>;
 };
 
-/// `Ask::of(a, b)` of every row, in the scalar of the arrays.
-template <class Ask, template <class, class> class Serves, class S> bool ask_all(const Question& q) {
-  return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
-    answer_rows(q, [&](std::size_t i) { return Ask::of(row_of<A, S>(q.a, i), row_of<B, S>(q.b, i)); });
-  });
-}
-template <class Ask, template <class, class> class Serves> bool ask_rows(const Question& q) {
-  return q.is_float ? ask_all<Ask, Serves, float>(q) : ask_all<Ask, Serves, double>(q);
+/// `ask(a, b)` of every row, in the scalar of the arrays.
+template <template <class, class> class Serves, class Ask> bool ask_rows(const Question& q, const Ask& ask) {
+  const auto ask_all = [&]<class S>(TypeTag<S>) {
+    return for_the_shapes<S, Serves>(q, [&]<class A, class B>() {
+      answer_rows(q, [&](std::size_t i) { return ask(row_of<A, S>(q.a, i), row_of<B, S>(q.b, i)); });
+    });
+  };
+  return q.is_float ? ask_all(TypeTag<float>{}) : ask_all(TypeTag<double>{});
 }
 
-struct AskOverlaps {
-  template <class A, class B> static bool of(const A& a, const B& b) { return overlaps(a, b); }
-};
-struct AskContact {
-  template <class A, class B, class S = typename A::Scalar> static ContactRow<S> of(const A& a, const B& b) {
-    if (const auto answer = contact(a, b)) return {ToiStatus::overlapping, *answer};
-    return {valid(a) && valid(b) ? ToiStatus::apart : ToiStatus::invalid, {}};
-  }
-};
-struct AskSeparation {
-  template <class A, class B, class S = typename A::Scalar> static SeparationRow<S> of(const A& a, const B& b) {
-    const Separation<S> answer = separation(a, b);
-    if (answer.distance != answer.distance) return {ToiStatus::invalid, answer};
-    return {answer.distance > S(0) ? ToiStatus::apart : ToiStatus::overlapping, answer};
-  }
-};
-struct AskManifold {
-  template <class A, class B, class S = typename A::Scalar> static ManifoldRow<S> of(const A& a, const B& b) {
-    const Manifold<S> answer = manifold(a, b);
-    if (!answer.empty()) return {ToiStatus::overlapping, answer};
-    return {valid(a) && valid(b) ? ToiStatus::apart : ToiStatus::invalid, answer};
-  }
-};
+/// Of two that are not in contact.
+template <class A, class B> ToiStatus apart_or_invalid(const A& a, const B& b) {
+  return valid(a) && valid(b) ? ToiStatus::apart : ToiStatus::invalid;
+}
 
 template <class S> bool valid_rows(const Question& q) {
   for_each_type(Shapes<S>{}, [&]<class Tag>(Tag) {
@@ -71,10 +52,34 @@ template <class S> bool valid_rows(const Question& q) {
 
 }  // namespace
 
-bool ask_overlaps(const Question& q) { return ask_rows<AskOverlaps, Asked>(q); }
-bool ask_contact(const Question& q) { return ask_rows<AskContact, Asked>(q); }
-bool ask_separation(const Question& q) { return ask_rows<AskSeparation, Asked>(q); }
+bool ask_overlaps(const Question& q) {
+  return ask_rows<Asked>(q, [](const auto& a, const auto& b) { return overlaps(a, b); });
+}
+
+bool ask_contact(const Question& q) {
+  return ask_rows<Asked>(q, []<class A, class B>(const A& a, const B& b) -> ContactRow<typename A::Scalar> {
+    if (const auto answer = contact(a, b)) return {ToiStatus::overlapping, *answer};
+    return {apart_or_invalid(a, b), {}};
+  });
+}
+
+bool ask_separation(const Question& q) {
+  return ask_rows<Asked>(
+      q, []<class A, class B, class S = typename A::Scalar>(const A& a, const B& b)->SeparationRow<S> {
+        const Separation<S> answer = separation(a, b);
+        if (answer.distance != answer.distance) return {ToiStatus::invalid, answer};
+        return {answer.distance > S(0) ? ToiStatus::apart : ToiStatus::overlapping, answer};
+      });
+}
+
+bool ask_manifold(const Question& q) {
+  return ask_rows<AskedForManifold>(
+      q, []<class A, class B, class S = typename A::Scalar>(const A& a, const B& b)->ManifoldRow<S> {
+        const Manifold<S> answer = manifold(a, b);
+        return {answer.empty() ? apart_or_invalid(a, b) : ToiStatus::overlapping, answer};
+      });
+}
+
 bool ask_valid(const Question& q) { return q.is_float ? valid_rows<float>(q) : valid_rows<double>(q); }
-bool ask_manifold(const Question& q) { return ask_rows<AskManifold, AskedForManifold>(q); }
 
 }  // namespace thinwall::python

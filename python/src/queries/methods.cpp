@@ -12,50 +12,53 @@ namespace thinwall::python {
 
 namespace {
 
+/// use(name, option, value) of every option that the method has, with what `options` says of it.
+template <class Method, class Use> void for_each_option(Method& method, const Options& options, const Use& use) {
+  if constexpr (requires { method.tolerance; }) use("tolerance", method.tolerance, options.tolerance);
+  if constexpr (requires { method.margin; }) use("margin", method.margin, options.margin);
+  if constexpr (requires { method.n; }) use("n", method.n, options.n);
+  if constexpr (requires { method.max_evaluations; })
+    use("max_evaluations", method.max_evaluations, options.max_evaluations);
+  use("min_separation", method.min_separation, options.min_separation);
+}
+
 /// A method with what `options` sets of what it has.
 template <class Method> Method with_options(const Options& options) {
   Method method{};
-  const auto set = [](auto& option, const auto& value) {
-    if (value) option = static_cast<std::remove_reference_t<decltype(option)>>(*value);
-  };
-  set(method.min_separation, options.min_separation);
-  if constexpr (requires { method.tolerance; }) set(method.tolerance, options.tolerance);
-  if constexpr (requires { method.margin; }) set(method.margin, options.margin);
-  if constexpr (requires { method.n; }) set(method.n, options.n);
-  if constexpr (requires { method.max_evaluations; }) set(method.max_evaluations, options.max_evaluations);
+  for_each_option(method, options, []<class Option>(const char*, Option& option, const auto& value) {
+    if (value) option = static_cast<Option>(*value);
+  });
   return method;
 }
 
 /// The names of a list of methods, and of the options of each.
 template <class List> MethodOptions names_of(List list) {
   MethodOptions names;
-  for_each_type(list, [&]<class Tag>(Tag) {
-    using Method = typename Tag::type;
-    std::vector<std::string> options;
-    if constexpr (requires(Method m) { m.tolerance; }) options.emplace_back("tolerance");
-    if constexpr (requires(Method m) { m.margin; }) options.emplace_back("margin");
-    if constexpr (requires(Method m) { m.n; }) options.emplace_back("n");
-    if constexpr (requires(Method m) { m.max_evaluations; }) options.emplace_back("max_evaluations");
-    options.emplace_back("min_separation");
-    names.emplace_back(Method::name, options);
+  for_each_type(list, [&]<class Method>(TypeTag<Method>) {
+    Method method{};
+    std::vector<std::string>& options = names.emplace_back(Method::name, std::vector<std::string>()).second;
+    for_each_option(method, {}, [&](const char* name, const auto&, const auto&) { options.emplace_back(name); });
   });
   return names;
 }
 
 // ---- Which pairs are served.
 
+/// Boxes along the axes do not turn: `serves()` is not asked of them.
+template <class A, class B> constexpr bool may_turn(const auto& serves) {
+  if constexpr (stays_along_the_axes<A> || stays_along_the_axes<B>) {
+    return false;
+  } else {
+    return A::rank >= B::rank && serves.template operator()<A, B>();
+  }
+}
+
 template <class Method> struct By {
   template <class A, class B> struct Pair {
     static constexpr bool value = A::rank >= B::rank && serves<Method, A, B>;
   };
   template <class A, class B> struct TurningPair {
-    static constexpr bool value = [] {
-      if constexpr (stays_along_the_axes<A> || stays_along_the_axes<B>) {
-        return false;
-      } else {
-        return A::rank >= B::rank && serves_turning<Method, A, B>;
-      }
-    }();
+    static constexpr bool value = may_turn<A, B>([]<class C, class D>() { return serves_turning<Method, C, D>; });
   };
 };
 
@@ -63,13 +66,7 @@ template <class A, class B> struct Certified {
   static constexpr bool value = A::rank >= B::rank && certifies<A, B>;
 };
 template <class A, class B> struct CertifiedTurning {
-  static constexpr bool value = [] {
-    if constexpr (stays_along_the_axes<A> || stays_along_the_axes<B>) {
-      return false;
-    } else {
-      return A::rank >= B::rank && ServedPair<A, B>;
-    }
-  }();
+  static constexpr bool value = may_turn<A, B>([]<class C, class D>() { return ServedPair<C, D>; });
 };
 
 // ---- `answer(a, b)` of every row.
