@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -35,7 +36,6 @@ using Totals = std::vector<Total>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_finite(const Row& row) { return row.cell.wall == Wall::finite; }
-std::int64_t shots(const Row& row) { return row.tally.shots; }
 
 /// [1] v h cos(angle) / (w + 2 r)
 double step_ratio(const Row& row) { return step_length(row.cell) / slab_chord(row.cell); }
@@ -67,27 +67,31 @@ template <class Row> std::vector<Row> of_one_scalar(const std::vector<Row>& rows
 
 // What the tables show.
 
+/// What a part of a row says.
+auto of(auto part, auto what) {
+  return [=](const auto& row) { return std::invoke(what, std::invoke(part, row)); };
+}
+
 template <class Row> Columns<Row> method_columns() {
   return columns_of<Row>(
       text("method", "Way of detecting the hit; substeps_N tests N poses a step.",
-           [](const Row& row) { return row.method->name; }),
-      text("scalar", "Floating-point type the query is asked in.", [](const Row& row) { return row.method->scalar; }));
+           of(&Row::method, &ThinWallMethod::name)),
+      text("scalar", "Floating-point type the query is asked in.", of(&Row::method, &ThinWallMethod::scalar)));
 }
 
 Columns<Row> cell_columns() {
   return columns_of<Row>(method_columns<Row>(), cell_factors().columns(&Row::cell),
                          where(is_finite, value("wall_size", "m", "Side of the square; missing for an infinite wall.",
-                                                [](const Row& r) { return r.cell.wall_size; })));
+                                                of(&Row::cell, &Cell::wall_size))));
 }
 
 Columns<Row> row_columns() {
   return columns_of<Row>(
       cell_columns(), value("step_ratio", "1", "speed * step * cos(angle_deg) / (thickness + 2 * radius).", step_ratio),
       fields(&Row::tally, {"shots", "tunneled", "undecided"}),
-      share(
-          "probability", "tunneled / shots.", [](const Row& r) { return r.tally.tunneled; }, shots),
+      share("probability", "tunneled / shots.", of(&Row::tally, &Tally::tunneled), of(&Row::tally, &Tally::shots)),
       value("theory", "1", "Probability by theory; missing where no formula holds.",
-            [](const Row& r) { return r.theory.probability; }),
+            of(&Row::theory, &Theory::probability)),
       value("residual", "1", "Standard errors between count and theory; missing where theory is 0, 1 or missing.",
             residual),
       value("lateness_mean", "m", "Mean path length from first contact to detection, of the detected.", lateness_mean),
@@ -95,17 +99,16 @@ Columns<Row> row_columns() {
             [](const Row& r) { return r.theory.lateness ? std::optional(r.theory.lateness->mean) : std::nullopt; }),
       fields(&Row::tally, {"lateness_max"}),
       value("lateness_max_theory", "m", "The largest there can be; missing where no formula holds.",
-            [](const Row& r) { return r.theory.largest_lateness(); }),
+            of(&Row::theory, &Theory::largest_lateness)),
       fields(&Row::tally, {"lateness_min", "gap_max"}), fields(&Row::tally, {"queries", "evaluations"}));
 }
 
 Columns<Row> bounce_columns() {
   return columns_of<Row>(fields(&Row::tally, {"wrong_side", "behind"}),
-                         share(
-                             "through", "(tunneled + wrong_side) / shots.",
-                             [](const Row& r) { return r.tally.went_through(); }, shots, "through_"),
+                         share("through", "(tunneled + wrong_side) / shots.", of(&Row::tally, &Tally::went_through),
+                               of(&Row::tally, &Tally::shots), "through_"),
                          value("through_theory", "1", "The same by theory; missing where no formula holds.",
-                               [](const Row& r) { return r.theory.through; }));
+                               of(&Row::theory, &Theory::through)));
 }
 
 Table timings_table(const Rows& rows) {
@@ -121,11 +124,9 @@ double upper_of(const Total& total) { return clopper_pearson(0, total.tally.shot
 
 Columns<Total> foretold_columns(Foretold Total::*foretold, const std::string& what, const std::string& event) {
   return columns_of<Total>(
-      value("theory_shots", "1", "Shots in cells for which there is a theory.",
-            [=](const Total& t) { return (t.*foretold).shots; }),
-      value("theory_" + what, "1", "Of those, counted " + event, [=](const Total& t) { return (t.*foretold).counted; }),
-      value("theory_expected", "1", "Of those, expected " + event,
-            [=](const Total& t) { return (t.*foretold).expected; }));
+      value("theory_shots", "1", "Shots in cells for which there is a theory.", of(foretold, &Foretold::shots)),
+      value("theory_" + what, "1", "Of those, counted " + event, of(foretold, &Foretold::counted)),
+      value("theory_expected", "1", "Of those, expected " + event, of(foretold, &Foretold::expected)));
 }
 
 Columns<Total> total_columns() {
@@ -149,11 +150,11 @@ Table methods_table(const Totals& totals) {
 
 /// For the terminal: the counts of `methods_table` as shares.
 std::string shares_text(const Totals& totals) {
-  const auto columns = columns_of<Total>(
-      total_columns(),
-      value("share", "1", "Tunneled, of the shots for which there is a theory.",
-            [](const Total& t) { return t.tunneled.share(); }),
-      value("theory", "1", "Of the same, by theory.", [](const Total& t) { return t.tunneled.theory(); }));
+  const auto columns =
+      columns_of<Total>(total_columns(),
+                        value("share", "1", "Tunneled, of the shots for which there is a theory.",
+                              of(&Total::tunneled, &Foretold::share)),
+                        value("theory", "1", "Of the same, by theory.", of(&Total::tunneled, &Foretold::theory)));
   return terminal(
       table("methods",
             "Each method over all of its cells; share and theory: of the shots for which there is a formula.", columns,

@@ -477,16 +477,17 @@ TEST(TunnelingTheory, misses_begin_where_the_spacing_exceeds_the_chord) {
   EXPECT_EQ(slab_chord(0.5, 0.25, 0.5), 2);
 }
 
-TEST(TunnelingTheory, volume_of_known_bodies) {
+TEST(TunnelingTheory, of_known_bodies) {
   EXPECT_DOUBLE_EQ(volume({{0, 0, 0}, 2}), 4 * pi / 3 * 8);
   EXPECT_DOUBLE_EQ(volume({{1, 2, 3}, 0}), 48);
   EXPECT_DOUBLE_EQ(volume({{0, 0, 3}, 2}), pi * 4 * 6 + 4 * pi / 3 * 8);  // a capsule
-}
-
-TEST(TunnelingTheory, shadow_of_known_bodies) {
   EXPECT_DOUBLE_EQ(shadow({{0, 0, 0}, 2}, oblique), pi * 4);
   EXPECT_DOUBLE_EQ(shadow({{1, 2, 3}, 0}, {1, 0, 0}), 24);
   EXPECT_DOUBLE_EQ(shadow({{1, 2, 3}, 0.5}, {0, 0, 1}), 2 * 4 + 0.5 * 12 + pi / 4);
+  EXPECT_DOUBLE_EQ(longest_chord({{0, 0, 0}, 2}, oblique), 4);
+  EXPECT_DOUBLE_EQ(longest_chord(brick, {1, 0, 0}), 1.6);
+  // A wide wall: every line through its middle cuts (w + 2r) / cos a.
+  EXPECT_DOUBLE_EQ(longest_chord({{0.5, 50, 50}, 0.25}, {0.6, 0.8, 0}), slab_chord(1, 0.25, 0.6));
 }
 
 TEST(TunnelingTheory, agrees_with_a_lattice_of_lines) {
@@ -499,13 +500,6 @@ TEST(TunnelingTheory, agrees_with_a_lattice_of_lines) {
       EXPECT_NEAR(longest_chord(box, direction) / sum.longest, 1, 1e-2);
     }
   }
-}
-
-TEST(TunnelingTheory, longest_chord_of_known_bodies) {
-  EXPECT_DOUBLE_EQ(longest_chord({{0, 0, 0}, 2}, oblique), 4);
-  EXPECT_DOUBLE_EQ(longest_chord(brick, {1, 0, 0}), 1.6);
-  // A wide wall: every line through its middle cuts (w + 2r) / cos a.
-  EXPECT_DOUBLE_EQ(longest_chord({{0.5, 50, 50}, 0.25}, {0.6, 0.8, 0}), slab_chord(1, 0.25, 0.6));
 }
 
 /// Poses at a uniform phase on lines uniform over the shadow, counted, with no formula in between.
