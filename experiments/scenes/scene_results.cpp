@@ -252,11 +252,14 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
                               : "each body that moves";
   const std::string when =
       stride == 1 ? "at the end of each step" : fmt::format("every {} steps", grouped_text(stride));
+  std::string caption = fmt::format("The center of {}, {}", who, when);
+  if (outlined > 0) {
+    caption += fmt::format("; {} stays, as the box that holds it, cut off at the edge",
+                           outlined > most_outlines ? fmt::format("the first {} of what", most_outlines) : "what");
+  }
   return {.name = "tracks",
           .title = "Where the bodies were " + when,
-          .caption =
-              fmt::format("The center of {}, {}; {} stays, as the box that holds it, cut off at the edge.", who, when,
-                          outlined > most_outlines ? fmt::format("the first {} of what", most_outlines) : "what"),
+          .caption = caption + ".",
           .panels = {std::move(panel)}};
 }
 
@@ -265,6 +268,8 @@ Figure course_figure(const Playback& playback) {
   Series through = {.label = "tunneled", .mark = Mark::dashes};
   std::int64_t begins = 0, tunneled = 0;
   energy.add(0, playback.energy);
+  begun.add(0, 0);
+  through.add(0, 0);
   for (const StepRow& row : playback.rows) {
     energy.add(row.time, row.energy);
     begun.add(row.time, static_cast<double>(begins += row.begins));

@@ -385,6 +385,11 @@ TEST(SceneRun, what_lies_outside_the_picture_takes_no_outline) {
   const Outcome with = outcome_of(scene_experiment(), text), without = outcome_of(scene_experiment(), bullet_text());
   EXPECT_EQ(with.figures[0].panels[0].series[0].x, without.figures[0].panels[0].series[0].x);
   EXPECT_TRUE(holds(with.figures[0].caption, "; what stays, as the box that holds it"));
+  const Outcome alone = outcome_of(scene_experiment(), ball);
+  EXPECT_TRUE(alone.figures[0].caption.ends_with("at the end of each step.")) << "nothing stays";
+  for (const Panel& panel : alone.figures[1].panels) {
+    for (const Series& series : panel.series) EXPECT_EQ(series.x.front(), 0) << series.label;
+  }
 }
 
 /// A policy that claims to miss nothing, and did.
