@@ -83,6 +83,22 @@ void count_rows(benchmark::State& state, std::size_t count, const BatchReport& r
   add_floor(state, rows * (count == few_rows ? least.floor_ns() : streamed_ns), rows);
 }
 
+/// Times `by_batch()`, or else `row(i)` of each row; what the batch reports.
+template <class ByBatch, class Row>
+BatchReport time_rows(benchmark::State& state, bool is_batch, std::size_t count, const ByBatch& by_batch,
+                      const Row& row) {
+  BatchReport report;
+  for (auto _ : state) {
+    if (is_batch) {
+      report = by_batch();
+    } else {
+      for (std::size_t i = 0; i < count; ++i) row(i);
+    }
+    benchmark::ClobberMemory();
+  }
+  return report;
+}
+
 enum class Way { scalar, one_to_many, row_by_row };
 
 template <class A, class B>
@@ -94,21 +110,15 @@ void time_batch(benchmark::State& state, Way way, std::size_t count, const std::
   std::vector<S> time(count);
   const ToiRows<S> out{status, time};
   use_vectors(target);
-  BatchReport report;
-  for (auto _ : state) {
-    if (way == Way::scalar) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const Toi<S> toi = time_of_impact(set.obstacle, set.rows[i]);
-        status[i] = toi.status;
-        time[i] = toi.time;
-      }
-    } else if (way == Way::one_to_many) {
-      report = time_of_impact(set.obstacle, set.rows.rows(), out, {threads});
-    } else {
-      report = time_of_impact(set.obstacles.rows(), set.rows.rows(), out, {threads});
-    }
-    benchmark::ClobberMemory();
-  }
+  const auto by_batch = [&] {
+    if (way == Way::one_to_many) return time_of_impact(set.obstacle, set.rows.rows(), out, {threads});
+    return time_of_impact(set.obstacles.rows(), set.rows.rows(), out, {threads});
+  };
+  const BatchReport report = time_rows(state, way != Way::scalar, count, by_batch, [&](std::size_t i) {
+    const Toi<S> toi = time_of_impact(set.obstacle, set.rows[i]);
+    status[i] = toi.status;
+    time[i] = toi.time;
+  });
   use_vectors("");
   count_rows(state, count, report, set.hits, least, stream_ns<S>(columns));
 }
@@ -118,20 +128,15 @@ void time_certified(benchmark::State& state, bool by_vectors, std::size_t count)
   const auto& set = batch_set<Sphere<double>, Sphere<double>>(count);
   std::vector<ToiStatus> verdict(count);
   std::vector<double> lower(count), upper(count);
-  BatchReport report;
-  for (auto _ : state) {
-    if (by_vectors) {
-      report = certified_time_of_impact(set.obstacle, set.rows.rows(), {verdict, lower, upper});
-    } else {
-      for (std::size_t i = 0; i < count; ++i) {
-        const CertifiedToi toi = certified_time_of_impact(set.obstacle, set.rows[i]);
-        verdict[i] = toi.verdict;
-        lower[i] = toi.lower;
-        upper[i] = toi.upper;
-      }
-    }
-    benchmark::ClobberMemory();
-  }
+  const auto by_batch = [&] {
+    return certified_time_of_impact(set.obstacle, set.rows.rows(), {verdict, lower, upper});
+  };
+  const BatchReport report = time_rows(state, by_vectors, count, by_batch, [&](std::size_t i) {
+    const CertifiedToi toi = certified_time_of_impact(set.obstacle, set.rows[i]);
+    verdict[i] = toi.verdict;
+    lower[i] = toi.lower;
+    upper[i] = toi.upper;
+  });
   count_rows(state, count, report, set.hits, {2, 2}, stream_ns<double>(8));
 }
 
@@ -166,18 +171,11 @@ template <class S> void time_rays(benchmark::State& state, bool by_vectors, std:
   }
   std::vector<ToiStatus> status(count);
   std::vector<S> time(count);
-  BatchReport report;
-  for (auto _ : state) {
-    if (by_vectors) {
-      report = raycast(rays.rows(), set.obstacle.shape, ToiRows<S>{status, time});
-    } else {
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto hit = raycast(rays[i], set.obstacle.shape);
-        time[i] = hit ? hit->t : S(1);
-      }
-    }
-    benchmark::ClobberMemory();
-  }
+  const auto by_batch = [&] { return raycast(rays.rows(), set.obstacle.shape, ToiRows<S>{status, time}); };
+  const BatchReport report = time_rows(state, by_vectors, count, by_batch, [&](std::size_t i) {
+    const auto hit = raycast(rays[i], set.obstacle.shape);
+    time[i] = hit ? hit->t : S(1);
+  });
   const auto hits = static_cast<double>(std::count(status.begin(), status.end(), ToiStatus::hit));
   count_rows(state, count, report, hits / static_cast<double>(count), {3, 0}, stream_ns<S>(7));
 }
@@ -211,6 +209,5 @@ int main(int argc, char** argv) {
   add_pairs<double>();
   add_rays_and_certified();
   add_pairs<float>();
-  FloorReporter reporter;
-  return run_benchmarks(argc, argv, reporter);
+  return run_benchmarks(argc, argv);
 }

@@ -106,7 +106,4 @@ class Goals : public MedianTimes {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  Goals reporter;
-  return run_benchmarks(argc, argv, reporter);
-}
+int main(int argc, char** argv) { return run_benchmarks<Goals>(argc, argv); }

@@ -98,35 +98,32 @@ template <class A, class B> using Queries = std::vector<Shot<A, B>>;
 
 template <class A, class B> const Queries<A, B>& random_queries() { return any_shots<A, B>().queries; }
 
+/// So many, a few at a time: `add(uniform, made)`.
+template <class A, class B, class Add> Queries<A, B> hard_queries(const Add& add) {
+  Uniform uniform;
+  Queries<A, B> made;
+  while (made.size() < hard_query_count) add(uniform, made);
+  return made;
+}
+
 template <class A, class B> const Queries<A, B>& mixed_queries() {
-  static const Queries<A, B> set = [] {
-    Uniform uniform;
-    Queries<A, B> made;
-    while (made.size() < hard_query_count) {
-      made.push_back(any_shot<A, B>(uniform, 1));
-      made.push_back(any_shot<A, B>(uniform, 1));
-      made.push_back(any_shot<A, B>(uniform, decades(uniform, 1, 8)));
-      const double side = uniform() < 0.5 ? -1 : 1;
-      made.push_back(grazing_shot<A, B>(uniform, side * decades(uniform, -12, -2)));
-    }
-    return made;
-  }();
+  static const Queries<A, B> set = hard_queries<A, B>([](Uniform& uniform, Queries<A, B>& made) {
+    made.push_back(any_shot<A, B>(uniform, 1));
+    made.push_back(any_shot<A, B>(uniform, 1));
+    made.push_back(any_shot<A, B>(uniform, decades(uniform, 1, 8)));
+    const double side = uniform() < 0.5 ? -1 : 1;
+    made.push_back(grazing_shot<A, B>(uniform, side * decades(uniform, -12, -2)));
+  });
   return set;
 }
 
 template <class A, class B> const Queries<A, B>& adversarial_queries() {
-  static const Queries<A, B> set = [] {
-    Uniform uniform;
-    Queries<A, B> made;
-    while (made.size() < hard_query_count) {
-      for (const double side : {-1.0, 1.0}) {
-        made.push_back(grazing_shot<A, B>(uniform, side * decades(uniform, -16, -12)));
-      }
-      made.push_back(touching_shot<A, B>(uniform));
-      made.push_back(lattice_shot<A, B>(uniform));
-    }
-    return made;
-  }();
+  static const Queries<A, B> set = hard_queries<A, B>([](Uniform& uniform, Queries<A, B>& made) {
+    for (const double side : {-1.0, 1.0})
+      made.push_back(grazing_shot<A, B>(uniform, side * decades(uniform, -16, -12)));
+    made.push_back(touching_shot<A, B>(uniform));
+    made.push_back(lattice_shot<A, B>(uniform));
+  });
   return set;
 }
 
@@ -317,7 +314,4 @@ class TableReporter : public MedianTimes {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  TableReporter reporter;
-  return run_benchmarks(argc, argv, reporter);
-}
+int main(int argc, char** argv) { return run_benchmarks<TableReporter>(argc, argv); }

@@ -203,7 +203,8 @@ class MedianTimes : public FloorReporter {
 };
 
 /// What main() of a benchmark program does.
-inline int run_benchmarks(int argc, char** argv, FloorReporter& reporter) {
+template <class Reporter = FloorReporter> int run_benchmarks(int argc, char** argv) {
+  Reporter reporter;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   add_floors_to_context();

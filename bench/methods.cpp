@@ -35,7 +35,4 @@ const bool added = [] {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  FloorReporter reporter;
-  return run_benchmarks(argc, argv, reporter);
-}
+int main(int argc, char** argv) { return run_benchmarks(argc, argv); }

@@ -310,7 +310,4 @@ class TableReporter : public MedianTimes {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  TableReporter reporter;
-  return run_benchmarks(argc, argv, reporter);
-}
+int main(int argc, char** argv) { return run_benchmarks<TableReporter>(argc, argv); }

@@ -117,7 +117,4 @@ const bool added = [] {
 
 }  // namespace thinwall::bench
 
-int main(int argc, char** argv) {
-  thinwall::bench::FloorReporter reporter;
-  return thinwall::bench::run_benchmarks(argc, argv, reporter);
-}
+int main(int argc, char** argv) { return thinwall::bench::run_benchmarks(argc, argv); }

@@ -146,8 +146,7 @@ void print_table() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bench::FloorReporter reporter;
-  const int code = bench::run_benchmarks(argc, argv, reporter);
+  const int code = bench::run_benchmarks(argc, argv);
   print_table();
   return code;
 }

@@ -76,6 +76,5 @@ int main(int argc, char** argv) {
         "configured with -DTHINWALL_PEERS=ON\n",
         peer.name.data(), peer.remedy.data());
   }
-  thinwall::bench::FloorReporter reporter;
-  return thinwall::bench::run_benchmarks(argc, argv, reporter);
+  return thinwall::bench::run_benchmarks(argc, argv);
 }
