@@ -22,7 +22,7 @@ bool thinwall::bench::add_npm(const std::string&) { return false; }
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/engines/npm.hpp>
+#include <thinwall/experiments/engines/speaker.hpp>
 
 namespace thinwall::bench {
 

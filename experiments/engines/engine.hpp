@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <span>
@@ -115,7 +116,12 @@ struct Engine {
 THINWALL_ENGINES(THINWALL_DECLARE_ENGINE)
 #undef THINWALL_DECLARE_ENGINE
 
-/// Every engine that this experiment knows, in the program or not: those of the list, and between them and ours npm.hpp's.
+/// Those that are npm packages, each a script in the folder that a process of its own runs. One is there if npm has brought the
+/// version that the folder's package.json asks for.
+std::vector<Engine> npm_engines(const std::filesystem::path& scripts);
+std::vector<Engine> npm_engines();  ///< of the source tree's, in a build with peers
+
+/// Every engine that this experiment knows, in the program or not.
 std::vector<Engine> engine_list();
 
 }  // namespace thinwall

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <thinwall/experiments/engines/npm.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/models/shots.hpp>
 #include <thinwall/experiments/models/tunneling_theory.hpp>

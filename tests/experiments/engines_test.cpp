@@ -19,7 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thinwall/experiments/engines/model.hpp>
-#include <thinwall/experiments/engines/npm.hpp>
+#include <thinwall/experiments/engines/speaker.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/models/tunneling_theory.hpp>

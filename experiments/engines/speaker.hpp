@@ -1,6 +1,5 @@
 #pragma once
-/// Engines that are npm packages: scripts in npm/, which node runs, a process for each thread that asks, asked in lines of JSON.
-/// npm/serve.mjs says what a line holds.
+/// A program that is asked, and answers, in lines of JSON: an engine that lives in another language.
 
 #include <filesystem>
 #include <stdexcept>
@@ -9,8 +8,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <thinwall/experiments/engines/engine.hpp>
-
 namespace thinwall {
 
 /// It died, hung, or said what is not JSON. what() says which, after the name it was given; it is not asked again.
@@ -18,7 +15,7 @@ struct SpeakerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A program that is asked, and answers, in lines of JSON: one process, ended with this object. Not for two threads at once.
+/// One process, ended with this object. Not for two threads at once.
 class Speaker {
  public:
   /// Starts `words` in `folder`; `name` is how messages call it. Throws SpeakerError.
@@ -43,9 +40,5 @@ class Speaker {
   int process_ = -1, to_ = -1, from_ = -1;
   std::string heard_;  ///< of a line that is not whole yet, or of the next
 };
-
-/// A script in the folder is an engine, there if npm has brought the version of its package that the folder's package.json asks for.
-std::vector<Engine> npm_engines(const std::filesystem::path& scripts);
-std::vector<Engine> npm_engines();  ///< of the source tree's, in a build with peers
 
 }  // namespace thinwall
