@@ -187,7 +187,8 @@ HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Pla
   HitscanAnswer answer;
   const std::vector<FlightPiece> pieces = flight_pieces(rule.path, c, placement.phase);
   const auto crosses = [&](const FlightPiece& piece) { return piece.start[0] + piece.displacement[0] >= c.range; };
-  const FlightPiece& last = *std::ranges::find_if(pieces, crosses);
+  const auto found = std::ranges::find_if(pieces, crosses);
+  const FlightPiece& last = found != pieces.end() ? *found : pieces.back();  // by a rounding none gets there
   answer.at_range = last.start + last.displacement * ((c.range - last.start[0]) / last.displacement[0]);
   for (const auto& piece : pieces) {
     const auto hit = hit_on(piece, rule, c, placement.target);

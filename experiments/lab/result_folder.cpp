@@ -53,6 +53,23 @@ bool is_rank_journal(std::string_view name) {
              name.substr(rank_journal_begin.size(), name.size() - rank_journal_begin.size() - rank_journal_end.size()));
 }
 
+/// The names of those that are there: what a run at work keeps, of this build or another.
+std::vector<std::string> journals_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (const std::string name = entry.path().filename().string(); is_journal_name(name)) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+/// A rank's journal that is not there.
+fs::path free_rank_journal(const fs::path& folder) {
+  int rank = 0;
+  while (is_there(ResultFolder::rank_journal(folder, rank))) ++rank;
+  return ResultFolder::rank_journal(folder, rank);
+}
+
 constexpr std::size_t room_for_a_figure = 1 << 20;  // [byte]
 
 void stage_tables(ResultFolder& folder, const RunRecord& run, const Outcome& outcome) {
@@ -172,9 +189,11 @@ void ResultFolder::refuse_foreign_results(bool seal_is_ours) const {
 
 void ResultFolder::require_own() const {
   if (lock_.holds(path_)) return;
-  throw std::runtime_error(fmt::format(
-      "{}: was moved, replaced or removed while the run was at work; what was finished is in its {}, wherever it is",
-      one_line(path_.string()), journal_name));
+  const bool is_kept = is_there(path_);  // else it may have been removed with all that was in it
+  throw std::runtime_error(
+      fmt::format("{}: was {} while the run was at work{}", one_line(path_.string()),
+                  is_kept ? "moved away, and another is in its place," : "removed, or moved away,",
+                  is_kept ? fmt::format("; what was finished is in its {}, wherever it is", journal_name) : ""));
 }
 
 void ResultFolder::look_at_manifest() {
@@ -224,37 +243,42 @@ void ResultFolder::look_at_manifest() {
 void ResultFolder::look_at_journal() {
   const fs::path file = path_ / journal_name, old = path_ / old_journal_name;
   const std::string ours = identity_text(identity_);
-  for (const char* name : {journal_name, old_journal_name}) {
-    if (!Journal::is_one(path_ / name)) refuse_foreign(name);
+  bool was_publishing = false;
+  for (const std::string& name : journals_in(path_)) {
+    if (!Journal::is_one(path_ / name)) refuse_foreign(name.c_str());
+    was_publishing = was_publishing || read_journal(path_ / name).rows.contains(publishing_key);
   }
-  const JournalText found = read_journal(file), before = read_journal(old);
-  const auto theirs = parse_identity(found.identity);
-  const bool is_unreadable = !theirs && !found.identity.empty();
-  const std::string difference = is_unreadable ? "something that cannot be read"
-                                 : theirs      ? identity_difference(*theirs, identity_)
-                                               : "";
+  const std::string found = read_journal(file).identity, set_aside = read_journal(old).identity;
+  const auto theirs = parse_identity(found);
+  const std::string difference = theirs          ? identity_difference(*theirs, identity_)
+                                 : found.empty() ? ""
+                                                 : "something that cannot be read";
   if (!difference.empty())
     refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
-  is_fresh_ = !replaced_ && !found.rows.contains(publishing_key) && !before.rows.contains(publishing_key);
+  const bool is_ours = found == ours, is_theirs = fs::exists(file) && !is_ours;
+  for (const std::string& name : journals_in(path_)) {
+    const std::string of_rank = is_rank_journal(name) ? read_journal(path_ / name).identity : ours;
+    if (of_rank != ours && of_rank != found)
+      refuse(fmt::format("holds {}, which is damaged, or of another run; delete it, or name another folder", name));
+  }
+  if (is_theirs && fs::exists(old) && set_aside != ours)
+    refuse(
+        fmt::format("holds two journals that this program cannot go on with, {} and {}; delete one of them, or name "
+                    "another folder",
+                    journal_name, old_journal_name));
+  is_fresh_ = !replaced_ && !was_publishing;
   if (is_fresh_) {
     const auto seal = parse_seal(file_text(path_ / seal_name));
-    const bool seal_is_ours = found.identity == ours || (seal && identity_text(seal->identity) == ours);
-    refuse_foreign_results(!identity_.shard.empty() && seal_is_ours && holds_file(path_, seal_name));
+    const bool is_of_run = theirs || (seal && identity_difference(seal->identity, identity_).empty());
+    refuse_foreign_results(!identity_.shard.empty() && is_of_run && holds_file(path_, seal_name));
   }
-  if (theirs) gather_rank_journals(found.identity);
-  if (fs::exists(file) && found.identity != ours) {
-    if (fs::exists(old)) {  // of ours it is gathered below, as that of a rank
-      if (before.identity != ours)
-        refuse(
-            fmt::format("holds what two other builds of the program have begun, in {} and {}; name another folder, or "
-                        "delete one of them",
-                        journal_name, old_journal_name));
-      fs::rename(old, rank_journal(path_, 0));
-    }
+  if (theirs) gather_rank_journals(found);
+  if (fs::exists(old) && set_aside == ours) fs::rename(old, free_rank_journal(path_));  // it is gathered below
+  if (is_theirs) {
     fs::rename(file, old);
     notes_.push_back(fmt::format("{}: {}; it is kept as {}{}", one_line(file.string()),
                                  theirs ? "begun by another build of the program" : "its first row is damaged",
-                                 old_journal_name, theirs ? " until this run ends" : ""));
+                                 old_journal_name, theirs ? " until this run ends" : ": delete it if it is of no use"));
   }
   journal_ = std::make_unique<Journal>(file, ours);
   for (const std::string& line : journal_->damage()) notes_.push_back(line);
@@ -263,25 +287,29 @@ void ResultFolder::look_at_journal() {
 
 void ResultFolder::gather_rank_journals(const std::string& identity) {
   require_own();
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(path_)) {
-    if (!is_rank_journal(entry.path().filename().string())) continue;
-    if (!Journal::is_one(entry.path())) refuse_foreign(entry.path().filename().c_str());
-    files.push_back(entry.path());
-  }
   std::unique_ptr<Journal> other;
-  for (const fs::path& file : files) {
-    const JournalText text = read_journal(file);
-    if (text.identity != identity && !text.identity.empty()) continue;
+  for (const std::string& name : journals_in(path_)) {
+    if (!is_rank_journal(name)) continue;
+    if (!Journal::is_one(path_ / name)) refuse_foreign(name.c_str());
+    const JournalText text = read_journal(path_ / name);
+    if (text.identity != identity) continue;
     for (const std::string& line : text.damage) notes_.push_back(line + "; that unit is computed again");
     if (!journal_ && !other) other = std::make_unique<Journal>(path_ / journal_name, identity);
     (journal_ ? *journal_ : *other).add(text.rows);
-    fs::remove(file);
+    fs::remove(path_ / name);
   }
 }
 
-void ResultFolder::seal(const std::string& text) {
-  stage(seal_name, text);
+void ResultFolder::reopen_journal() {
+  auto again = std::make_unique<Journal>(path_ / journal_name, identity_text(identity_));
+  again->add(journal_->finished());
+  journal_ = std::move(again);
+}
+
+void ResultFolder::seal(const RunRecord& run) {
+  require_own();
+  reopen_journal();
+  stage(seal_name, seal_text(run, sha256_of_file(path_ / journal_name)));
   fs::rename(staging() / seal_name, path_ / seal_name);
   staging_.reset();
   clear_up();
@@ -311,8 +339,10 @@ std::map<std::string, std::string> ResultFolder::staged_hashes() const {
 void ResultFolder::publish() {
   require_own();
   for (const char* name : result_names) {  // what was put here meanwhile
-    if (is_fresh_ || fs::is_symlink(path_ / name)) refuse_foreign(name);
+    if ((is_fresh_ && is_there(path_ / name)) || fs::is_symlink(path_ / name))
+      refuse(fmt::format("'{}' has come while the run was at work; move it away, and the same command goes on", name));
   }
+  reopen_journal();
   const auto staged = staged_hashes();
   journal_->add({{publishing_key, {}}});
   std::set<fs::path> folders = {path_};
@@ -346,22 +376,24 @@ void ResultFolder::publish() {
   clear_up();
 }
 
-/// A shard keeps its journal. One of another build goes, as was said, unless that build is at a run of its own, whose journal it is; one that
-/// cannot be read stays, and so does another run's.
+/// A shard keeps its journal. What another build has begun goes, as was said, unless that build is at a run of its own; what cannot be read
+/// stays, and so does another run's.
 void ResultFolder::clear_up() {
   remove_leftovers(path_);
-  const auto is_of = [&](const char* name, bool ours) {
+  const auto is_of = [&](const std::string& name, bool ours) {
+    if (!Journal::is_one(path_ / name)) return false;
     const auto theirs = parse_identity(read_journal(path_ / name).identity);
-    return Journal::is_one(path_ / name) && theirs && identity_difference(*theirs, identity_).empty() &&
-           (theirs->program == identity_.program) == ours;
+    return theirs && identity_difference(*theirs, identity_).empty() && (theirs->program == identity_.program) == ours;
   };
-  const bool is_ours = is_of(journal_name, true);
-  if (is_of(journal_name, false))
+  const bool is_ended = !is_of(journal_name, false);
+  for (const std::string& name : journals_in(path_)) {
+    const bool is_kept = name == journal_name && !identity_.shard.empty();
+    if (!is_kept && (is_of(name, true) || (is_ended && is_of(name, false)))) fs::remove(path_ / name);
+  }
+  if (!is_ended)
     notes_.push_back(fmt::format("{}: begun by another build of the program, whose command continues it",
                                  one_line((path_ / journal_name).string())));
-  if (is_ours && is_of(old_journal_name, false)) fs::remove(path_ / old_journal_name);
   if (!identity_.shard.empty()) return;
-  if (is_ours) fs::remove(path_ / journal_name);
   try {
     if (manifest_in(old_manifest_name)) fs::remove(path_ / old_manifest_name);
   } catch (const UsageError&) {  // not ours

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <boost/core/noncopyable.hpp>
+
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
@@ -35,7 +37,7 @@ class FolderLock : boost::noncopyable {
   ~FolderLock();
 
   /// `shared`: beside others who share it. False if another process holds it. Throws std::system_error if there is no such
-  /// folder, or none that can be locked.
+  /// folder, UsageError if its file system has no locks.
   bool take(const std::filesystem::path& folder, bool shared = false);
 
   /// What was taken still has that name.
@@ -71,8 +73,8 @@ class ResultFolder : boost::noncopyable {
   /// SHA-256 of the staged files, by path.
   std::map<std::string, std::string> staged_hashes() const;
 
-  /// Writes the seal of a finished shard, whose journal stays.
-  void seal(const std::string& text);
+  /// Writes the seal of a finished shard, whose journal stays: whole, even if somebody has removed or cut it off meanwhile.
+  void seal(const RunRecord& run);
 
   /// Moves what other ranks of this run have finished from their journals into ours, and deletes theirs. Those of another run stay.
   void gather_rank_journals(const std::string& identity);
@@ -87,6 +89,7 @@ class ResultFolder : boost::noncopyable {
   void look_at_manifest();
   void look_at_journal();
   void refuse_foreign_results(bool seal_is_ours) const;
+  void reopen_journal();                                        // whole, if its file was removed or changed meanwhile
   void require_own() const;                                     // nobody has moved the folder away
   std::optional<Manifest> manifest_in(const char* name) const;  // nothing if there is no file
   void refuse_foreign(const char* name) const;                  // if it is there

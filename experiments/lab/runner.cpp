@@ -37,8 +37,10 @@ volatile std::sig_atomic_t requested = 0;
 
 void request_stop(int) {
   requested = 1;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction now = {};
+    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == request_stop) std::signal(signal, SIG_DFL);
+  }
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -254,7 +256,9 @@ std::optional<RunEstimate> told_within(double seconds, const std::function<void(
 void watch_for_stop() {
   requested = 0;
   for (const int signal : {SIGINT, SIGTERM}) {
-    if (std::signal(signal, request_stop) == SIG_IGN) std::signal(signal, SIG_IGN);  // as whoever started us wants it
+    struct sigaction before = {};
+    const bool is_ignored = ::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;
+    if (!is_ignored) std::signal(signal, request_stop);  // else as whoever started us wants it
   }
 }
 

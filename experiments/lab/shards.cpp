@@ -157,10 +157,8 @@ std::optional<ShardSeal> parse_seal(const std::string& text) {
   }
 }
 
-void seal_shard(ResultFolder& folder, const RunRecord& run) {
-  // Somebody may have removed the file, or cut it off, while the run was at work: what it lacks is written again.
-  Journal(folder.path() / journal_name, identity_text(run)).add(folder.journal().finished());
-  const ordered_json seal = {
+std::string seal_text(const RunRecord& run, const std::string& journal_sha256) {
+  return json_page(ordered_json{
       {"thinwall_shard", seal_version},
       {"run", ordered_json::parse(identity_text(run))},
       {"units", run.units},
@@ -170,8 +168,7 @@ void seal_shard(ResultFolder& folder, const RunRecord& run) {
       {"started", utc_text(run.started)},
       {"finished", utc_text(run.finished)},
       {"machine", {{"cpu", run.machine.cpu}, {"hardware_threads", run.machine.cores}, {"system", run.machine.system}}},
-      {"journal", sha256_of_file(folder.path() / journal_name)}};
-  folder.seal(json_page(seal));
+      {"journal", journal_sha256}});
 }
 
 bool is_sealed(const ResultFolder& folder, const RunIdentity& identity) {

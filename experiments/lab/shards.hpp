@@ -46,8 +46,8 @@ struct ShardSeal {
 /// Nothing if `text` is no seal of ours.
 std::optional<ShardSeal> parse_seal(const std::string& text);
 
-/// Declares the shard in `folder` finished. `run` is the shard's: its units and trials are those of the shard alone.
-void seal_shard(ResultFolder& folder, const RunRecord& run);
+/// What declares a shard finished. `run` is the shard's: its units and trials are those of the shard alone.
+std::string seal_text(const RunRecord& run, const std::string& journal_sha256);
 
 /// True if `folder` was sealed and its journal has not changed since.
 bool is_sealed(const ResultFolder& folder, const RunIdentity& identity);

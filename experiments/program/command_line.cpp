@@ -276,8 +276,15 @@ int run_program(const std::vector<std::string>& argv, std::span<const Experiment
   const Launch launch = launch_of_this_process();
   const bool quiet = launch.rank > 0;  // of the ranks that mpirun started, one speaks, but of what went wrong
   const std::string who = quiet ? fmt::format("rank {} of {}: ", launch.rank, launch.count) : "";
+  Action action;
   try {
-    const int status = parse_command_line(argv)({experiments, argv, quiet ? nowhere : out, quiet ? nowhere : err});
+    action = parse_command_line(argv);
+  } catch (const UsageError& error) {  // every rank has these words
+    (quiet ? nowhere : err) << error.what() << std::endl;
+    return exit_bad_input;
+  }
+  try {
+    const int status = action({experiments, argv, quiet ? nowhere : out, quiet ? nowhere : err});
     if (out.flush()) return status;
     err << who << "failed: stdout cannot be written" << std::endl;  // a full disk, where it goes to a file
     return exit_failed;

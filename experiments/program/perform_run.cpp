@@ -15,9 +15,11 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <boost/core/noncopyable.hpp>
 
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/escape.hpp>
+#include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/json_reader.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/runner.hpp>
@@ -387,7 +389,7 @@ int perform_run(RunWish wish, const Call& call) try {
   }
   if (wish.shard) {
     record.finished = std::chrono::system_clock::now();
-    seal_shard(folder, record);
+    folder.seal(record);
     guard.reset();
     return shard_reply(wish, record, call);
   }

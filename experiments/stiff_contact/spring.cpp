@@ -29,8 +29,10 @@ Motion stepped(Scheme scheme, const Spring& spring, double step, const Motion& o
 
 Motion pushed(Scheme scheme, const Spring& spring, double step, const Motion& old) {
   const Motion next = stepped(scheme, spring, step, old);
-  const auto& [depth, speed] = scheme == Scheme::implicit_euler ? next : old;
-  const bool pushes = spring.stiffness * depth + spring.damping * speed >= 0;
+  const bool is_implicit = scheme == Scheme::implicit_euler;
+  const auto& [depth, speed] = is_implicit ? next : old;
+  const double force = spring.stiffness * depth + spring.damping * speed;
+  const bool pushes = is_implicit ? !(force < 0) : force >= 0;  // what is no number stays none
   return pushes ? next : Motion{old.depth + step * old.speed, old.speed};
 }
 

@@ -271,8 +271,9 @@ TEST(AdviceText, json_has_every_number) {
 TEST(AdviceText, json_is_null_where_theory_is_silent) {
   const nlohmann::json json = nlohmann::json::parse(advice_json(advice_on(all_sorts()[2])).dump());
   for (const auto& [method, key] : {std::pair{"bisection", "chance"}, {"end_of_step", "longest_step_s"}}) {
-    const auto row = std::ranges::find_if(json["methods"], [&](const auto& r) { return r["method"] == method; });
-    EXPECT_TRUE((*row)[key].is_null()) << method;
+    const auto row = std::ranges::find_if(json.at("methods"), [&](const auto& r) { return r.at("method") == method; });
+    ASSERT_NE(row, json.at("methods").end());
+    EXPECT_TRUE(row->at(key).is_null()) << method;
   }
 }
 

@@ -323,11 +323,15 @@ TEST(ExtremesConfig, what_a_precision_cannot_hold_is_in_no_table) {
   const Table& cells = table_of(outcome, "cells");
   for (std::size_t i = 0; i < cells.rows.size(); ++i) EXPECT_EQ(value_of(cells, i, "queries"), Value(std::int64_t{6}));
   const Table& breaks = table_of(outcome, "breaks");
+  std::size_t lesser = 0;
   for (std::size_t i = 0; i < breaks.rows.size(); ++i) {
     if (value_of(breaks, i, "side") != Value("lesser")) continue;
+    ++lesser;
     const bool in_float_there = value_of(breaks, i, "precision") == Value("float");
     EXPECT_EQ(value_of(breaks, i, "survived"), Value(in_float_there ? 1 : 1e-100));
   }
+  EXPECT_GT(cells.rows.size(), 0u);
+  EXPECT_GT(lesser, 0u);
 }
 
 /// One answer a person can say: three sentences at most, and powers of ten as such.

@@ -130,10 +130,18 @@ TEST_F(ResultFolderTest, goes_on_with_its_own_journal_that_another_build_has_set
   EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
 }
 
+TEST_F(ResultFolderTest, goes_on_with_its_own_journal_where_the_build_that_set_it_aside_has_begun_nothing) {
+  ToyControl::interrupt_after = 8;
+  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  std::filesystem::rename(out + "/journal.tsv", out + "/journal.old.tsv");
+  expect_reply(run({"--threads", "1"}), 0, {"8 of 20 units were read from the journal\n"});
+  EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
+}
+
 TEST_F(ResultFolderTest, refuses_to_set_aside_a_journal_in_the_place_of_a_third_builds) {
   begin_by("another", out + "/journal.tsv");
   begin_by("a third", out + "/journal.old.tsv");
-  expect_refused({"run", "toy", "--out", out}, {"holds what two other builds of the program have begun"});
+  expect_refused({"run", "toy", "--out", out}, {"holds two journals that this program cannot go on with"});
 }
 
 TEST_F(ResultFolderTest, leaves_what_another_build_has_begun_beside_a_complete_result) {
@@ -149,17 +157,10 @@ TEST_F(ResultFolderTest, computes_nothing_into_a_folder_that_has_taken_the_place
   ResultFolder result(out, ours);
   std::filesystem::rename(out, out + ".moved");
   ResultFolder other(out, ours);
-  const auto said = [&](const auto& act) -> std::string {
-    try {
-      act();
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "nothing";
-  };
+  const auto said = [](const auto& act) { return error_of<std::runtime_error>(act); };
   for (const std::string& line : {said([&] { result.stage("report.html", "a page"); }), said([&] { result.publish(); }),
-                                  said([&] { result.gather_rank_journals(""); })}) {
-    EXPECT_TRUE(holds(line, out + ": was moved, replaced or removed while the run was at work"));
+                                  said([&] { result.gather_rank_journals(""); }), said([&] { result.seal({}); })}) {
+    EXPECT_TRUE(holds(line, out + ": was moved away, and another is in its place, while the run was at work"));
   }
   EXPECT_EQ(files_in(out).size(), 1u) << "the journal of the other";
 }
@@ -178,7 +179,7 @@ TEST_F(ResultFolderTest, starts_over_where_the_first_row_of_the_journal_is_damag
   std::string journal = read_text(out + "/journal.tsv");
   journal[journal.find("toy")] ^= 1;
   write_text(out + "/journal.tsv", journal);
-  expect_reply(run(), 0, {"its first row is damaged; it is kept as journal.old.tsv\n"});
+  expect_reply(run(), 0, {"its first row is damaged; it is kept as journal.old.tsv: delete it if it is of no use\n"});
   EXPECT_EQ(read_text(out + "/journal.old.tsv"), journal) << "it may be another run's";
 }
 
@@ -380,7 +381,7 @@ TEST_F(ForeignFiles, that_come_while_a_run_is_at_work_are_not_written_over) {
       fs::create_directory(out + "/tables");
       write_text(out + "/tables/cells.md", "mine\n");
     }
-    EXPECT_THROW(result.publish(), UsageError);
+    EXPECT_TRUE(holds(error_of<UsageError>([&] { result.publish(); }), "'tables' has come while the run was at work"));
     EXPECT_EQ(is_link ? "mine\n" : read_text(out + "/tables/cells.md"), "mine\n");
     fs::remove_all(out);
   }

@@ -106,6 +106,13 @@ TEST_F(JournalTest, gives_back_what_was_added_and_knows_whose_it_is) {
   EXPECT_TRUE(journal.damage().empty());
 }
 
+TEST_F(JournalTest, begins_none_in_the_place_of_what_is_none) {
+  write_text(folder / "mine", "mine\n");
+  std::filesystem::create_symlink("mine", folder / "link.tsv");
+  for (const char* name : {"mine", "link.tsv"}) EXPECT_THROW(Journal(folder / name, "the run"), std::system_error);
+  EXPECT_EQ(read_text(folder / "mine"), "mine\n");
+}
+
 TEST_F(JournalTest, drops_a_torn_last_row_wherever_it_was_torn) {
   write_three();
   const std::string whole = read_text(file);

@@ -18,6 +18,7 @@
 #include <thinwall/experiments/lab/draw.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/journal.hpp>
+#include <thinwall/experiments/lab/manifest.hpp>
 
 #include "support/program.hpp"
 #include "support/thorough.hpp"
@@ -101,7 +102,7 @@ TEST_F(ToyRunTest, does_not_say_that_a_folder_deleted_meanwhile_keeps_anything) 
   ToyControl::removes = out;
   const Reply reply = run({"--threads", "1"});
   EXPECT_EQ(reply.status, 1);
-  EXPECT_TRUE(reply.err.ends_with(": No such file or directory\n")) << reply.err;
+  EXPECT_TRUE(reply.err.ends_with("/out: was removed, or moved away, while the run was at work\n")) << reply.err;
 }
 
 TEST_F(ToyRunTest, writes_nothing_on_a_dry_run) {
@@ -251,7 +252,8 @@ TEST_F(KilledRunTest, ends_with_the_same_bytes_after_twenty_kills) {
 TEST_F(KilledRunTest, clears_up_after_a_kill_between_the_manifest_and_the_end) {
   run_to_the_end("out");
   const auto expected = lasting_files(folder / "out");
-  Journal(folder / "out/journal.tsv", "left");
+  const Manifest left = parse_manifest(read_text(folder / "out/manifest.json"), "manifest.json");
+  Journal(folder / "out/journal.tsv", identity_text(left.run));
   fs::create_directories(folder / "out/" + temporary_name() + "/data");
   run_to_the_end("out");
   EXPECT_TRUE(holds(notes(), "complete already"));

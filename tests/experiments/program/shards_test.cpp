@@ -57,7 +57,7 @@ struct ShardProgram : ToyProgram {
     run.program = program;
     ResultFolder other(path, run);
     other.journal().add(rows);
-    seal_shard(other, run);
+    other.seal(run);
   }
 
   void expect_refused(const Words& folders, const Words& said) const {
@@ -219,7 +219,7 @@ TEST_F(ShardProgram, seals_all_rows_even_if_their_file_was_removed_or_cut_off_me
     } else {
       std::filesystem::remove(file);
     }
-    seal_shard(result, run);
+    result.seal(run);
     EXPECT_EQ(read_journal(file).rows.size(), rows.size());
     EXPECT_TRUE(is_sealed(result, run));
   }
