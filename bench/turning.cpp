@@ -1,7 +1,7 @@
 /// What does a time of impact of shapes that turn cost, how wrong is it, and how many looks at the closest points does it take?
 /// Every method of the list on the same queries, spinning up to a quarter turn a step, half of them hits; and beside them conservative advancement
-/// with Mirtich's bound, the usual one: gap over the fastest point's speed. Counters: missed and false hits and errors of the time against the proven brackets, and
-/// the mean of the looks. Run one pair by --benchmark_filter=capsule_capsule.
+/// with Mirtich's bound, the usual one: gap over the fastest point's speed. Counters: missed and false hits and errors of the time against the
+/// proven brackets, and the mean of the looks. Run one pair by --benchmark_filter=capsule_capsule.
 
 #include <benchmark/benchmark.h>
 

@@ -63,7 +63,8 @@ const std::vector<NpmEngine>& list() {
        true,
        {{"default", "as it comes: it sweeps every body, and has no switch for that"}}},
       {{"mujoco", "MuJoCo", "@mujoco/mujoco",
-        "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous detection. Its meshes are convex hulls, which a flat one is not."},
+        "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous "
+        "detection. Its meshes are convex hulls, which a flat one is not."},
        false,
        {{"default", "solref and solimp as they come, which take the speed away", 1, 0},
         {"elastic", "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps", 0, 0,

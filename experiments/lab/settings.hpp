@@ -45,7 +45,7 @@ class Settings {
   /// Refuses what leaves out a key that has no sensible default.
   void require(std::string_view key, std::string_view what_is_needed) const;
 
-  // A list has 1 to `most_cells` values, none of them twice.
+  /// A list has 1 to `most_cells` values, none of them twice.
   double number(std::string_view key, const Range& range) const;
   std::vector<double> numbers(std::string_view key, const Range& range) const;
   std::array<double, 3> vector(std::string_view key, const Range& range) const;

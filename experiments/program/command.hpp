@@ -30,7 +30,7 @@ inline constexpr int exit_bad_input = 2;      ///< the command line, a configura
 inline constexpr int exit_interrupted = 130;  ///< Ctrl-C; what was done is kept
 
 // ---- What a command of the program is: a name, a word on what it is for, and the options it declares.
-// A new command stands in the list of its file, which is declared at the end, and that in commands().
+// A new command is a row of its file's list, as run_commands(). A new file's list is declared below, and stands in commands().
 
 /// What a command is given when it runs.
 struct Call {

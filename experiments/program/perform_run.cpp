@@ -335,7 +335,9 @@ int perform_run(RunWish wish, const Call& call) try {
                   : configure_run(wish.target, wish.request, call.experiments);
   if (wish.shard && wish.launch.count > 1)
     throw UsageError("--shard: mpirun shares a run out among its ranks already; use one of the two");
-  const std::vector<Unit> all = chosen.run->units(), units = units_of(wish.shard.value_or(Shard{}), all);
+  const std::vector<Unit> all = chosen.run->units(),
+                          part = wish.shard ? units_of(*wish.shard, all) : std::vector<Unit>();
+  const std::vector<Unit>& units = wish.shard ? part : all;
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, wish, call, units);
   if (wish.list_cells) return list_cells(wish, record, units, call.out);

@@ -344,7 +344,8 @@ std::vector<Row> told_rows(const StiffResults& results) {
   });
 }
 
-/// Bounces off walls that would hold in continuous time, where the ball stays this side of the middle, by scheme and detection, over the rows of the damping ratios.
+/// Bounces off walls that would hold in continuous time, where the ball stays this side of the middle, by scheme and detection, over the rows of
+/// the damping ratios.
 std::vector<Row> passages(const StiffResults& results, const std::vector<double>& ratios) {
   const Approach& e = results.plan.approach;
   const auto stiff = only(results.bounces, [&](const Row& r) {

@@ -109,7 +109,7 @@ Toi<double> library_answer(const RigidQuery& query);
 /// Counts of queries; all of one kind of primitives from one family, or of everything.
 struct QueryCounts {
   std::int64_t read = 0, checked = 0, hits = 0, rounded = 0;
-  std::array<std::int64_t, 3> skipped = {};
+  std::array<std::int64_t, 3> skipped = {};  ///< by Skipped
   std::int64_t false_negatives = 0, false_positives = 0, undecided = 0, file_differs = 0;
 
   static constexpr auto fields() {

@@ -145,9 +145,9 @@ template <class A, class B> bool spin_is_short_of_gap(const Turning<A>& a, const
   return time_of_impact(ClosedForm<double>{bridged + contact}, straight_a, straight_b).status == ToiStatus::apart;
 }
 
-/// [1] When to look again at two that touch: half of the time until when they sink no deeper into each other than by a 1024th of `least`, which is the
-/// first root of the bound of their gap across a plane that stands still (docs/turning.md), let down by that much. Half, because what parts
-/// and comes back, or comes down at its other end, is then apart, and its next contact is found in time.
+/// [1] When to look again at two that touch: half of the time until when they sink no deeper into each other than by a 1024th of `least`, which is
+/// the first root of the bound of their gap across a plane that stands still (docs/turning.md), let down by that much. Half, because what parts and
+/// comes back, or comes down at its other end, is then apart, and its next contact is found in time.
 template <class A, class B>
 double look_after(const Turning<A>& a, const Turning<B>& b, const Vec3<double>& normal, double least) {
   const TurningPair<double> pair(a, b, 0.0);
