@@ -76,6 +76,9 @@ TEST_F(ResultFolderTest, mends_a_result_that_lost_a_file_but_overwrites_no_chang
     EXPECT_TRUE(std::filesystem::exists(out + file));
   }
   EXPECT_EQ(read_text(out + "/data/cells.csv"), files.at("data/cells.csv"));
+  write_text(out + "/report.html", "");
+  EXPECT_EQ(run().status, 0);
+  EXPECT_FALSE(read_text(out + "/report.html").empty());
   write_text(out + "/plots/squares.gp", "# my own\n");
   std::filesystem::remove(out + "/data/cells.csv");
   EXPECT_EQ(

@@ -98,6 +98,16 @@ TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
   EXPECT_TRUE(std::filesystem::exists(out + "/plots/squares.gp"));
 }
 
+TEST_F(ToyRunTest, says_that_gnuplot_was_killed_and_not_that_it_is_absent) {
+  write_text(folder / "gnuplot", "#!/bin/sh\nkill -9 $$\n");
+  std::filesystem::permissions(folder / "gnuplot", std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  const Reply reply = run();
+  ::setenv("PATH", path.c_str(), 1);
+  expect_reply(reply, 0, {"figures were not drawn: gnuplot was ended by a signal\n"});
+}
+
 TEST_F(ToyRunTest, does_not_say_that_a_folder_deleted_meanwhile_keeps_anything) {
   ToyControl::removes = out;
   const Reply reply = run({"--threads", "1"});
@@ -288,6 +298,31 @@ TEST_F(KilledRunTest, heeds_an_interrupt_at_once_in_the_midst_of_a_long_unit) {
   EXPECT_LE(std::ranges::count(journal, '\n'), 2) << "the long unit was waited for";  // the other has 1009 shots
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
   EXPECT_TRUE(holds(notes(), "to continue:\n"));
+}
+
+TEST_F(KilledRunTest, leaves_no_half_of_a_result_where_it_is_stopped_while_it_draws) {
+  run_to_the_end("whole");
+  fs::create_directory(folder / "bin");
+  write_text(folder / "bin/gnuplot", "#!/bin/sh\nsleep 3\n");
+  fs::permissions(folder / "bin/gnuplot", fs::perms::owner_all);
+  const std::string path = "PATH=" + (folder / "bin") + ":" + std::getenv("PATH");
+  ProgramProcess slow(joined({"/usr/bin/env", path}, words("slow")), folder / "notes");
+  ASSERT_TRUE(slow.wait_until([&] { return is_staged("slow", "plots"); }, std::chrono::milliseconds(1))) << notes();
+  const int status = slow.end_with(SIGTERM);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
+  EXPECT_FALSE(fs::exists(folder / "slow/manifest.json"));
+  EXPECT_TRUE(fs::exists(folder / "slow/journal.tsv"));
+  run_to_the_end("slow");
+  EXPECT_EQ(lasting_files(folder / "slow"), lasting_files(folder / "whole"));
+}
+
+TEST_F(KilledRunTest, goes_on_where_whoever_started_it_ignores_interrupts) {
+  const Words ignoring = {"/bin/sh", "-c", "trap '' INT; exec \"$@\"", "sh"};
+  ProgramProcess run(joined(ignoring, words("out")), folder / "notes");
+  ASSERT_TRUE(run.wait_until([&] { return journal_size("out") > 0; }, std::chrono::microseconds(200))) << notes();
+  run.signal(SIGINT);
+  const int status = run.wait();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << notes();
 }
 
 TEST_F(RealRunTest, names_the_file_that_may_not_grow) {

@@ -366,6 +366,14 @@ TEST_F(Mpi, a_rank_says_what_is_wrong_with_its_own_words) {
   EXPECT_TRUE(holds(run_process(words, folder.path()).output, "ank 1 of 2: none.toml: there is no such file"));
 }
 
+TEST_F(Mpi, a_process_that_another_mpirun_has_started_says_so) {
+  const ProcessResult alone =
+      run_process({"/usr/bin/env", "PMI_SIZE=4", "PMI_RANK=3", THINWALL_PROGRAM, "run", "wall.toml", "--out", "alone"},
+                  folder.path());
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_TRUE(holds(alone.output, "rank 3 of 4: started as one of 4 processes, but MPI as built in counts 1"));
+}
+
 TEST_F(LeavingOneMachine, what_is_left_in_the_environment_of_no_mpirun_is_passed_over) {
   const Words words = {"/usr/bin/env", "OMPI_COMM_WORLD_RANK=1", THINWALL_PROGRAM, "list"};
   EXPECT_TRUE(holds(run_process(words, folder.path()).output, "thin_wall"));
