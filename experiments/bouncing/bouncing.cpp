@@ -407,17 +407,19 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   std::vector<Task<std::vector<LongRunPoint>>> long_tasks;
   for (const std::string& group : groups_asked(settings))
     crowd_tasks.push_back({"scenario " + group, 1, [=] { return bounce_scenarios(group, mass_ratios, digits); }});
-  for (const Cell& cell : cells)
+  for (const Cell& cell : cells) {
     cell_tasks.push_back(
         {key_of(cell), bounces, [=, seed = options.seed] { return random_bounces(cell, seed, bounces); }});
+  }
   for (const Cell& cell : long_cells) {
     long_tasks.push_back({fmt::format("long run {}", cell.policy.name), runs * run_bounces,
                           [=, seed = options.seed] { return long_run(cell, seed, runs, run_bounces); }});
   }
   for (std::int64_t round = 0; round < rounds; ++round) {
-    for (const WorkRow& row : timed)
+    for (const WorkRow& row : timed) {
       timing_tasks.push_back(
           {fmt::format("time {} {}", round, key_of(row.cell)), row.bounces(), [row] { return row.bounce(); }});
+    }
   }
 
   const auto finish = [=](const Done<std::vector<Scenario>>& crowds, const Done<Tally>& tallies,

@@ -136,9 +136,10 @@ bool FolderLock::take(const fs::path& folder, bool shared) {
   const int how = (shared ? LOCK_SH : LOCK_EX) | LOCK_NB;
   int failed = ::flock(descriptor_, how);
   while (failed != 0 && errno == EINTR) failed = ::flock(descriptor_, how);
-  if (failed != 0 && errno != EWOULDBLOCK)  // a file system that is mounted without locks
+  if (failed != 0 && errno != EWOULDBLOCK) {  // a file system that is mounted without locks
     throw UsageError(fmt::format("{}: cannot be locked: {}; name a folder on another disk", one_line(folder.string()),
                                  std::generic_category().message(errno)));
+  }
   return failed == 0;
 }
 
@@ -261,11 +262,12 @@ void ResultFolder::look_at_journal() {
     if (of_rank != ours && of_rank != found)
       refuse(fmt::format("holds {}, which is damaged, or of another run; delete it, or name another folder", name));
   }
-  if (is_theirs && fs::exists(old) && set_aside != ours)
+  if (is_theirs && fs::exists(old) && set_aside != ours) {
     refuse(
         fmt::format("holds two journals that this program cannot go on with, {} and {}; delete one of them, or name "
                     "another folder",
                     journal_name, old_journal_name));
+  }
   is_fresh_ = !replaced_ && !was_publishing;
   if (is_fresh_) {
     const auto seal = parse_seal(file_text(path_ / seal_name));
@@ -390,9 +392,10 @@ void ResultFolder::clear_up() {
     const bool is_kept = name == journal_name && !identity_.shard.empty();
     if (!is_kept && (is_of(name, true) || (is_ended && is_of(name, false)))) fs::remove(path_ / name);
   }
-  if (!is_ended)
+  if (!is_ended) {
     notes_.push_back(fmt::format("{}: begun by another build of the program, whose command continues it",
                                  one_line((path_ / journal_name).string())));
+  }
   if (!identity_.shard.empty()) return;
   try {
     if (manifest_in(old_manifest_name)) fs::remove(path_ / old_manifest_name);

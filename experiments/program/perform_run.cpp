@@ -212,9 +212,10 @@ std::optional<bool> Crew::is_one_run(const std::string& identity) {
   told_ = true;
   if (of_rank_0.front() == ' ') return std::nullopt;
   const bool is_same = std::ranges::equal(of_rank_0, ours);
-  if (!is_same)
+  if (!is_same) {
     std::cerr << fmt::format("rank {} of {} was started with another configuration, seed or program than rank 0\n",
                              ranks_.rank(), ranks_.count());
+  }
   return ranks_.worst(is_same ? finished : failed) == finished;
 }
 
@@ -249,9 +250,10 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
   if (why) std::rethrow_exception(why);
   if (worst == failed) throw std::runtime_error("another rank failed, as its own line says; what was finished is kept");
   UnitResults all = compute_units(units_, journal, {.threads = 1, .stop = [] { return true; }, .on_progress = {}});
-  if (worst == finished && !all.complete)
+  if (worst == finished && !all.complete) {
     throw std::runtime_error(
         "another rank kept what it finished where rank 0 does not find it: all must see the same --out");
+  }
   all.resumed = known;
   return all;
 }

@@ -92,9 +92,10 @@ RoundedBox box_of(double x, double y, double z, double radius) {
 Vec3<double> unit(double x, double y, double z) {
   const Vec3<double> direction(x, y, z);
   const double norm = direction.stableNorm();
-  if (!std::isfinite(norm) || norm == 0)
+  if (!std::isfinite(norm) || norm == 0) {
     throw UsageError(fmt::format("direction: [{}, {}, {}] is not allowed; finite, and not zero", exact_text(x),
                                  exact_text(y), exact_text(z)));
+  }
   return direction / norm;
 }
 
