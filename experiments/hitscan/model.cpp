@@ -186,9 +186,8 @@ std::optional<TrueImpact> true_impact(const HitscanCell& c, const Vec3<double>& 
 HitscanAnswer answer_of(const HitscanRule& rule, const HitscanCell& c, const Placement& placement) {
   HitscanAnswer answer;
   const std::vector<FlightPiece> pieces = flight_pieces(rule.path, c, placement.phase);
-  const auto crosses = [&](const FlightPiece& piece) { return piece.start[0] + piece.displacement[0] >= c.range; };
-  const auto found = std::ranges::find_if(pieces, crosses);
-  const FlightPiece& last = found != pieces.end() ? *found : pieces.back();  // by a rounding none gets there
+  const auto ends = [&](const auto& p) { return &p == &pieces.back() || (p.start + p.displacement)[0] >= c.range; };
+  const FlightPiece& last = *std::ranges::find_if(pieces, ends);
   answer.at_range = last.start + last.displacement * ((c.range - last.start[0]) / last.displacement[0]);
   for (const auto& piece : pieces) {
     const auto hit = hit_on(piece, rule, c, placement.target);
