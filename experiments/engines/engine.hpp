@@ -56,7 +56,8 @@ struct EngineFlights {
 /// that does not bear that makes them wait for each other.
 using EnginePlay = std::function<EngineFlights(const EngineStage&, std::span<const EngineStart>, std::int64_t steps)>;
 
-/// Its seconds are those of steps and of reading what moves. Plays each shot in a `World(stage, start, options...)`, which has `step()` and `body(i)`, the state of a moving body.
+/// Plays each shot in a `World(stage, start, options...)`, which has `step()` and `body(i)`, the state of a moving body. Its seconds are those of
+/// both.
 template <class World, class... Options> EnginePlay played_in(Options... options) {
   return [=](const EngineStage& stage, std::span<const EngineStart> starts, std::int64_t steps) {
     EngineFlights flights;

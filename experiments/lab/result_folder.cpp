@@ -182,12 +182,6 @@ std::optional<Manifest> ResultFolder::manifest_in(const char* name) const {
   }
 }
 
-void ResultFolder::refuse_foreign_results(bool seal_is_ours) const {
-  for (const char* name : result_names) {
-    if (!seal_is_ours || name != std::string_view(seal_name)) refuse_foreign(name);
-  }
-}
-
 void ResultFolder::require_own() const {
   if (lock_.holds(path_)) return;
   const bool is_kept = is_there(path_);  // else it may have been removed with all that was in it
@@ -244,25 +238,28 @@ void ResultFolder::look_at_manifest() {
 void ResultFolder::look_at_journal() {
   const fs::path file = path_ / journal_name, old = path_ / old_journal_name;
   const std::string ours = identity_text(identity_);
+  std::map<std::string, std::string> identities;  // of all that are there, by name
   bool was_publishing = false;
   for (const std::string& name : journals_in(path_)) {
     if (!Journal::is_one(path_ / name)) refuse_foreign(name.c_str());
-    was_publishing = was_publishing || read_journal(path_ / name).rows.contains(publishing_key);
+    const JournalText text = read_journal(path_ / name);
+    identities[name] = text.identity;
+    was_publishing = was_publishing || text.rows.contains(publishing_key);
   }
-  const std::string found = read_journal(file).identity, set_aside = read_journal(old).identity;
+  const bool is_begun = identities.contains(journal_name), is_set_aside = identities.contains(old_journal_name);
+  const std::string found = identities[journal_name], set_aside = identities[old_journal_name];
   const auto theirs = parse_identity(found);
   const std::string difference = theirs          ? identity_difference(*theirs, identity_)
                                  : found.empty() ? ""
                                                  : "something that cannot be read";
   if (!difference.empty())
     refuse(fmt::format("holds another run ({}); name another folder, or delete this one", difference));
-  const bool is_ours = found == ours, is_theirs = fs::exists(file) && !is_ours;
-  for (const std::string& name : journals_in(path_)) {
-    const std::string of_rank = is_rank_journal(name) ? read_journal(path_ / name).identity : ours;
-    if (of_rank != ours && of_rank != found)
+  const bool is_theirs = is_begun && found != ours;
+  for (const auto& [name, of_rank] : identities) {
+    if (is_rank_journal(name) && of_rank != ours && of_rank != found)
       refuse(fmt::format("holds {}, which is damaged, or of another run; delete it, or name another folder", name));
   }
-  if (is_theirs && fs::exists(old) && set_aside != ours) {
+  if (is_theirs && is_set_aside && set_aside != ours) {
     refuse(
         fmt::format("holds two journals that this program cannot go on with, {} and {}; delete one of them, or name "
                     "another folder",
@@ -272,10 +269,13 @@ void ResultFolder::look_at_journal() {
   if (is_fresh_) {
     const auto seal = parse_seal(file_text(path_ / seal_name));
     const bool is_of_run = theirs || (seal && identity_difference(seal->identity, identity_).empty());
-    refuse_foreign_results(!identity_.shard.empty() && is_of_run && holds_file(path_, seal_name));
+    const bool has_seal = !identity_.shard.empty() && is_of_run && holds_file(path_, seal_name);
+    for (const char* name : result_names) {
+      if (!has_seal || name != std::string_view(seal_name)) refuse_foreign(name);
+    }
   }
   if (theirs) gather_rank_journals(found);
-  if (fs::exists(old) && set_aside == ours) fs::rename(old, free_rank_journal(path_));  // it is gathered below
+  if (set_aside == ours) fs::rename(old, free_rank_journal(path_));  // it is gathered below
   if (is_theirs) {
     fs::rename(file, old);
     notes_.push_back(fmt::format("{}: {}; it is kept as {}{}", one_line(file.string()),
@@ -382,15 +382,17 @@ void ResultFolder::publish() {
 /// stays, and so does another run's.
 void ResultFolder::clear_up() {
   remove_leftovers(path_);
-  const auto is_of = [&](const std::string& name, bool ours) {
-    if (!Journal::is_one(path_ / name)) return false;
-    const auto theirs = parse_identity(read_journal(path_ / name).identity);
-    return theirs && identity_difference(*theirs, identity_).empty() && (theirs->program == identity_.program) == ours;
-  };
-  const bool is_ended = !is_of(journal_name, false);
+  std::map<std::string, bool> is_ours;  // of the journals of this run: else another build's
   for (const std::string& name : journals_in(path_)) {
+    if (!Journal::is_one(path_ / name)) continue;
+    const auto whose = parse_identity(read_journal(path_ / name).identity);
+    if (whose && identity_difference(*whose, identity_).empty()) is_ours[name] = whose->program == identity_.program;
+  }
+  const auto begun = is_ours.find(journal_name);
+  const bool is_ended = begun == is_ours.end() || begun->second;
+  for (const auto& [name, ours] : is_ours) {
     const bool is_kept = name == journal_name && !identity_.shard.empty();
-    if (!is_kept && (is_of(name, true) || (is_ended && is_of(name, false)))) fs::remove(path_ / name);
+    if (!is_kept && (ours || is_ended)) fs::remove(path_ / name);
   }
   if (!is_ended) {
     notes_.push_back(fmt::format("{}: begun by another build of the program, whose command continues it",

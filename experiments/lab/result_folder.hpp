@@ -88,7 +88,6 @@ class ResultFolder : boost::noncopyable {
  private:
   void look_at_manifest();
   void look_at_journal();
-  void refuse_foreign_results(bool seal_is_ours) const;
   void reopen_journal();                                        // whole, if its file was removed or changed meanwhile
   void require_own() const;                                     // nobody has moved the folder away
   std::optional<Manifest> manifest_in(const char* name) const;  // nothing if there is no file

@@ -406,9 +406,8 @@ int perform_run(RunWish wish, const Call& call) try {
   return reply(wish, record, outcome, call);
 } catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
   const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
-  const std::string why = !file                   ? error.what()
-                          : file->path2().empty() ? file->path1().string() + ": " + error.code().message()
-                                                  : file->path2().string() + ": " + error.code().message();
+  const auto place_of = [](const auto& e) { return (e.path2().empty() ? e.path1() : e.path2()).string(); };
+  const std::string why = file ? place_of(*file) + ": " + error.code().message() : error.what();
   std::error_code none;  // somebody may have deleted the folder
   const bool is_kept = std::filesystem::exists(std::filesystem::path(wish.out) / journal_name, none);
   throw std::runtime_error(why +
