@@ -267,7 +267,7 @@ Figure lateness_figure(const Rows& timed) {
                          .through("flight", "theory")}};
 }
 
-/// Those whose rule was asked. Of the known shots none, of several targets and steps the first.
+/// Those whose rule was asked. Of the known shots none, of several targets, steps and, where times are drawn, drags the first.
 std::vector<Figure> figures_of(const Rows& rows) {
   const Rows asked = only(rows, std::not_fn(is_of_known_shot));
   if (asked.empty()) return {};
@@ -278,8 +278,8 @@ std::vector<Figure> figures_of(const Rows& rows) {
   const Rows of_one_kind = only(bent, [&](const Row& r) {
     return r.cell.drag == one.drag && r.cell.wind == one.wind && r.cell.radius == one.radius;
   });
-  return only_measured(
-      {missed_figure(rays, one.target), path_error_figure(of_one_kind), lateness_figure(only(alike, is_timed))});
+  const Rows timed = only(alike, [&](const Row& r) { return r.cell.drag == one.drag && is_timed(r); });
+  return only_measured({missed_figure(rays, one.target), path_error_figure(of_one_kind), lateness_figure(timed)});
 }
 
 // What it says.

@@ -49,7 +49,8 @@ Nothing is colored, with NO_COLOR or without.
 )";
 
 /// Names the first word that nothing takes, and the nearest one that something would.
-void refuse_extras(const CLI::App& app, const std::vector<std::string>& extras) {
+void refuse_extras(const CLI::App& app, std::vector<std::string> extras) {
+  std::erase(extras, "--");  // after which nothing is an option: said, not left over
   if (extras.empty()) return;
   std::vector<std::string> names;
   const auto option = std::ranges::find_if(extras, [](const std::string& extra) { return extra.starts_with("-"); });

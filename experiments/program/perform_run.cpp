@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 #include <boost/core/noncopyable.hpp>
 
@@ -301,7 +302,10 @@ class ProgressBar : boost::noncopyable {
     if (!enabled_ || (drawn_ && now - last_ < pause && progress.units_done < progress.units)) return;
     drawn_ = true;
     last_ = now;
-    const std::string line = progress_line(progress, std::chrono::duration<double>(now - start_).count());
+    std::string line = progress_line(progress, std::chrono::duration<double>(now - start_).count());
+    winsize window{};
+    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0)
+      line.resize(std::min(line.size(), std::size_t{window.ws_col} - 1));  // what wraps is not erased
     std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
     std::fflush(stderr);
   }

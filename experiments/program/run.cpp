@@ -229,6 +229,8 @@ RunWish parse_run(const RunText& text) {
   wish.out = parse_folder(text.out);
   wish.figures = parse_figures(text.figures);
   if (text.shard) wish.shard = parse_shard(*text.shard);
+  if (wish.shard && !wish.figures.empty())
+    throw UsageError("--figures: a shard has none; draw the whole: thinwall report RESULT --figures pdf,tex");
   return wish;
 }
 

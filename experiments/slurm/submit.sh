@@ -21,6 +21,7 @@ export THINWALL=${THINWALL:-thinwall}
 for word in "$@"; do
   case $word in --dry-run | --list-cells) echo "submit.sh: $word computes nothing; leave it out" >&2; exit 2 ;; esac
 done
+case $out in *$'\n'*) echo "submit.sh: OUT has more than one line; sbatch takes no such name" >&2; exit 2 ;; esac
 # A mistake costs nothing here, and an array of failed tasks there: asked as shard.sh asks.
 "$THINWALL" run "$@" --shard "1/$shards" --out "$out.shards/1-of-$shards" --threads 1 --dry-run
 

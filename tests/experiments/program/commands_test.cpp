@@ -141,6 +141,7 @@ TEST_F(CiteTest, cites_the_software_as_its_citation_file_does) {
 TEST_F(CiteTest, cites_a_result_as_its_folder_does) {
   ASSERT_EQ(run({"--seed", "3"}).status, 0);
   const Reply reply = call({"cite", out});
+  EXPECT_EQ(call({"cite", "--", out}).out, reply.out);
   EXPECT_EQ(reply.status, 0) << reply.err;
   EXPECT_EQ(reply.out, read_text(out + "/cite.bib"));
   const std::string run_id = manifest().at("run_id");

@@ -241,6 +241,7 @@ TEST_F(ShardProgram, keeps_folders_apart) {
   const auto folders = run_shards(2);
   expect_refusal(call({"run", "toy", "--out", folders[0]}), {"holds another run (shard = \"2/2\", not none)"});
   expect_refusal(call({"run", "toy", "--shard", "1/2", "--out", folders[0]}), {"(shard = \"2/2\", not \"1/2\")"});
+  expect_refusal(call({"run", "toy", "--shard", "1/2", "--figures", "pdf"}), {"--figures: a shard has none"});
   out = folders[0];
   EXPECT_EQ(merge(folders).status, 2);
   out = folder / "used";
