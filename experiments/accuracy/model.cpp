@@ -42,8 +42,9 @@ template <class R, class S>
 double wrongness(const oracle::Problem<R>& problem, const Toi<S>& toi, const oracle::Impact<R>& truth,
                  const R& tolerance) {
   const bool about_start = toi.status == ToiStatus::overlapping || truth.verdict == oracle::Verdict::overlapping;
-  const R margin = about_start ? truth.start_margin : oracle::verdict_margin(problem, tolerance);
-  return std::abs(static_cast<double>(margin)) / (static_cast<double>(std::numeric_limits<S>::epsilon()) / 2);
+  const R u = R(std::numeric_limits<S>::epsilon()) / 2;
+  const R margin = about_start ? sound(problem, R(0), tolerance).margin() : least_margin(problem, tolerance, R(u / 64));
+  return static_cast<double>(abs(margin) / u);
 }
 
 /// Times and verdict against the oracle at 50 digits.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -148,6 +149,26 @@ template <class R> struct Problem {
   Vec<R> start_size{}, speed_size{};
 
   void add(const Vec<R>& generator) { generators.push_back(generator); }
+
+  /// [length] How far the difference reaches along n, times |n|.
+  R support(const Vec<R>& n) const {
+    R reached = 0, farthest = 0;
+    for (const Vec<R>& g : generators) {
+      const R along = dot(n, g);
+      reached += along < 0 ? R(-along) : along;
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const R here = dot(corners[i], n);
+      if (i == 0 || here > farthest) farthest = here;
+    }
+    return reached + farthest;
+  }
+  /// [length] What one round-off is measured by, along the unit vector n.
+  R scale(const R& time, const Vec<R>& n) const {
+    R spread = 0;
+    for (std::size_t i = 0; i < 3; ++i) spread += (n[i] < 0 ? R(-n[i]) : n[i]) * (start_size[i] + time * speed_size[i]);
+    return spread + reach;
+  }
 };
 
 template <class R, class S> Vec<R> lift(const Vec3<S>& v) { return {R(v[0]), R(v[1]), R(v[2])}; }
@@ -226,14 +247,41 @@ template <class R> Gap<R> gap_at(const Problem<R>& problem, const R& time, const
       tolerance);
   Gap<R> gap;
   gap.core = sqrt(dot(x, x));
-  R spread = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const R weight = gap.core > 0 ? R(x[i] / gap.core) : R(0);
-    spread += (weight < 0 ? R(-weight) : weight) * (problem.start_size[i] + time * problem.speed_size[i]);
-    gap.closing += weight * problem.motion[i];
-  }
-  gap.scale = spread + problem.reach;
+  Vec<R> n{};
+  for (std::size_t i = 0; i < 3 && gap.core > 0; ++i) n[i] = x[i] / gap.core;
+  gap.closing = dot(n, problem.motion);
+  gap.scale = problem.scale(time, n);
   return gap;
+}
+
+/// Calls look(n) with the unit normals, both ways, of the faces of the cores' difference: of every two of its edges.
+template <class R, class Look> void for_each_face(const Problem<R>& problem, const Look& look) {
+  using std::sqrt;
+  std::vector<Vec<R>> edges = problem.generators;
+  for (std::size_t i = 0; i < problem.corners.size(); ++i)
+    edges.push_back(combination(R(1), problem.corners[(i + 1) % 3], R(-1), problem.corners[i]));
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = i + 1; j < edges.size(); ++j) {
+      const Vec<R> n = cross(edges[i], edges[j]);
+      const R length = sqrt(dot(n, n));
+      if (length == 0) continue;
+      for (const R& part : {R(R(1) / length), R(R(-1) / length)}) look(Vec<R>{n[0] * part, n[1] * part, n[2] * part});
+    }
+  }
+}
+
+/// The same, but of cores that meet, and whose difference has an inside, `core` is less than 0: the least translation that parts them. Beside
+/// nearly parallel edges `gap_at` has few digits left of what is nearly 0; on which side of every face it lies tells more.
+template <class R> Gap<R> signed_gap_at(const Problem<R>& problem, const R& time, const R& tolerance) {
+  const Gap<R> gap = gap_at(problem, time, tolerance);
+  if (gap.core * gap.core > tolerance * gap.scale * gap.scale) return gap;
+  const Vec<R> at = combination(R(1), problem.offset, time, problem.motion);
+  std::optional<Gap<R>> nearest;
+  for_each_face(problem, [&](const Vec<R>& n) {
+    const R core = dot(n, at) - problem.support(n);
+    if (!nearest || core > nearest->core) nearest = {core, R(-dot(n, problem.motion)), problem.scale(time, n)};
+  });
+  return nearest && !(nearest->core > 0) ? *nearest : gap;
 }
 
 using Verdict = ToiStatus;  ///< apart, hit or overlapping
@@ -247,8 +295,9 @@ template <class R> struct Impact {
 
 /// Where to start Newton's method: any time before the first contact; a good one saves rounds and changes nothing else.
 template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& guess, const R& tolerance) {
+  using std::ldexp;
   Impact<R> impact;
-  Gap<R> gap = gap_at(problem, R(0), tolerance);
+  Gap<R> gap = signed_gap_at(problem, R(0), tolerance);
   const R start = gap.core - problem.reach;
   impact.start_margin = gap.scale > 0 ? R(start / gap.scale) : R(0);
   if (start <= tolerance * gap.scale) {
@@ -266,8 +315,15 @@ template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& g
     }
   }
   for (int round = 0; round < 400; ++round) {
-    if (!(gap.closing > 0)) {  // where cores touch to the last digits the side they do it from is rounding
-      return round == 0 || gap.core - problem.reach > 4096 * tolerance * gap.scale ? impact : hit(time);
+    if (!(gap.closing > 0)) {
+      const auto reaches = [&](const Gap<R>& at, const R& margin) {
+        return at.core - problem.reach <= margin * at.scale;
+      };
+      const R touch = 4096 * tolerance;  // where cores touch to the last digits the side they do it from is rounding:
+      bool touches = round > 0 && reaches(gap, touch);
+      for (int k = 20; k <= 100 && round > 0 && !touches; k += 20)  // what comes next tells
+        touches = reaches(signed_gap_at(problem, R(time + ldexp(R(1), -k)), tolerance), R(-touch));
+      return touches ? hit(time) : impact;
     }
     conditioning = gap.scale / gap.closing;
     const R next = time + (gap.core - problem.reach) / gap.closing;
@@ -278,22 +334,6 @@ template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& g
     gap = there;
   }
   return hit(time);  // a double root, approached by halves: closer than any input could tell
-}
-
-/// The least of |separation| / scale by which the verdict, hit or miss, is decided; > 0 apart, < 0 in contact.
-template <class R> R verdict_margin(const Problem<R>& problem, const R& tolerance) {
-  R low = 0, high = 1;
-  if (gap_at(problem, high, tolerance).closing > 0) {
-    low = high;
-  } else {
-    for (int round = 0; round < 200 && high - low > tolerance; ++round) {
-      const R middle = (low + high) / 2;
-      const Gap<R> gap = gap_at(problem, middle, tolerance);
-      (gap.closing > 0 ? low : high) = middle;
-    }
-  }
-  const Gap<R> gap = gap_at(problem, low, tolerance);
-  return (gap.core - problem.reach) / (gap.scale > 0 ? gap.scale : R(1));
 }
 
 }  // namespace thinwall::oracle

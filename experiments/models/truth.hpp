@@ -47,41 +47,8 @@ template <class R> struct Sounding {
   R margin() const { return scale > 0 ? R(gap / scale) : R(0); }  ///< [1] of it, the separation
 };
 
-/// Where the cores overlap: how far the nearest face of their Minkowski sum is. Nothing where it has no inside.
-template <class R> std::optional<Sounding<R>> depth_at(const oracle::Problem<R>& problem, const R& time) {
-  using std::abs;
-  using std::sqrt;
-  if (!problem.corners.empty()) return {};
-  const oracle::Vec<R> at = oracle::combination(R(1), problem.offset, time, problem.motion);
-  std::optional<Sounding<R>> nearest;
-  for (std::size_t i = 0; i < problem.generators.size(); ++i) {
-    for (std::size_t j = i + 1; j < problem.generators.size(); ++j) {
-      oracle::Vec<R> n = oracle::cross(problem.generators[i], problem.generators[j]);
-      const R length = sqrt(oracle::dot(n, n));
-      if (length == 0) continue;
-      const R sign = oracle::dot(n, at) < 0 ? R(-1) : R(1);
-      Sounding<R> face = {.time = time};
-      for (std::size_t k = 0; k < 3; ++k) {
-        n[k] *= sign / length;
-        face.scale += abs(n[k]) * (problem.start_size[k] + time * problem.speed_size[k]);
-      }
-      R reach = 0;
-      for (const oracle::Vec<R>& edge : problem.generators) reach += abs(oracle::dot(n, edge));
-      face.gap = oracle::dot(n, at) - reach - problem.reach;
-      face.closing = -oracle::dot(n, problem.motion);
-      face.scale += problem.reach;
-      if (!nearest || face.gap > nearest->gap) nearest = face;
-    }
-  }
-  return nearest;
-}
-
 template <class R> Sounding<R> sound(const oracle::Problem<R>& problem, const R& time, const R& tolerance) {
-  const oracle::Gap<R> gap = oracle::gap_at(problem, time, tolerance);
-  if (gap.core <= tolerance * gap.scale) {
-    if (const auto depth = depth_at(problem, time)) return *depth;
-    return {time, R(-problem.reach), gap.closing, gap.scale};
-  }
+  const oracle::Gap<R> gap = oracle::signed_gap_at(problem, time, tolerance);
   return {time, R(gap.core - problem.reach), gap.closing, gap.scale};
 }
 

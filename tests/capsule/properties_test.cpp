@@ -205,18 +205,12 @@ TYPED_TEST(RayAtOneInstant, raycast_is_the_motion_of_a_point) {
     const oracle::Impact truth = oracle::impact(pair);
     const auto found = raycast(ray, b);
 
-    const bool hits = truth.verdict != oracle::Verdict::apart;
+    using oracle::Verdict;
     const oracle::Real u = oracle::unit_roundoff<S>();
-    if (found.has_value() != hits) {
-      RC_ASSERT(abs(truth.margin) <= 4 * u);
-      return;
-    }
-    if (!found) return;
-    if ((found->t == S(0)) != (truth.verdict == oracle::Verdict::overlapping)) {
-      RC_ASSERT(abs(truth.start_margin) <= 4 * u);
-      return;
-    }
-    if (truth.verdict == oracle::Verdict::overlapping) {
+    const Verdict said = !found ? Verdict::apart : found->t == S(0) ? Verdict::overlapping : Verdict::hit;
+    RC_ASSERT(oracle::verdict_is_near(pair, truth, said, 4 * u));
+    if (said != truth.verdict || said == Verdict::apart) return;
+    if (said == Verdict::overlapping) {
       RC_ASSERT(found->normal == Vec3<S>(Vec3<S>::Zero()));
       RC_ASSERT(found->point == ray.origin);
       return;

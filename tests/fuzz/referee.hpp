@@ -56,7 +56,7 @@ template <class R> class Referee {
   /// The separation along a direction: at most at().gap, and equal to it along the right one.
   R separation_along(const R& time, const Vec& normal) const {
     const Vec offset = oracle::combination(R(1), problem_.offset, time, problem_.motion);
-    return oracle::dot(normal, offset) - support(normal) - problem_.reach * oracle::dot(normal, normal);
+    return oracle::dot(normal, offset) - problem_.support(normal) - problem_.reach * oracle::dot(normal, normal);
   }
 
   /// [length] the sum of all numbers that a computation at `time` adds up: bounds the rounding of a point in space.
@@ -76,61 +76,26 @@ template <class R> class Referee {
   static R tolerance() { return std::numeric_limits<R>::digits > 100 ? R(ldexp(R(1), -150)) : R(ldexp(R(1), -58)); }
 
  private:
-  R support(const Vec& n) const {
-    R reach = 0;
-    for (const Vec& g : problem_.generators) reach += size(oracle::dot(g, n));
-    R farthest = 0;
-    for (std::size_t i = 0; i < problem_.corners.size(); ++i) {
-      const R here = oracle::dot(problem_.corners[i], n);
-      farthest = i == 0 || here > farthest ? here : farthest;
-    }
-    return reach + farthest;
-  }
-
   /// The cores meet: out along the normal of least depth, over all pairs of edges.
   State inside(const R& time) const {
-    using std::sqrt;
-    std::vector<Vec> edges = problem_.generators;
-    for (std::size_t i = 0; i < problem_.corners.size(); ++i) {
-      edges.push_back(
-          oracle::combination(R(1), problem_.corners[(i + 1) % problem_.corners.size()], R(-1), problem_.corners[i]));
-    }
     const Vec offset = oracle::combination(R(1), problem_.offset, time, problem_.motion);
     State best;
     R margin = 0;
     bool found = false;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      for (std::size_t j = i + 1; j < edges.size(); ++j) {
-        const Vec& a = edges[i];
-        const Vec& b = edges[j];
-        const Vec across{R(a[1] * b[2] - a[2] * b[1]), R(a[2] * b[0] - a[0] * b[2]), R(a[0] * b[1] - a[1] * b[0])};
-        const R length = sqrt(oracle::dot(across, across));
-        if (!(length > tolerance() * sqrt(oracle::dot(a, a) * oracle::dot(b, b)))) continue;
-        for (const int side : {1, -1}) {
-          const Vec n = oracle::combination(R(side / length), across, R(0), across);
-          const R distance = oracle::dot(n, offset) - support(n);
-          const R scale = scale_along(time, n), here = over(R(distance - problem_.reach), scale);
-          if (!found || here > margin) margin = here;
-          if (found && distance <= best.gap) continue;
-          found = true;
-          best = {distance, R(-oracle::dot(n, problem_.motion)), scale, R(0)};
-        }
-      }
-    }
+    oracle::for_each_face(problem_, [&](const Vec& n) {
+      const R distance = oracle::dot(n, offset) - problem_.support(n), scale = problem_.scale(time, n);
+      const R here = over(R(distance - problem_.reach), scale);
+      if (!found || here > margin) margin = here;
+      if (found && distance <= best.gap) return;
+      found = true;
+      best = {distance, R(-oracle::dot(n, problem_.motion)), scale, R(0)};
+    });
     best.gap = (best.gap < 0 ? best.gap : R(0)) - problem_.reach;
     if (!found) best.scale = size_at(time);
     best.margin = found ? (margin < 0 ? margin : R(0)) : over(best.gap, best.scale);
     return best;
   }
 
-  R scale_along(const R& time, const Vec& n) const {
-    R scale = problem_.reach;
-    for (std::size_t i = 0; i < 3; ++i) {
-      scale += size(n[i]) * (problem_.start_size[i] + time * problem_.speed_size[i]);
-    }
-    return scale;
-  }
-  static R size(const R& x) { return x < 0 ? R(-x) : x; }
   static R over(const R& gap, const R& scale) { return scale > 0 ? R(gap / scale) : gap; }
 
   oracle::Problem<R> problem_;

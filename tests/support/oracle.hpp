@@ -422,7 +422,7 @@ enum class Verdict { apart, hit, overlapping };
 
 struct Impact {
   Verdict verdict = Verdict::apart;
-  Real margin = 0;        ///< [1] least separation over scale(); 0 is an exact touch
+  Real margin = 0;        ///< [1] least separation over scale(); 0 is an exact touch, or cores with an inside that meet
   Real start_margin = 0;  ///< [1] the same at time 0
   Real time = 1;          ///< [1] of first contact; apart: of closest approach
   Vector normal{};        ///< unit, from A to B, at that time

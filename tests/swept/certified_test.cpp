@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <thinwall/experiments/models/oracle.hpp>
+#include <thinwall/experiments/models/truth.hpp>
 
 #include "support/any_number.hpp"
 #include "support/certified.hpp"
@@ -133,7 +133,7 @@ template <unsigned digits, Shape A, Shape B>
                             : truth.verdict == oracle::Verdict::apart ? ToiStatus::apart
                                                                       : ToiStatus::overlapping;
   if (verdict == ToiStatus::apart && toi.verdict == ToiStatus::hit &&
-      abs(oracle::verdict_margin<Real>(problem, tolerance)) <= touch) {
+      abs(least_margin<Real>(problem, tolerance, tolerance)) <= touch) {
     return has_form(toi);  // it touches, but for the oracle's rounding
   }
   if (verdict != toi.verdict)
