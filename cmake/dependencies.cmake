@@ -74,7 +74,7 @@ function(thinwall_dependency name)
     if(POLICY CMP0167)
       cmake_policy(SET CMP0167 NEW)  # Boost brings its own package file
     endif()
-    find_package(${name} ${dep_MINIMUM} QUIET)
+    find_package(${name} ${dep_MINIMUM} QUIET GLOBAL)  # for a project that adds this one, too
     if(TARGET ${dep_TARGET})
       set(origin "found")
     endif()

@@ -68,11 +68,12 @@ std::string fault_of(std::initializer_list<Given> given, double seed) {
 const char* offer(const auto& methods, std::initializer_list<Given> factors) {
   nlohmann::ordered_json all = {{"methods", nlohmann::ordered_json::array()},
                                 {"factors", nlohmann::ordered_json::array()}};
+  std::size_t steps = 0;
   for (const auto& method : methods) {
     const MethodLook* look = look_of(method.name);
-    all["methods"].push_back({{"name", method.name},
-                              {"color", look == nullptr ? "#767676" : look->color},
-                              {"mark", look == nullptr ? 6 : look->point_type}});
+    const int mark = look == nullptr ? 6 : look->name == "substeps" ? substeps_marks[steps++] : look->point_type;
+    all["methods"].push_back(
+        {{"name", method.name}, {"color", look == nullptr ? "#767676" : look->color}, {"mark", mark}});
   }
   for (const auto& [name, value, range] : factors) {
     all["factors"].push_back(

@@ -273,7 +273,7 @@ Figure loss_figure(const std::vector<Row>& rows) {
   }
   const auto unit = [](const Row& r) { return unit_of(r.precision) * r.place.value * r.place.value / 2; };
   const auto columns = columns_of<Row>(
-      text("who", "", [](const Row& r) { return fmt::format("{} {}", r.tally.method, title_of(r.precision)); }),
+      text("who", "", [](const Row& r) { return fmt::format("{}, {}", title_of(r.precision), r.tally.method); }),
       value("distance", "1", "", [](const Row& r) { return r.place.value; }),
       where([](const Row& r) { return r.tally.loss_rms != 0; },
             value("loss", "1", "", [=](const Row& r) { return r.tally.loss_rms * unit(r); })),

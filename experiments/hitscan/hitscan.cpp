@@ -140,6 +140,12 @@ Table rules_table(const std::vector<Total>& totals) {
       table("rules", "Each rule over all of its cells, every cell with the same number of shots.", columns, totals));
 }
 
+/// [s] The flight time from which on the ray of a bullet without radius misses this share of the hits.
+std::optional<double> time_of_missed(const Cell& c, double share) {
+  const auto found = range_of_missed(c, share);
+  return found ? std::optional(arc_of<double>(c).time_to(*found)) : std::nullopt;
+}
+
 /// How far hitscan is good: by speed and air, the range at which it misses a share of the hits.
 Table reach_table(const std::vector<Cell>& cells) {
   const auto bullet = [](Cell c) {
@@ -147,12 +153,7 @@ Table reach_table(const std::vector<Cell>& cells) {
     return c;
   };
   const auto range = [](double share) { return [=](const Cell& c) { return range_of_missed(c, share); }; };
-  const auto time = [](double share) {
-    return [=](const Cell& c) -> std::optional<double> {
-      const auto found = range_of_missed(c, share);
-      return found ? std::optional(arc_of<double>(c).time_to(*found)) : std::nullopt;
-    };
-  };
+  const auto time = [](double share) { return [=](const Cell& c) { return time_of_missed(c, share); }; };
   const auto columns =
       columns_of<Cell>(columns_in_turn(std::identity(), "speed", "drag", "wind", "gravity", "target"),
                        value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
@@ -294,22 +295,18 @@ std::string known_answer(const Rows& rows) {
   return shots.empty() ? "" : fmt::format("Of the true hits the ray misses {}.", fmt::join(shots, ", "));
 }
 
-/// From when on the ray is no longer good: of the settings' cells, those of the thinnest bullet.
+/// From when on the ray is no longer good, of the settings' cells.
 std::string ray_answer(const Rows& rows) {
-  const Rows rays =
-      only(of_rule(rows, hitscan_ray), [](const Row& r) { return !is_of_known_shot(r) && true_hits(r) > 0; });
-  if (rays.empty()) return "";
-  const double thin = std::ranges::min(rays, {}, radius_of).cell.radius;
-  double good = 0, bad = std::numeric_limits<double>::infinity();
-  for (const Row& row : only(rays, [&](const Row& r) { return r.cell.radius == thin; })) {
-    if (*missed_share(row) < 0.05) good = std::max(good, flight_time(row.cell));
-    if (*missed_share(row) > 0.5) bad = std::min(bad, flight_time(row.cell));
+  constexpr double never = std::numeric_limits<double>::infinity();
+  double few = never, half = never;
+  for (const Row& row : only(of_rule(rows, hitscan_ray), std::not_fn(is_of_known_shot))) {
+    few = std::min(few, time_of_missed(row.cell, 0.05).value_or(never));
+    half = std::min(half, time_of_missed(row.cell, 0.5).value_or(never));
   }
-  if (!(0 < good && good < bad)) return "";
+  if (half == never) return "";
   return fmt::format(
-      "The flight time decides: of bullets of radius {:g} mm the ray misses less than 5 % in flights of up to {} s{}.",
-      1e3 * thin, rounded_text(good, 2),
-      std::isfinite(bad) ? fmt::format(" and more than half from {} s on", rounded_text(bad, 2)) : "");
+      "The flight time decides: by theory the ray of a bullet without radius misses 5 % of its hits from {} s on and half from {} s on.",
+      rounded_text(few, 2), rounded_text(half, 2));
 }
 
 std::string answer_of(const Rows& rows, const std::vector<Total>& totals) {

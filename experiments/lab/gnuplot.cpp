@@ -137,27 +137,27 @@ constexpr std::array line_grays = {"#000000", "#767676"};
 constexpr std::array point_types = {6, 4, 8, 12, 10, 7, 5, 9, 13, 11, 2, 1, 3};
 
 void set_look(std::vector<SeriesStyle>& styles) {
-  std::size_t steps = 0;  // of substeps_2, substeps_8, ... in one figure: one color, other marks
+  std::size_t steps = 0;
   for (SeriesStyle& style : styles) {
     const MethodLook* const look = style.color.empty() ? look_of(style.label) : nullptr;
     if (look == nullptr) continue;
     style.color = look->color;
     style.point_type = style.label.ends_with(" float") ? look->filled : look->point_type;
-    if (look->name != "substeps") continue;
-    constexpr std::array of_substeps = {8, 10, 3, 9, 11};
-    style.point_type = of_substeps[steps++ % of_substeps.size()];
+    if (look->name == "substeps") style.point_type = substeps_marks[steps++ % substeps_marks.size()];
   }
   std::size_t lines = 0, colors = 0;
   for (SeriesStyle& style : styles) {
     if (!style.color.empty()) continue;
     const bool gray = !style.has_points && lines < line_grays.size();
-    const auto is_taken = [&](const SeriesStyle& other) {  // by a method's own look
-      return &other != &style && other.color == style.color && other.point_type == style.point_type;
-    };
-    for (std::size_t tries = palette.size() * point_types.size();; --tries, ++colors) {
+    for (std::size_t tries = 0;; ++tries, ++colors) {
       style.color = gray ? line_grays[lines] : palette[colors % palette.size()];
       style.point_type = point_types[colors % point_types.size()];
-      if (tries == 0 || !style.has_points || std::ranges::none_of(styles, is_taken)) break;
+      const auto is_taken = [&](const SeriesStyle& other) {  // by a method's own look: the mark, while there are others
+        return &other != &style && other.has_points && other.point_type == style.point_type &&
+               (tries < point_types.size() ? !other.color.empty() : other.color == style.color);
+      };
+      if (tries > palette.size() * point_types.size() || !style.has_points || std::ranges::none_of(styles, is_taken))
+        break;
     }
     if (!style.has_points) ++lines;
     if (!gray) ++colors;

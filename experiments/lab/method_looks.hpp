@@ -22,6 +22,9 @@ inline constexpr std::array method_looks = {
     MethodLook{"closed_form", "#0072B2", 6, 7},
 };
 
+/// The marks of substeps_2, substeps_8, ... where several are drawn: in one color.
+inline constexpr std::array substeps_marks = {8, 10, 3, 9, 11};
+
 /// Of `closed_form`, `closed_form float` or `substeps_16`; of a label that is no method's, nothing.
 inline const MethodLook* look_of(std::string_view label) {
   const std::string_view word = label.substr(0, label.find(' '));

@@ -340,8 +340,8 @@ UnitResults compute_units(std::span<const Unit> units, Journal& journal, const R
 std::string basis_text(const RunEstimate& e) {
   std::vector<std::string> parts;
   if (e.cut_tried > 0) {
-    parts.push_back(fmt::format("{} tried with {} in the place of its own", plural_text(e.cut_tried, "unit"),
-                                plural_text(e.trials, "trial")));
+    parts.push_back(
+        fmt::format("{} tried with {} each", plural_text(e.cut_tried, "unit"), plural_text(e.trials, "trial")));
   }
   if (e.whole_tried > 0) {
     parts.push_back(fmt::format("{} of {} tried whole", grouped_text(e.whole_tried), plural_text(e.whole, "unit")));

@@ -106,7 +106,9 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
   }
   for (const auto& row : all.rows) out += line([&](std::size_t j) { return one_line(row[j].text); });
   const std::size_t left = all.columns.size() - widths.size();
-  return out + (left > 0 ? wrapped(fmt::format("And {} columns that data/{}.csv has.", left, table.name)) : "");
+  return out + (left > 0 ? wrapped(fmt::format("And {} in data/{}.csv.",
+                                               plural_text(static_cast<std::int64_t>(left), "column"), table.name))
+                         : "");
 }
 
 }  // namespace thinwall

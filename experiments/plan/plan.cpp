@@ -96,13 +96,15 @@ Table race_table(const PlanRace& race) {
                columns, rows_of(race));
 }
 
+double path_of(const GateRow& row) { return row.cell.path; }
+double gate_of(const GateRow& row) { return row.cell.gate; }
+
 Columns<GateRow> cell_columns() {
   return columns_of<GateRow>(
       text("target", "A wall of 0.1 radii, or a ball of the same radius.",
            [](const GateRow& row) { return gate_target_name(row.cell.target); }),
-      value("path", "1", "Radii that the ball moves in a step.", [](const GateRow& row) { return row.cell.path; }),
-      value("gate", "1", "Gate: the ball is not swept if it moves at most so many radii a step.",
-            [](const GateRow& row) { return row.cell.gate; }));
+      value("path", "1", "Radii that the ball moves in a step.", path_of),
+      value("gate", "1", "Gate: the ball is not swept if it moves at most so many radii a step.", gate_of));
 }
 
 std::int64_t shots_of(const GateRow& row) { return row.cell.shots; }
@@ -172,10 +174,15 @@ Panel gate_panel(const std::vector<GateRow>& rows, GateTarget target) {
   const std::string name = gate_target_name(target);
   Plot points = plot(columns_of<GateRow>(gate_columns(), label), rows);
   points.where("target", name).x("path", Axis::log, "path of a step [radii]").by("series");
-  const Panel theory = Plot(points).y("theory").mark(Mark::line);
-  Panel panel = points.y("missed_share", Axis::linear, fmt::format("missed, of shots at a {} [1]", name));
-  panel.series.insert(panel.series.begin(), theory.series.begin(), theory.series.end());
-  return panel;
+  const double shortest = std::ranges::min(rows, {}, path_of).cell.path;
+  for (const double gate : distinct(rows, gate_of)) {
+    if (gate <= shortest) continue;
+    points.curve(
+        "theory, up to the gate",
+        [=](double path) { return missed_by_gate({.target = target, .path = std::min(path, gate), .gate = gate}); },
+        shortest, gate);
+  }
+  return points.y("missed_share", Axis::linear, fmt::format("missed, of shots at a {} [1]", name));
 }
 
 Figure gate_figure(const std::vector<GateRow>& rows) {

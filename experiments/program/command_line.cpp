@@ -216,7 +216,7 @@ void add_threads(CLI::App& command, OptionText& threads) {
 }
 
 void add_out(CLI::App& command, OptionText& out) {
-  add_text(command, "--out", out, "The result folder (default: results/NAME)", "DIR");
+  add_text(command, "--out", out, "The result folder (default: results/NAME, of compare results/compare_NAME)", "DIR");
 }
 
 void add_benchmarks(CLI::App& command, OptionText& folder) {

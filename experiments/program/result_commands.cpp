@@ -166,6 +166,7 @@ int cite(const CiteText& text, const Call& call) {
   if (text.given && text.target.empty()) throw UsageError("cite: the folder of a result is empty; name one, or none");
   if (text.given) {
     const KeptResult kept = read_result(text.target);
+    if (!kept.self_test_passed) call.err << "its self-test failed: do not cite its numbers\n";
     software = kept.software;
     result = kept.citation;
   }

@@ -142,14 +142,14 @@ const Contest* cheapest_clean(const std::vector<Contest>& contests, bool all_met
 }
 
 std::string answer_text(const Comparison& comparison, const Trial& exact, const std::vector<Contest>& contests) {
-  std::string text = fmt::format("In {} s the exact run of '{}' has {} pairs of bodies that meet. ",
+  std::string text = fmt::format("In {} s the exact run of '{}' has {} of bodies that meet. ",
                                  rounded_text(comparison.scene.duration(), 4), comparison.scene.name,
-                                 grouped_text(static_cast<std::int64_t>(exact.meetings.size())));
+                                 plural_text(std::ssize(exact.meetings), "pair"));
   for (const Contest& c : contests) {
     if (c.contender.policy != TimePolicy::discrete || c.contender.dt != contests.back().contender.dt) continue;
-    text +=
-        fmt::format("Looking only at the end of steps of {} ms, {} go through each other unseen and {} never meet. ",
-                    rounded_text(1e3 * c.contender.dt, 4), grouped_text(c.trial.tunneled), grouped_text(c.unmet));
+    text += fmt::format(
+        "Looking only at the end of steps of {} ms lets {} through each other unseen; {} of the exact run's never meet. ",
+        rounded_text(1e3 * c.contender.dt, 4), plural_text(c.trial.tunneled, "pair"), grouped_text(c.unmet));
   }
   const Contest* const all_met = cheapest_clean(contests, true);
   const Contest* const best = all_met ? all_met : cheapest_clean(contests, false);
@@ -197,9 +197,8 @@ Table compare_timings_table(const Comparison& comparison, const std::vector<Cont
                                 [duration](const Contest& c) { return std::ranges::min(c.seconds) / duration; }),
                           value("seconds_most", "1", "The longest.",
                                 [duration](const Contest& c) { return std::ranges::max(c.seconds) / duration; }));
-  return in_report(timing(
-      table("timings", "Run time of stepping one second of the scene, with other contenders at work on other cores.",
-            columns, contests)));
+  return in_report(timing(table(
+      "timings", "Run time of stepping one second of the scene, each contender on one thread.", columns, contests)));
 }
 
 /// What the pictures show of each.

@@ -133,6 +133,20 @@ Toi<double> impact_of_spinning(const Moving<AnyShape>& a, const Moving<AnyShape>
   });
 }
 
+/// True if the two go into each other by more than rounding after they touch: not if they rest on each other, or slide along.
+bool goes_in(const Toi<double>& toi, const Moving<AnyShape>& a, const Moving<AnyShape>& b, const Vec3<double>& spin_a,
+             const Vec3<double>& spin_b) {
+  double size = 0;
+  const auto way_of_point = [&](const Moving<AnyShape>& m, const Vec3<double>& spin) -> Vec3<double> {
+    const Vec3<double> center = of_shape(m.shape, m.displacement, [](const auto& s) { return thinwall::center(s); });
+    const Vec3<double> arm = toi.point - (center + m.displacement * toi.time);
+    size += of_shape(m.shape, 0.0, [](const auto& s) { return magnitude(s); }) + m.displacement.cwiseAbs().sum();
+    return m.displacement + cross(spin, arm);
+  };
+  const Vec3<double> way = way_of_point(a, spin_a) - way_of_point(b, spin_b);
+  return way.dot(toi.normal) * (1 - toi.time) > 16 * std::numeric_limits<double>::epsilon() * size;
+}
+
 std::vector<Track> begin_tracks(const std::vector<Body>& bodies) {
   std::vector<std::uint32_t> ids;
   for (const Body& body : bodies) {
@@ -215,7 +229,8 @@ std::vector<MissedContact> MissedContacts::after_step(const World& world, double
     const Vec3<double> spin_a = rotation_of(after[pair.first], dt), spin_b = rotation_of(after[pair.second], dt);
     const bool turns = spin_a != Vec3<double>::Zero() || spin_b != Vec3<double>::Zero();
     const Toi<double> toi = turns ? impact_of_spinning(first, second, spin_a, spin_b) : time_of_impact(first, second);
-    if (toi.status != ToiStatus::hit || overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
+    if (toi.status != ToiStatus::hit || !goes_in(toi, first, second, spin_a, spin_b)) continue;
+    if (overlaps(after[pair.first].shape, after[pair.second].shape)) continue;
     missed.push_back({a.id, b.id, start + toi.time * dt});
   }
   before_ = after;

@@ -303,7 +303,6 @@ Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& play
   out.tables = {plan_table(plan),      missed_table(scene, playback), events_table(scene, playback),
                 steps_table(playback), bodies_table(scene, playback), phases_table(playback)};
   out.figures = {tracks_figure(scene, playback), course_figure(playback)};
-  out.sections = {{"Plan", to_text(plan)}};
   out.self_test_passed = claims_held(scene, playback);
   return out;
 }

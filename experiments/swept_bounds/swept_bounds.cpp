@@ -161,7 +161,8 @@ std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptB
                      .by("bound")
                      .height(0.6);
     for (const SweptBound& bound : bounds) {
-      Sweep s = shown[0].sweep;
+      Sweep s = view;
+      s.form = shown[0].sweep.form;
       if (!bound.makes_volume || !bound.serves(s.form)) continue;
       panel.curve(bound.name, [&bound, &along, s](double x) mutable {
         s.*along.factor = along.factor == &Sweep::speed ? x * s.width / s.step : x;

@@ -439,12 +439,11 @@ Section page_section(const ShotPlan& plan) {
   const auto own = std::find_if(plan.cells.begin() + 1, plan.cells.end(),
                                 [](const Cell& cell) { return cell.wall == Wall::infinite; });
   const Cell& cell = own == plan.cells.end() ? plan.cells.front() : *own;
-  return {
-      "To play with",
-      "A page beside this one, which `thinwall explore` in this folder puts there, fires such shots in the browser.",
-      fmt::format("explore.html#speed={}&step={}&radius={}&thickness={}&angle_deg={}&seed={}", exact_text(cell.speed),
-                  exact_text(cell.step), exact_text(cell.radius), exact_text(cell.thickness),
-                  exact_text(cell.angle_deg), plan.seed)};
+  return {"To play with",
+          "Run thinwall explore in this folder: it puts a page beside this one that fires such shots in the browser.",
+          fmt::format("explore.html#speed={}&step={}&radius={}&thickness={}&angle_deg={}&seed={}",
+                      exact_text(cell.speed), exact_text(cell.step), exact_text(cell.radius),
+                      exact_text(cell.thickness), exact_text(cell.angle_deg), plan.seed)};
 }
 
 Outcome outcome_of(const Rows& rows, const ShotPlan& plan) {

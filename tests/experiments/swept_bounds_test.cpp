@@ -296,6 +296,28 @@ TEST(SweptBoundsConfig, draws_what_is_nearest_to_the_diagonal) {
   EXPECT_EQ(along_x.view.turn_deg, 0);  // what goes along x is turned by nothing
 }
 
+/// In every picture, of whatever factor: what was counted lies on the line of its own bound.
+TEST(SweptBounds, points_lie_on_the_lines_of_theory) {
+  int compared = 0;
+  for (const Figure& figure : small_outcome(swept_bounds_experiment()).figures) {
+    for (const Panel& panel : figure.panels) {
+      for (const Series& points : panel.series) {
+        const auto is_its_line = [&](const Series& s) { return s.mark == Mark::line && s.label == points.label; };
+        const auto line = std::ranges::find_if(panel.series, is_its_line);
+        if (points.mark != Mark::points || line == panel.series.end()) continue;
+        for (std::size_t i = 0; i < points.x.size(); ++i) {
+          const auto nearest =
+              std::ranges::min_element(line->x, {}, [&](double x) { return std::abs(x - points.x[i]); });
+          EXPECT_NEAR(points.y[i], line->y[static_cast<std::size_t>(nearest - line->x.begin())], 0.08)
+              << figure.name << " " << points.label << " at " << points.x[i];
+          ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
 /// Only the table of times may know how long anything took.
 TEST(SweptBoundsConfig, what_is_not_a_timing_does_not_depend_on_the_clock) {
   const auto run =
