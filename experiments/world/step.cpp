@@ -147,12 +147,13 @@ void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)
     const PhaseClock clock(counts_.seconds.narrow);
     ask_pairs();
   }
+  if (drops) {
+    mark(true);
+    const auto has_no_say = [&](const auto& pair) { return !may_meet(proxies_[pair.first], proxies_[pair.second]); };
+    std::erase_if(pairs_, has_no_say);
+    std::erase_if(found_, has_no_say);
+  }
   if (plan_.spin) require_answers(bodies_, found_);
-  if (!drops) return;
-  mark(true);
-  const auto has_no_say = [&](const auto& pair) { return !may_meet(proxies_[pair.first], proxies_[pair.second]); };
-  std::erase_if(pairs_, has_no_say);
-  std::erase_if(found_, has_no_say);
 }
 
 // ---- The policies that look at poses: what happens between them is not seen, and a fast body passes a thin wall.

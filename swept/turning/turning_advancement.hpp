@@ -75,6 +75,11 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
   const T many_turns = 3;  // [rad] from here on whole orbits are worth a look
   if (pair.first > pair.last) return {ToiStatus::apart, 1};
   TurningInstant<T> now = instant(pair, pair.first);
+  const auto past_orbits = [&](const TurningInstant<T>& next, const Vec3<T>& normal) {
+    if (next.time >= T(1) || !(pair.turn > many_turns)) return next;
+    const T until = orbits_apart_until(pair, now, normal);
+    return until > next.time ? instant(pair, until >= pair.last ? T(1) : until) : next;  // and free ever after
+  };
   for (int k = 1; k <= method.max_evaluations; ++k) {
     const A a_now = pose_of(a.shape, pair.a, now.phase_a, now.core_a, Vec3<T>(pair.a.center + pair.a.path * now.time));
     const B b_now = pose_of(b.shape, pair.b, now.phase_b, now.core_b, Vec3<T>(pair.b.center + pair.b.path * now.time));
@@ -82,7 +87,8 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
       const LeastOverlap<T> axis = least_overlap(box_pair(a_now, b_now));
       if (-axis.overlap - T(method.min_separation) > near) {
         const AttachedPlane<T> plane = plane_across(pair, now, a_now, b_now, axis);
-        const TurningInstant<T> next = ride(pair, plane, now, T(near / T(4)));
+        const TurningInstant<T> next =
+            past_orbits(ride(pair, plane, now, T(near / T(4))), normal_out_of(a_now, axis.normal));
         if (next.time >= T(1)) return {ToiStatus::apart, k};
         if (next.time > now.time) {
           now = next;
@@ -103,10 +109,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
     if (!(next.time > now.time) && plane.rides != Rides::world) {
       next = ride(pair, plane_riding(pair, now, Rides::world, closest.normal), now, T(near / T(4)));
     }
-    if (next.time < T(1) && pair.turn > many_turns) {
-      const T until = orbits_apart_until(pair, now, closest.normal);
-      if (until > next.time) next = instant(pair, until >= pair.last ? T(1) : until);  // and free ever after
-    }
+    next = past_orbits(next, closest.normal);
     if (next.time >= T(1)) return {ToiStatus::apart, k};
     const T gained = next.time - now.time;
     if (gap <= near && gained <= T(method.tolerance)) return hit;

@@ -316,6 +316,17 @@ TEST(Spin, a_contact_within_the_first_instant_is_told) {
   EXPECT_TRUE(told);
 }
 
+/// What a full plan asks and then drops changes nothing, whatever the answer.
+TEST(Spin, two_that_may_not_meet_may_turn_as_far_as_they_like) {
+  const Body rod = spinning_body(1, rod_along_x(1, 0.1), {0, 0, 1e13});
+  Body ball = fixed(body_of(2, Sphere<double>{{0, 1.05, 0.1}, 0.01}));
+  ball.mask = 0;
+  for (const bool full : {false, true}) {
+    World world({rod, ball}, {.full_plan = full});
+    EXPECT_EQ(error_of<TurnsTooFar>([&] { world.step(1); }), "") << full;
+  }
+}
+
 /// A million turns a step: nothing can be told of it, and it is said so.
 TEST(Spin, names_two_that_turn_too_far_and_changes_nothing) {
   const Body rod = spinning_body(1, rod_along_x(1, 0.1), {0, 0, 1e13});

@@ -335,6 +335,18 @@ TEST(TurningShapes, what_spins_on_another_about_one_axis_touches_nothing) {
   }
 }
 
+/// Planes that ride on it part them for no longer than it takes to turn a little.
+TEST(TurningShapes, what_spins_very_often_far_away_touches_nothing) {
+  const Turning<Obb<double>> wall{{V(0, 0, 0), V(0.1, 50, 50), Mat3<double>::Identity()}, V::Zero(), V::Zero()};
+  for (const double spin : {10.0, 1e3, 1e6}) {
+    const Turning<Obb<double>> tile{
+        {V(-10, 0, 0), V(0.01, 0.01, 0.02), Mat3<double>::Identity()}, V(0, 5, 0), V(spin, 0.3 * spin, 0.2 * spin)};
+    const Toi<double> toi = time_of_impact(tile, wall);
+    EXPECT_EQ(toi.status, ToiStatus::apart) << spin;
+    EXPECT_LE(toi.evaluations, 2) << spin;
+  }
+}
+
 TEST(TurningShapes, a_triangle_on_a_line_is_as_good_as_its_segment) {
   const Turning<Capsule<double>> rod{
       {V(-0.375, 0.75, -0.625), V(1.125, -0.5, -1.125), 0.0078125}, V(-0.875, -0.25, 1.125), V(0.125, 0.625, -2.75)};
