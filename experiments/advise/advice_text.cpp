@@ -113,6 +113,14 @@ std::string pushed_through(const Advice& advice) {
                      in_percent(*through));
 }
 
+/// Of poses that a rod of exactly this spin does not get between.
+std::string at_slower_spins(const Advice& advice) {
+  const std::optional<double>& longest = advice.advised()->longest_step;
+  if (!advice.wish.rod || (longest && *longest >= advice.wish.cell.step)) return "";
+  return longest ? fmt::format(" At slower spins it does up to steps of {} s.", rounded_down_text(*longest, 4))
+                 : " At slower spins it does at no step.";
+}
+
 /// What would become of the simplest method.
 std::string simplest(const Advice& advice) {
   const auto end = std::ranges::find_if(advice.rows, [](const AdviceRow& row) { return row.method.poses == 1; });
@@ -254,10 +262,10 @@ std::string rounded_down_text(double value, int digits) {
 std::string advice_sentence(const Advice& advice) {
   const AdviceRow* best = advice.advised();
   if (best == nullptr) return "No method here meets the wish at this step.";
-  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}", best->method.name,
+  return fmt::format("Use {}: {}, {}, and a step takes {} ns, {}.{}{}{}", best->method.name,
                      tunnel_words(best->theory.probability.value_or(0)), seen(*best),
                      rounded_text(best->cost.dearer().value, 3), how_cheap(advice), pushed_through(advice),
-                     simplest(advice));
+                     at_slower_spins(advice), simplest(advice));
 }
 
 std::string advice_text(const Advice& advice) {
