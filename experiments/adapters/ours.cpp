@@ -57,9 +57,7 @@ EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
   WorldOptions options;
   options.policy = policy;
   options.substeps = substeps;
-  std::string name(name_of(policy));
-  if (policy == TimePolicy::substeps) name += fmt::format("_{}", substeps);
-  return {.name = std::move(name),
+  return {.name = name_of(policy, substeps),
           .what = std::move(what),
           .poses_per_step = sweeps(policy) ? 0 : substeps,
           .exact = sweeps(policy),
