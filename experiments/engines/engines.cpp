@@ -252,7 +252,7 @@ Figure time_figure(const Rows& rows) {
                       measured("time", "", "", time_of, "time_"));
   for (const double wall : walls_of(rows)) {
     Rows some = rows_at(told_rows(rows), wall);
-    std::ranges::stable_partition(some, looks_at_poses);  // in the other pictures' order, and so with their marks
+    std::stable_partition(some.begin(), some.end(), looks_at_poses);  // as in the other pictures: so are the marks
     figure.panels.push_back(
         plot(columns, some)
             .x("through", Axis::linear, fmt::format("through at {} m a step, wall {} m wide [%]", path, wall))
@@ -452,8 +452,8 @@ std::string agreement_text(const Rows& rows) {
         "\n\n{}: theory lies in {} of {} intervals of 95 %; the largest difference is {:+.2f} points, at {} m.",
         label_of(*farthest), covered, group.size(), excess(farthest), farthest->cell.path);
   }
-  return text.empty() ? ""
-                      : "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
+  if (text.empty()) return "";
+  return "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
 }
 
 /// What is missing, and how each of the others is set up.

@@ -165,12 +165,12 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   const bool alone = count == 1;
   for (std::int64_t copy = 0; copy < count; ++copy) {
     const auto draw = static_cast<std::uint64_t>(copy);
-    const Vec3<double> cell(static_cast<double>(copy % copies[0]), static_cast<double>(copy / copies[0] % copies[1]),
-                            static_cast<double>(copy / copies[0] / copies[1]));
+    const Eigen::Matrix<std::int64_t, 3, 1> cell(copy % copies[0], copy / copies[0] % copies[1],
+                                                 copy / copies[0] / copies[1]);
     Body& added = bodies.emplace_back(body);
     added.id = id++;
     added.name = alone || name.empty() ? name : fmt::format("{} {}", name, copy + 1);
-    move_shape(added.shape, cell.cwiseProduct(every) + shaken(jitter, stream, draw, 0));
+    move_shape(added.shape, cell.cast<double>().cwiseProduct(every) + shaken(jitter, stream, draw, 0));
     added.velocity += shaken(speeds, stream, draw, 1);
   }
 }
