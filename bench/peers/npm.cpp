@@ -1,4 +1,4 @@
-/// Engines that are npm packages: the shape casts that they offer, asked through node as experiments/engines/npm/serve.mjs says, each
+/// Engines that are npm packages: the shape casts that they offer, asked through node as experiments/adapters/npm/serve.mjs says, each
 /// over the whole set at once. Their own JavaScript and WebAssembly is in the time, the call alone, measured beside it, is not.
 /// Where the experiments are not built, this is empty.
 
@@ -22,7 +22,7 @@ bool thinwall::bench::add_npm(const std::string&) { return false; }
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/engines/speaker.hpp>
+#include <thinwall/experiments/adapters/speaker.hpp>
 
 namespace thinwall::bench {
 

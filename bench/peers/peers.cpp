@@ -41,14 +41,14 @@ bool add_thinwall() {
 // ---- What do others take for the same queries, and what do they get wrong?
 // Casts, rays, contacts and overlap tests of the libraries that the build found, on the queries of pairs.cpp, beside our own
 // front door; their objects are made beforehand. Counters as there: what is missed, what is hit in error, how far off.
-// A new peer is a file that defines add_NAME() and a line below; a package of npm, a script (experiments/engines/npm/serve.mjs) and its
+// A new peer is a file that defines add_NAME() and a line below; a package of npm, a script (experiments/adapters/npm/serve.mjs) and its
 // lines here and in npm.cpp.
 
 namespace {
 
 using thinwall::bench::Peer;
 
-constexpr std::string_view by_npm = "`npm ci` in experiments/engines/npm";
+constexpr std::string_view by_npm = "`npm ci` in experiments/adapters/npm";
 
 constexpr auto peers = std::to_array<Peer>({
     {"thinwall", "", &thinwall::bench::add_thinwall},

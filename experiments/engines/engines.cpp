@@ -12,7 +12,6 @@
 #include <thinwall/experiments/engines/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/columns.hpp>
-#include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/plot.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
@@ -31,15 +30,24 @@ double wall_of(const Row& row) { return row.cell.wall_size; }
 double path_of(const Row& row) { return row.cell.path; }
 bool looks_at_poses(const Row& row) { return row.setup->mode.poses_per_step > 0 || row.setup->mode.never_sweeps; }
 
+bool has_turned(const Row& row) { return row.tally.turned > 0; }
+
 std::vector<double> walls_of(const Rows& rows) { return distinct(rows, wall_of); }
+
+Rows rows_at(const Rows& rows, double wall) {
+  return only(rows, [wall](const Row& row) { return wall_of(row) == wall; });
+}
+
+/// Those that look at poses, or those that sweep.
+Rows rows_at(const Rows& rows, double wall, bool poses) {
+  return only(rows_at(rows, wall), [poses](const Row& row) { return looks_at_poses(row) == poses; });
+}
 
 /// [%] Of the balls that went through, with its 95 % Wilson interval.
 Measured percent_of(const Row& row) {
-  const auto tunneled = static_cast<double>(row.tally.tunneled), shots = static_cast<double>(row.tally.shots);
-  const Interval share = wilson(row.tally.tunneled, row.tally.shots);
-  return {100.0 * tunneled / shots, {100 * share.lower, 100 * share.upper}};
+  const auto& [shots, tunneled] = std::pair(row.tally.shots, row.tally.tunneled);
+  return {*share_of(100 * tunneled, shots), measured_share(tunneled, shots)->times(100).interval};
 }
-double percent(const Row& row) { return percent_of(row).value; }
 
 /// [ns] A step.
 Measured time_of(const Row& row) { return median_of_rounds(row.nanoseconds); }
@@ -73,7 +81,7 @@ template <class AnyRow> Columns<AnyRow> engine_and_mode() {
 }
 
 Columns<Row> names_and_factors() {
-  return columns_of<Row>(engine_and_mode<Row>(), engine_factors().columns(&Row::cell, {"wall_size", "path"}));
+  return columns_of<Row>(engine_and_mode<Row>(), engine_factors.columns(&Row::cell, {"wall_size", "path"}));
 }
 
 Columns<Row> verdict_columns() {
@@ -111,7 +119,7 @@ Table cells_table(const Rows& rows) {
                columns_of<Row>(names_and_factors(), verdict_columns(),
                                fields(&Row::tally, {"unseen", "stuck", "lost", "turned"}),
                                value("held", "1", "Balls in front of the wall that do not.",
-                                     [](const Row& r) { return r.tally.kept_in_front() - r.tally.turned; }),
+                                     [](const Row& r) { return r.tally.shots - r.tally.wrong() - r.tally.turned; }),
                                bounce_columns(),
                                value("lateness_path", "m", "The mean lateness as a path.",
                                      [](const Row& r) {
@@ -141,74 +149,59 @@ Table packages_table(const Rows& rows) {
   std::vector<Engine> engines;
   const auto name = [](const Row& row) { return row.setup->engine.name; };
   for (const Group<Row>& group : group_by(rows, name)) engines.push_back(group[0]->setup->engine);
-  const auto version = [build = this_build()](const Engine& engine) {
-    if (!engine.version.empty()) return engine.version;
-    if (engine.package.empty()) return build.version;
-    for (const auto& [library, its_version] : build.libraries) {
-      if (library == engine.called) return its_version;
-    }
-    return std::string();
-  };
   return table("packages", "What each engine came from.",
                columns_of<Engine>(text("engine", "The physics engine.", &Engine::called),
                                   text("package", "Of Debian or npm; empty: this program.", &Engine::package),
-                                  text("version", "Of the package.", version),
+                                  text("version", "Of the package.", &Engine::version),
                                   text("integrity", "The npm package's hash.", &Engine::integrity)),
                engines);
 }
 
 // What the pictures show.
 
-bool is_zero(const Series& series) {
-  return std::ranges::all_of(series.y, [](double y) { return y == 0; });
-}
-
-/// Those that never let a ball through would hide each other on the zero line: where they are many, one series stands for all.
-void gather_zeros(std::vector<Series>& all) {
-  if (std::ranges::count_if(all, is_zero) < 3) return;
-  const Series first = *std::ranges::find_if(all, is_zero);
-  std::erase_if(all, is_zero);
-  all.push_back(first);
-  all.back().label = "all others: none through";
-}
-
-/// A line and its points for each engine and mode, of a column against the path; those on the zero line have no line.
+/// A line and its points for each engine and mode, of a column against the path.
 Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
-  const bool shares = column == std::string_view("tunneled_percent");
   const auto columns =
       columns_of<Row>(text("label", "", label_of<Row>), names_and_factors(), verdict_columns(), bounce_columns());
-  Panel panel = plot(columns, rows)
+  return joined(plot(columns, rows)
                     .x("path", Axis::log, "path of the ball in a step [m]")
                     .y(column, Axis::linear, std::move(y_label))
-                    .by("label");
-  if (!shares) return joined(std::move(panel));
-  gather_zeros(panel.series);
-  panel = joined(std::move(panel));
-  std::erase_if(panel.series, [](const Series& s) { return s.mark == Mark::line && is_zero(s); });
+                    .by("label"));
+}
+
+/// Those that never let a ball through would hide each other on the zero line: they have no line there, and where they are many, one
+/// series stands for all.
+Panel tunneling_panel(const Rows& rows, std::string y_label) {
+  Panel panel = path_panel(rows, "tunneled_percent", std::move(y_label));
+  const auto is_zero = [](const Series& s) { return std::ranges::all_of(s.y, [](double y) { return y == 0; }); };
+  std::erase_if(panel.series, [&](const Series& s) { return s.mark == Mark::line && is_zero(s); });
+  if (std::ranges::count_if(panel.series, is_zero) < 3) return panel;
+  Series all = *std::ranges::find_if(panel.series, is_zero);
+  all.label = "all others: none through";
+  std::erase_if(panel.series, is_zero);
+  panel.series.push_back(std::move(all));
   return panel;
 }
 
 /// A curve for each number of poses and skin that took part, as one series with gaps, and the dashes of the ball that is never seen
 /// at the step's end; in percent.
 void add_theory(Panel& panel, const Rows& rows) {
-  EngineCell cell = rows.front().cell;
-  const double least = cell.path;
-  const double most = path_of(std::ranges::max(rows, {}, path_of));
-  std::set<std::pair<int, double>> looked;
-  for (const Row& row : rows) {
-    if (row.theory) looked.emplace(row.setup->mode.poses_per_step, row.setup->mode.skin);
-  }
+  const double least = path_of(rows.front()), most = path_of(std::ranges::max(rows, {}, path_of));
   if (most == least) return;
-  Series late = {.label = "theory, not seen in time", .mark = Mark::line};
-  Series never = {.label = "theory, never seen", .mark = Mark::dashes};
   const auto add = [&](Series& series, int poses, double skin, const auto& chance) {
-    const auto through = [&](double path) {
+    const auto through = [&, cell = rows.front().cell](double path) mutable {
       cell.path = path;
       return 100 * chance(cell, poses, skin);
     };
     add_curve(series, least, most, Axis::log, through, 200);
     series.end_line();
   };
+  std::set<std::pair<int, double>> looked;
+  for (const Row& row : rows) {
+    if (row.theory) looked.emplace(row.setup->mode.poses_per_step, row.setup->mode.skin);
+  }
+  Series late = {.label = "theory, not seen in time", .mark = Mark::line};
+  Series never = {.label = "theory, never seen", .mark = Mark::dashes};
   for (const auto& [poses, skin] : looked) add(late, poses, skin, through_theory);
   add(never, 1, 0, unseen_theory);
   panel.series.insert(panel.series.end(), {std::move(late), std::move(never)});
@@ -224,25 +217,22 @@ Figure tunneling_figure(const Rows& rows) {
                        "number of poses and each skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
                        "times the radius.",
                        cell.radius, cell.thickness, cell.angle_deg)};
-  const Rows poses = only(rows, [&](const Row& r) { return looks_at_poses(r) && wall_of(r) == cell.wall_size; });
-  figure.panels.push_back(path_panel(poses, "tunneled_percent", "through, looking at poses [%]"));
+  figure.panels.push_back(tunneling_panel(rows_at(rows, cell.wall_size, true), "through, looking at poses [%]"));
   add_theory(figure.panels.back(), rows);
   for (const double wall : walls_of(rows)) {
-    const Rows sweeping = only(rows, [&](const Row& r) { return !looks_at_poses(r) && wall_of(r) == wall; });
     figure.panels.push_back(
-        path_panel(sweeping, "tunneled_percent", fmt::format("through, sweeping, wall {} m wide [%]", wall)));
+        tunneling_panel(rows_at(rows, wall, false), fmt::format("through, sweeping, wall {} m wide [%]", wall)));
   }
   return figure;
 }
 
 /// Of a column of the balls that turned, at the first wall.
 Figure bounce_figure(const Rows& rows, const char* column, const char* y_label, const char* title,
-                     std::string caption) {
-  Figure figure = {.name = column, .title = title, .caption = std::move(caption)};
+                     const char* caption) {
+  const double wall = wall_of(rows.front());
+  Figure figure = {.name = column, .title = title, .caption = fmt::format("{} The wall is {} m wide.", caption, wall)};
   for (const bool poses : {true, false}) {
-    const Rows some = only(rows, [&](const Row& r) {
-      return looks_at_poses(r) == poses && wall_of(r) == wall_of(rows.front()) && r.tally.turned > 0;
-    });
+    const Rows some = only(rows_at(rows, wall, poses), has_turned);
     figure.panels.push_back(path_panel(some, column, fmt::format(fmt::runtime(y_label), poses ? "poses" : "sweeping")));
   }
   return figure;
@@ -261,9 +251,8 @@ Figure time_figure(const Rows& rows) {
       columns_of<Row>(text("label", "", label_of<Row>), measured("through", "", "", percent_of, "through_"),
                       measured("time", "", "", time_of, "time_"));
   for (const double wall : walls_of(rows)) {
-    Rows some = only(told_rows(rows), [&](const Row& r) { return wall_of(r) == wall; });
-    std::stable_partition(some.begin(), some.end(),
-                          looks_at_poses);  // in the other pictures' order, and so with their marks
+    Rows some = rows_at(told_rows(rows), wall);
+    std::stable_partition(some.begin(), some.end(), looks_at_poses);  // as in the other pictures: so are the marks
     figure.panels.push_back(
         plot(columns, some)
             .x("through", Axis::linear, fmt::format("through at {} m a step, wall {} m wide [%]", path, wall))
@@ -274,18 +263,14 @@ Figure time_figure(const Rows& rows) {
 }
 
 std::vector<Figure> figures_of(const Rows& rows) {
-  const double wall = wall_of(rows.front());
   return only_measured(
       {tunneling_figure(rows),
        bounce_figure(rows, "lateness", "lateness, {} [steps]", "How late the ball turns",
-                     fmt::format("Of the balls that turned: from first contact to where the lines of flight before and "
-                                 "after the bounce meet, mean. An exact bounce is at 0. The wall is {} m wide.",
-                                 wall)),
-       bounce_figure(
-           rows, "energy", "energy ratio, {} [1]", "What is left of the energy after a bounce of restitution 1",
-           fmt::format("Of the balls that turned: kinetic energy after over before, mean. It should be 1. The "
-                       "wall is {} m wide.",
-                       wall)),
+                     "Of the balls that turned: from first contact to where the lines of flight before and after the "
+                     "bounce meet, mean. An exact bounce is at 0."),
+       bounce_figure(rows, "energy", "energy ratio, {} [1]",
+                     "What is left of the energy after a bounce of restitution 1",
+                     "Of the balls that turned: kinetic energy after over before, mean. It should be 1."),
        time_figure(rows)});
 }
 
@@ -320,8 +305,8 @@ std::string answer_of(const Rows& rows, const std::vector<std::string>& failed) 
   const double path = told_path(rows);
   std::vector<std::string> sentences, poses, safe, unsafe;
   std::optional<double> theory;
-  for (const Row& row : told_rows(rows)) {
-    if (row.setup->mode.poses_per_step != 1 || wall_of(row) != wall_of(rows.front())) continue;
+  for (const Row& row : rows_at(told_rows(rows), wall_of(rows.front()))) {
+    if (row.setup->mode.poses_per_step != 1) continue;
     poses.push_back(with_interval(row));
     if (row.setup->mode.skin == 0) theory = row.theory;
   }
@@ -348,12 +333,6 @@ std::string answer_of(const Rows& rows, const std::vector<std::string>& failed) 
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
-std::vector<SelfTest> tests_of(const Rows& rows, const std::vector<StageRow>& stages) {
-  std::vector<CellCount> counts = own_counts(rows);
-  std::ranges::move(own_counts(stages), std::back_inserter(counts));
-  return self_test(counts);
-}
-
 /// A row for each engine and mode, a column for each value of the key.
 template <class AnyRow, class Key, class Name, class Cell>
 std::string matrix(const char* name, std::string description, const std::vector<AnyRow>& rows, const Key& key,
@@ -371,12 +350,11 @@ std::string matrix(const char* name, std::string description, const std::vector<
 
 std::string percent_matrix(const Rows& rows, double wall) {
   return matrix(
-      "cells", fmt::format("Percent through a wall {} m wide, against meters a step.", wall),
-      only(rows, [&](const Row& r) { return wall_of(r) == wall; }), path_of,
-      [](double path) { return rounded_text(path, 3); },
+      "cells", fmt::format("Percent through a wall {} m wide, against meters a step.", wall), rows_at(rows, wall),
+      path_of, [](double path) { return rounded_text(path, 3); },
       [](const Row& row) {
         const bool is_whole = row.tally.tunneled % row.tally.shots == 0;  // 0 and 100
-        return fmt::format("{:.{}f}", percent(row), is_whole ? 0 : 1);
+        return fmt::format("{:.{}f}", percent_of(row).value, is_whole ? 0 : 1);
       });
 }
 
@@ -433,11 +411,11 @@ std::string stages_summary(const std::vector<StageRow>& rows) {
 std::string stages_text(const EnginePlan& plan, const std::vector<StageRow>& rows) {
   if (rows.empty()) return "";
   std::string text = fmt::format("The motion is {} m a step.", rows.front().cell.path);
-  for (const StageKind& kind : stage_kinds()) {
+  for (const StageKind& kind : stage_kinds) {
     if (std::ranges::any_of(rows, [&](const StageRow& r) { return r.kind == &kind; }))
       text += fmt::format("\n\n{}: {}.", kind.name, kind.what);
   }
-  const auto is_apart = [](const EngineSetup& setup) { return !setup.mode.plays_stages; };
+  const auto is_apart = [](const EngineSetup& setup) { return !setup.engine.plays_stages; };
   const auto apart =
       distinct(only(plan.setups, is_apart), [](const EngineSetup& setup) { return setup.engine.called; });
   if (!apart.empty())
@@ -447,27 +425,24 @@ std::string stages_text(const EnginePlan& plan, const std::vector<StageRow>& row
 
 // The whole.
 
-std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages) {
+std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages, bool passed) {
   std::string text;
   for (const double wall : walls_of(rows)) text += percent_matrix(rows, wall) + "\n";
-  const double first = wall_of(rows.front());
-  Table turned =
-      cells_table(only(told_rows(rows), [&](const Row& r) { return wall_of(r) == first && r.tally.turned > 0; }));
+  Table turned = cells_table(only(rows_at(told_rows(rows), wall_of(rows.front())), has_turned));
   turned.description = "Of the balls that turned: lateness, and energy after over energy before.";
   text += terminal(
       turned, {"engine", "mode", "wall_size", "path", "lateness", "latest", "energy", "least_energy", "most_energy"});
   text += "\n" + stages_summary(stages);
-  text += fmt::format("\nSelf-test of ours: {}.\n", verdict_text(all_passed(tests_of(rows, stages))));
-  for (const std::string& missing : missing_engines(plan)) text += missing + ".\n";
+  text += fmt::format("\nSelf-test of ours: {}.\n", verdict_text(passed));
+  for (const std::string& missing : plan.missing) text += missing + ".\n";
   return text;
 }
 
 /// How the engines of others that look at poses stand to the same theory, at the first wall: told, and held against nobody.
 std::string agreement_text(const Rows& rows) {
-  const Rows peers = only(rows, [&](const Row& r) {
-    return !r.setup->is_ours() && r.theory.has_value() && wall_of(r) == wall_of(rows.front());
-  });
-  const auto excess = [](const Row* r) { return percent(*r) - 100 * *r->theory; };
+  const auto is_judged = [](const Row& r) { return !r.setup->is_ours() && r.theory.has_value(); };
+  const Rows peers = only(rows_at(rows, wall_of(rows.front())), is_judged);
+  const auto excess = [](const Row* r) { return percent_of(*r).value - 100 * *r->theory; };
   std::string text;
   for (const Group<Row>& group : group_by(peers, label_of<Row>)) {
     const auto covered =
@@ -477,37 +452,33 @@ std::string agreement_text(const Rows& rows) {
         "\n\n{}: theory lies in {} of {} intervals of 95 %; the largest difference is {:+.2f} points, at {} m.",
         label_of(*farthest), covered, group.size(), excess(farthest), farthest->cell.path);
   }
-  return text.empty() ? ""
-                      : "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
+  if (text.empty()) return "";
+  return "\n\nThe same theory and the engines of others, which the self-test does not judge:" + text;
 }
 
 /// What is missing, and how each of the others is set up.
 std::string engines_text(const EnginePlan& plan, const std::vector<std::string>& failed) {
   std::vector<std::string> parts;
   if (!failed.empty()) parts.push_back(failed_text(failed));
-  for (const std::string& line : missing_engines(plan)) parts.push_back(line + ".");
-  const EngineSetup* last = nullptr;
-  for (const EngineSetup& setup : plan.setups) {
-    const Engine& engine = setup.engine;
+  for (const std::string& line : plan.missing) parts.push_back(line + ".");
+  for (const auto& setups : group_by(plan.setups, [](const EngineSetup& setup) { return setup.engine.called; })) {
+    const Engine& engine = setups[0]->engine;
     if (std::ranges::find(failed, engine.called) != failed.end()) continue;
-    if (last == nullptr || last->engine.name != engine.name) {
-      parts.push_back(fmt::format("{}: {}", engine.called, engine.made_of));
-      if (!engine.why_most_path.empty()) {
-        parts.back() += fmt::format(" It moves nothing further than {} m in a step ({}): longer paths are left out.",
-                                    engine.most_path, engine.why_most_path);
-      }
+    std::string& part = parts.emplace_back(fmt::format("{}: {}", engine.called, engine.made_of));
+    if (!engine.why_most_path.empty()) {
+      part += fmt::format(" It moves nothing further than {} m in a step ({}): longer paths are left out.",
+                          engine.most_path, engine.why_most_path);
     }
-    last = &setup;
-    parts.back() += fmt::format(" Mode {}: {}.", setup.mode.name, setup.mode.what);
+    for (const EngineSetup* setup : setups) part += fmt::format(" Mode {}: {}.", setup->mode.name, setup->mode.what);
   }
   return fmt::format("{}", fmt::join(parts, "\n\n"));
 }
 
 Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages,
                    const std::vector<std::string>& failed) {
-  const std::vector<SelfTest> tests = tests_of(rows, stages);
+  const std::vector<SelfTest> tests = self_test(own_counts(rows, stages));
   return {.answer = answer_of(rows, failed),
-          .summary = summary_of(plan, rows, stages),
+          .summary = summary_of(plan, rows, stages, all_passed(tests)),
           .tables = {told_table(rows), stages_table(stages), cells_table(rows), packages_table(rows),
                      timings_table(rows), stage_timings_table(stages)},
           .figures = figures_of(rows),
@@ -517,9 +488,6 @@ Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<S
           .self_test_passed = all_passed(tests)};
 }
 
-std::string key_of(const Row& row) { return engine_factors().key(row.cell); }
-std::string key_of(const StageRow& row) { return fmt::format("stage {}", row.kind->name); }
-
 template <class AnyRow>
 auto tasks_of(const std::shared_ptr<const EnginePlan>& plan, const std::vector<AnyRow>& rows,
               const std::vector<EngineVolley>& volleys) {
@@ -527,7 +495,9 @@ auto tasks_of(const std::shared_ptr<const EnginePlan>& plan, const std::vector<A
   for (const auto& [place, first, shots] : volleys) {
     const AnyRow& row = rows[place];
     const auto& [engine, mode] = *row.setup;
-    tasks.push_back({fmt::format("{} {} {} from {}", key_of(row), engine.name, mode.name, first), shots,
+    const bool at_wall = row.kind == &ball_at_wall;
+    const std::string what = at_wall ? engine_factors.key(row.cell) : fmt::format("stage {}", row.kind->name);
+    tasks.push_back({fmt::format("{} {} {} from {}", what, engine.name, mode.name, first), shots,
                      [=, first = first, shots = shots] { return fire(row, first, shots, plan->seed); }});
   }
   return tasks;
@@ -535,21 +505,19 @@ auto tasks_of(const std::shared_ptr<const EnginePlan>& plan, const std::vector<A
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   const auto plan = std::make_shared<const EnginePlan>(make_engine_plan(settings, options));
-  const Rows rows = engine_rows(*plan);
-  const std::vector<EngineVolley> volleys = volleys_in_turn(rows, &Row::cell, plan->shots);
-  const std::vector<StageRow> stages = stage_rows(*plan);
-  const std::vector<EngineVolley> played = volleys_in_turn(stages, &StageRow::kind, plan->stage_shots);
-  const auto finish = [plan, rows, volleys, stages, played](const auto& done, const auto& stages_done) {
-    Rows all = rows;
-    std::vector<StageRow> all_stages = stages;
-    add_results(volleys, done.results, all);
-    add_results(played, stages_done.results, all_stages);
-    const std::vector<std::string> failed = drop_failed(all, all_stages);
-    if (all.empty())
+  const std::vector<EngineVolley> volleys = volleys_in_turn(plan->rows, plan->shots);
+  const std::vector<EngineVolley> played = volleys_in_turn(plan->stages, plan->stage_shots);
+  const auto finish = [plan, volleys, played](const auto& done, const auto& stages_done) {
+    Rows rows = plan->rows;
+    std::vector<StageRow> stages = plan->stages;
+    add_results(volleys, done.results, rows);
+    add_results(played, stages_done.results, stages);
+    const std::vector<std::string> failed = drop_failed(rows, stages);
+    if (rows.empty())
       throw std::runtime_error(fmt::format("{}: died or hung, and no other engine took part", listed(failed)));
-    return outcome_of(*plan, all, all_stages, failed);
+    return outcome_of(*plan, rows, stages, failed);
   };
-  return make_run(finish, missing_engines(*plan), tasks_of(plan, rows, volleys), tasks_of(plan, stages, played));
+  return make_run(finish, plan->missing, tasks_of(plan, plan->rows, volleys), tasks_of(plan, plan->stages, played));
 }
 
 }  // namespace

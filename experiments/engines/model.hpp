@@ -1,15 +1,16 @@
 #pragma once
-/// Fast balls at a thin wall in whole engines: the shots (thin_wall's, each at an angle of its own), what becomes of the ball, what theory
-/// expects of looking at poses; the stages that are played besides; and what a run fires, with the rows of the results.
+/// Fast balls at a thin wall in whole engines: the shots (thin_wall's, each at an angle of its own) and the stages that are played besides;
+/// what theory expects of looking at poses; what becomes of the bodies; and what a run fires, with the rows of the results.
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include <thinwall/experiments/engines/engine.hpp>
+#include <thinwall/experiments/adapters/engine.hpp>
 #include <thinwall/experiments/experiment.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
@@ -29,20 +30,49 @@ struct EngineCell {
   bool operator==(const EngineCell&) const = default;
 };
 
-const Factors<EngineCell>& engine_factors();
+extern const Factors<EngineCell> engine_factors;
+
+/// Where the bodies start, and what is right: the first body does not pass, and flies away at `velocity`.
+struct EngineShot {
+  EngineStart start;
+  Vec3<double> ahead;  ///< a unit vector
+  double beyond;       ///< [m] it has passed where it is farther ahead, from the second body if there is one
+  std::optional<Vec3<double>> velocity = {};  ///< [m/s] at the end; nothing where it is not compared
+  bool along_wall = false;                    ///< of it only what is along the wall is compared: that should not change
+  double contact = 0;  ///< [steps] of the ball at the wall: to first contact, in (0, 2), the oracle's answer
+};
+
+/// What is played. Of a cell a stage takes the step, the radius and the thickness, and the path of the motion, relative where two move.
+struct StageKind {
+  std::string_view name;  ///< snake_case: "head_on"
+  std::string_view what;  ///< a clause, for the report
+  std::int64_t steps;     ///< that a shot is followed for; 0: as the cell says
+  EngineStage (*stage)(const EngineCell&);
+  EngineShot (*shot)(const EngineCell&, const RandomWords&);
+  /// [1] Chance of passing where so many poses a step are looked at and nothing between; null where no formula is known.
+  double (*theory)(const EngineCell&, int poses_per_step, double skin) = nullptr;
+  bool spins = false;
+};
 
 /// The wall and the ball of a cell, at most a float wider than it says: models/shots.hpp.
-EngineStage wall_stage(const EngineCell& cell);
+extern const StageKind ball_at_wall;
 
-/// A ball before the wall, and when it first touches.
-struct EngineShot {
-  EngineStart start;  ///< of the ball
-  double contact;     ///< [steps] from the start to first contact, in (0, 2): the oracle's answer
-};
-EngineShot engine_shot(const EngineCell& cell, const RandomStream& stream, std::uint64_t trial);
+/// What users of engines ask about besides: two fast bodies, walls of many pieces, a rod, with and without spin, and near misses. On each
+/// every shot has an exact answer; docs/engines.md has a picture of each in words.
+extern const std::vector<StageKind> stage_kinds;
 
 /// From what decides a shot: its motion, and how thick ball and wall are. A wall of another width gets the same shots.
-RandomStream random_stream(const EngineCell& cell, std::uint64_t seed);
+RandomStream random_stream(const StageKind& kind, const EngineCell& cell, std::uint64_t seed);
+
+// Theory: a ball that is looked at in poses alone, at angles of incidence uniform between 0 and a largest one.
+
+/// [1] No pose, `poses_per_step` of them, is in contact: the ball is never seen. `skin`: contact begins so far [m] before the
+/// surfaces meet.
+double unseen_theory(const EngineCell& cell, int poses_per_step, double skin = 0);
+
+/// [1] No pose is in contact before the ball's center is past the wall's middle, from where the shortest way out leads on: it
+/// is never seen, or seen too late.
+double through_theory(const EngineCell& cell, int poses_per_step, double skin = 0);
 
 inline constexpr std::int64_t most_engine_shots = std::int64_t(1) << 20;  ///< of a cell: the real sums have 63 bits
 
@@ -74,54 +104,9 @@ struct EngineTally {
         kept("seconds", &T::seconds));
   }
 
-  std::int64_t kept_in_front() const { return shots - tunneled - stuck - lost; }
-  std::int64_t wrong() const {
-    return tunneled + stuck + lost;
-  }  ///< by the oracle, which sees each of them hit the wall
+  /// By the oracle, which sees each of them hit the wall.
+  std::int64_t wrong() const { return tunneled + stuck + lost; }
 };
-
-/// Adds the shot to the tally. `flight` is where the ball was at the end of each step.
-void judge(const EngineStage& stage, const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally);
-
-// Theory: a ball that is looked at in poses alone. Derived in docs/tunneling_theory.md for one angle; here the angle of incidence is
-// uniform between 0 and a largest one.
-
-/// [1] The mean over angles in [0, angle_deg] of max(0, 1 - depth / (spacing cos a)). `depth` > 0 and `spacing` > 0 [m].
-double mean_miss_probability(double depth, double spacing, double angle_deg);
-
-/// [1] No pose, `poses_per_step` of them, is in contact: the ball is never seen. `skin`: contact begins so far [m] before the
-/// surfaces meet.
-double unseen_theory(const EngineCell& cell, int poses_per_step, double skin = 0);
-
-/// [1] No pose is in contact before the ball's center is past the wall's middle, from where the shortest way out leads on: it
-/// is never seen, or seen too late.
-double through_theory(const EngineCell& cell, int poses_per_step, double skin = 0);
-
-// The stages: what users of engines ask about besides one ball at one wall: two fast bodies, walls of many pieces, a rod, with and
-// without spin, and near misses. On each every shot has an exact answer; docs/engines.md has a picture of each in words.
-
-/// Where the bodies start, and what is right: the first body does not pass, and flies away at `velocity`.
-struct StageShot {
-  EngineStart start;
-  Vec3<double> ahead;  ///< a unit vector
-  double beyond;       ///< [m] it has passed where it is farther ahead, from the second body if there is one
-  std::optional<Vec3<double>> velocity;  ///< [m/s] at the end; nothing where no formula is known
-};
-
-/// Of a cell a stage takes the step, the radius and the thickness, and the path of the motion, relative where two move.
-struct StageKind {
-  std::string_view name;  ///< snake_case: "head_on"
-  std::string_view what;  ///< a clause, for the report
-  std::int64_t steps;     ///< that a shot is followed for
-  bool has_mesh, spins;
-  bool along_wall;  ///< of the velocity only what is along the wall is compared: it should not change
-  EngineStage (*stage)(const EngineCell&);
-  StageShot (*shot)(const EngineCell&, const RandomWords&);
-  /// [1] Chance of passing where so many poses a step are looked at and nothing between; null where no formula is known.
-  double (*theory)(const EngineCell&, int poses_per_step, double skin) = nullptr;
-};
-
-const std::vector<StageKind>& stage_kinds();
 
 /// Over the shots of one stage in one mode.
 struct StageTally {
@@ -147,61 +132,35 @@ struct StageTally {
 };
 
 /// Adds the shot to the tally. `flight`: the bodies at the end of each step.
-void judge(const StageKind& kind, const StageShot& shot, const EngineFlights::Flight& flight, StageTally& tally);
+void judge(const EngineStage& stage, const EngineShot& shot, const EngineFlights::Flight& flight, EngineTally& tally);
+void judge(const EngineStage& stage, const EngineShot& shot, const EngineFlights::Flight& flight, StageTally& tally);
 
 // What a run fires.
 
-/// An engine in one of its modes.
-struct EngineSetup {
-  Engine engine;
-  EngineMode mode;
-  std::string label() const { return engine.called + " " + mode.name; }  ///< for people
-  bool is_ours() const { return engine.package.empty(); }
-  bool can_do(const EngineCell& cell) const { return cell.path <= engine.most_path; }
+/// What is played of a cell in a setup, and what came of it.
+template <class Tally> struct EngineRowOf {
+  EngineCell cell;
+  const EngineSetup* setup;
+  const StageKind* kind;
+  std::optional<double> theory = {};  ///< [1] chance that the ball ends beyond the wall, or that a body passes
+  Tally tally = {};
+  std::vector<double> nanoseconds = {};  ///< a step, one of each volley
+  std::int64_t steps() const { return kind->steps > 0 ? kind->steps : cell.steps; }
 };
+using EngineRow = EngineRowOf<EngineTally>;
+using StageRow = EngineRowOf<StageTally>;
 
-struct EnginePlan {
-  std::vector<EngineCell> cells;  ///< by wall, then by path in rising order
-  std::vector<EngineSetup> setups;
-  std::vector<Engine> missing;      ///< asked for by "all", and not in the program
-  std::int64_t shots;               ///< of each cell and setup
-  std::vector<std::string> stages;  ///< names
-  std::int64_t stage_shots;         ///< of each stage and setup; 0: none is played
-  double stage_path;                ///< [m] of the motion in a step
-  std::uint64_t seed;
+/// May be moved, not copied: its rows, which have no results yet, point to its setups.
+struct EnginePlan : ChosenEngines {
+  std::vector<EngineRow> rows = {};   ///< by wall, then by path in rising order
+  std::vector<StageRow> stages = {};  ///< in the order of stage_kinds
+  std::int64_t shots = 0;             ///< of each row
+  std::int64_t stage_shots = 0;       ///< of each of the stages; 0: none is played
+  std::uint64_t seed = 0;
 };
 
 /// Throws UsageError.
 EnginePlan make_engine_plan(const Settings& settings, const RunOptions& options);
-
-/// A line for each engine that is missing: what it is, and what would bring it.
-std::vector<std::string> missing_engines(const EnginePlan& plan);
-
-/// A cell, an engine in a mode, and what came of it. The plan must outlive it.
-struct EngineRow {
-  EngineCell cell;
-  const EngineSetup* setup;
-  std::optional<double> theory = {};  ///< [1] chance of going through, where only poses are looked at
-  EngineTally tally = {};
-  std::vector<double> nanoseconds = {};  ///< a step, one of each volley
-  std::int64_t steps() const { return cell.steps; }
-};
-
-/// The same of a stage.
-struct StageRow {
-  const StageKind* kind;
-  EngineCell cell;
-  const EngineSetup* setup;
-  std::optional<double> theory = {};  ///< [1] chance of passing
-  StageTally tally = {};
-  std::vector<double> nanoseconds = {};
-  std::int64_t steps() const { return kind->steps; }
-};
-
-/// Without results: every setup at every cell that it can do, by cell.
-std::vector<EngineRow> engine_rows(const EnginePlan& plan);
-/// Without results: every stage of the plan, in every mode that can play it.
-std::vector<StageRow> stage_rows(const EnginePlan& plan);
 
 /// Shots `first`, `first + 1`, ... of a row. Long enough to be timed, short enough to be lost, and several make an interval.
 struct EngineVolley {
@@ -210,14 +169,14 @@ struct EngineVolley {
 };
 inline constexpr std::int64_t most_shots_an_engine_volley = 1000;
 
-/// `shots` of each row, in an order in which the rows of one key, which are engines, take turns.
-template <class Row, class Key>
-std::vector<EngineVolley> volleys_in_turn(const std::vector<Row>& rows, const Key& key, std::int64_t shots) {
+/// `shots` of each row, in an order in which the engines take turns at each cell or stage.
+template <class Tally>
+std::vector<EngineVolley> volleys_in_turn(const std::vector<EngineRowOf<Tally>>& rows, std::int64_t shots) {
   constexpr std::int64_t most = most_shots_an_engine_volley;
   std::vector<EngineVolley> volleys;
-  for (const Group<Row>& group : group_by(rows, key)) {
+  for (const auto& group : group_by(rows, [](const auto& row) { return std::pair(row.kind, row.cell); })) {
     for (std::int64_t first = 0; first < shots; first += most) {
-      for (const Row* row : group)
+      for (const auto* row : group)
         volleys.push_back({static_cast<std::size_t>(row - rows.data()), first, std::min(most, shots - first)});
     }
   }
@@ -225,18 +184,33 @@ std::vector<EngineVolley> volleys_in_turn(const std::vector<Row>& rows, const Ke
 }
 
 /// Shots `first`, `first + 1`, ... of a row.
-EngineTally fire(const EngineRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed);
-StageTally fire(const StageRow& row, std::int64_t first, std::int64_t shots, std::uint64_t seed);
+template <class Tally>
+Tally fire(const EngineRowOf<Tally>& row, std::int64_t first, std::int64_t shots, std::uint64_t seed) {
+  const EngineStage stage = row.kind->stage(row.cell);
+  const RandomStream stream = random_stream(*row.kind, row.cell, seed);
+  std::vector<EngineShot> all;
+  std::vector<EngineStart> starts;
+  for (std::int64_t i = first; i < first + shots; ++i) {
+    all.push_back(row.kind->shot(row.cell, random_words(stream, static_cast<std::uint64_t>(i), 0)));
+    starts.push_back(all.back().start);
+  }
+  const EngineFlights flights = row.setup->mode.play(stage, starts, row.steps());
+  Tally tally;
+  for (std::size_t i = 0; i < flights.shots.size(); ++i) judge(stage, all[i], flights.shots[i], tally);
+  tally.seconds = flights.seconds;
+  tally.unanswered = shots - std::ssize(flights.shots);
+  return tally;
+}
 
 /// `tallies` as the volleys come.
-template <class Row, class Tally>
-void add_results(const std::vector<EngineVolley>& volleys, const std::vector<Tally>& tallies, std::vector<Row>& rows) {
+template <class Tally>
+void add_results(const std::vector<EngineVolley>& volleys, const std::vector<Tally>& tallies,
+                 std::vector<EngineRowOf<Tally>>& rows) {
   for (std::size_t i = 0; i < volleys.size(); ++i) {
-    Row& row = rows[volleys[i].row];
+    EngineRowOf<Tally>& row = rows[volleys[i].row];
     const Tally& tally = tallies[i];
     row.tally += tally;
-    if (tally.shots > 0)
-      row.nanoseconds.push_back(1e9 * tally.seconds / static_cast<double>(tally.shots * row.steps()));
+    row.nanoseconds.push_back(1e9 * tally.seconds / static_cast<double>(tally.shots * row.steps()));
   }
 }
 
@@ -247,10 +221,9 @@ std::vector<std::string> drop_failed(std::vector<EngineRow>& rows, std::vector<S
 /// Those of an engine and mode at a wall, from the shortest path to the longest.
 std::vector<EngineRow> rows_of(const std::vector<EngineRow>& rows, const std::string& label, double wall_size);
 
-/// What ours must do: let none through where it sweeps, and what theory says where it looks at poses. Of the latter only the
-/// first wall counts: all walls get the same shots, and a test wants independent ones.
-std::vector<CellCount> own_counts(const std::vector<EngineRow>& rows);
-/// Let nothing pass and disturb nothing where it sweeps, and pass as theory says where it looks at poses.
-std::vector<CellCount> own_counts(const std::vector<StageRow>& rows);
+/// What ours must do. At the wall: let none through where it sweeps, and what theory says where it looks at poses; of the latter only
+/// the first wall counts, for all walls get the same shots, and a test wants independent ones. On stages: let nothing pass and
+/// disturb nothing where it sweeps, and pass as theory says where it looks at poses.
+std::vector<CellCount> own_counts(const std::vector<EngineRow>& rows, const std::vector<StageRow>& stages);
 
 }  // namespace thinwall

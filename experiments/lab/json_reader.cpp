@@ -37,7 +37,7 @@ std::string json_page(const nlohmann::ordered_json& value) {
   return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::string exact_text(const json& value, std::string_view comma, std::string_view is) {
+std::string exact_text(const nlohmann::ordered_json& value, std::string_view comma, std::string_view is) {
   if (value.is_string()) return json_string(value.get<std::string>());
   if (value.is_number_float()) return exact_text(value.get<double>());
   if (!value.is_structured()) return value.dump();

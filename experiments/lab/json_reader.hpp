@@ -33,7 +33,7 @@ template <Record T> nlohmann::ordered_json json_of(const T& record) {
 
 /// A value whose real numbers are as `exact_text` of lab/text.hpp has them. `comma` and `is` stand between items, and between a key
 /// and its value: `,` and `:` of canonical JSON, `, ` and ` = ` of TOML.
-std::string exact_text(const nlohmann::json& value, std::string_view comma, std::string_view is);
+std::string exact_text(const nlohmann::ordered_json& value, std::string_view comma, std::string_view is);
 
 class JsonReader {
  public:

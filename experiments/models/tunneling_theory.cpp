@@ -19,6 +19,16 @@ double face(const Vec3<double>& half_extents, int axis) {
 
 double miss_probability(double chord, double spacing) { return std::max(0.0, 1 - chord / spacing); }
 
+/// The integral of 1 / cos from 0 is ln tan(pi/4 + a/2), and beyond the angle whose cosine is depth / spacing nothing is missed.
+double mean_miss_probability(double depth, double spacing, double angle_deg) {
+  const double share = depth / spacing;
+  if (share >= 1) return 0;
+  const double most = angle_deg * (pi / 180);
+  if (most < 1e-6) return miss_probability(depth, spacing);
+  const double a = std::min(most, std::acos(share));
+  return (a - share * std::log(std::tan(pi / 4 + a / 2))) / most;
+}
+
 double slab_chord(double thickness, double radius, double cosine) { return (thickness + 2 * radius) / cosine; }
 
 double volume(const RoundedBox& box) {

@@ -13,6 +13,9 @@ namespace thinwall {
 /// `chord`.
 double miss_probability(double chord, double spacing);
 
+/// The mean of max(0, 1 - depth / (spacing cos a)) over the angles a in [0, angle_deg]. `depth` and `spacing` > 0.
+double mean_miss_probability(double depth, double spacing, double angle_deg);
+
 /// What a line cuts from a wall without end, thickened by the ball's radius. `cosine`: of the angle of incidence, > 0.
 double slab_chord(double thickness, double radius, double cosine);
 

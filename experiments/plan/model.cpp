@@ -8,7 +8,7 @@
 
 #include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/random.hpp>
-#include <thinwall/experiments/scenes/scene.hpp>
+#include <thinwall/experiments/world/referee.hpp>
 #include <thinwall/experiments/world/world.hpp>
 
 namespace thinwall {
@@ -148,11 +148,11 @@ void run_once(const PlanScene& scene, const WorldOptions& options, std::int64_t 
 std::int64_t count_tunneled(const PlanScene& scene, const WorldOptions& options, std::int64_t steps) {
   if (!options.events && !options.response) return 0;  // no contact is looked for, so that none is missed
   World world(scene.bodies, options);
-  MissedContacts referee(world);
+  Referee referee(world);
   std::int64_t count = 0;
   for (std::int64_t step = 0; step < steps; ++step) {
     world.step(plan_dt);
-    count += static_cast<std::int64_t>(referee.after_step(world, plan_dt).size());
+    count += static_cast<std::int64_t>(referee.missed_by(world, plan_dt).size());
   }
   return count;
 }

@@ -30,9 +30,10 @@ constexpr std::int64_t most_bodies = 2'000'000;
 /// Of a length [m], a speed [m/s], an acceleration [m/s^2] or a mass [kg]: within the longest run no place leaves the world, and no
 /// energy the range of doubles.
 constexpr double most_of_a_scene = 1e30;
-constexpr Range coordinate_range = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m"};
-constexpr Range speed_range = {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s"};
-constexpr Range length_range = {.lower = 0, .upper = most_of_a_scene, .unit = "m"};
+constexpr Range up_to_most(std::string_view unit, double lower = -most_of_a_scene) {
+  return {.lower = lower, .upper = most_of_a_scene, .unit = unit};
+}
+constexpr Range coordinate_range = up_to_most("m"), speed_range = up_to_most("m/s"), length_range = up_to_most("m", 0);
 
 Vec3<double> vector3(const Settings& settings, std::string_view key, const Range& range) {
   const std::array<double, 3> values = settings.vector(key, range);
@@ -136,10 +137,10 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
     settings.complain(key, "a body of shape 'none' does not turn");
   if (motion != "free" && settings.given("mass"))
     settings.complain("mass", fmt::format("none: the body is {}", motion));
-  const double mass = settings.number("mass", {.lower = 1e-30, .upper = most_of_a_scene, .unit = "kg"});
+  const double mass = settings.number("mass", up_to_most("kg", 1e-30));
   body.mass = motion == "free" ? mass : std::numeric_limits<double>::infinity();
   body.restitution = settings.number("restitution", {.lower = 0, .upper = 1});
-  body.gravity_scale = settings.number("gravity_scale", {.lower = -most_of_a_scene, .upper = most_of_a_scene});
+  body.gravity_scale = settings.number("gravity_scale", up_to_most("1"));
   body.group = static_cast<std::uint32_t>(settings.integer("group", 0, most_id));
   body.mask = static_cast<std::uint32_t>(settings.integer("mask", 0, most_id));
 
@@ -154,8 +155,7 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
     settings.complain("copies", fmt::format("at most {} bodies in all", most_bodies));
   const Vec3<double> every = vector3(settings, "every", coordinate_range),
                      jitter = vector3(settings, "jitter", length_range);
-  const Vec3<double> speeds =
-      vector3(settings, "velocity_jitter", {.lower = 0, .upper = most_of_a_scene, .unit = "m/s"});
+  const Vec3<double> speeds = vector3(settings, "velocity_jitter", up_to_most("m/s", 0));
   const Vec3<double> size = size_of(body);
   const RandomStream stream{seed, stream_of(std::array{at[0], at[1], at[2], size[0], size[1], size[2], counts[0],
                                                        counts[1], counts[2], every[0], every[1], every[2]})};
@@ -163,19 +163,26 @@ void append(const Settings& settings, std::uint64_t seed, std::vector<Body>& bod
   const std::int64_t count = copies[0] * copies[1] * copies[2];
   std::uint32_t id = take_ids(settings, count, bodies.empty() ? 1 : std::int64_t{bodies.back().id} + 1, taken);
   const bool alone = count == 1;
-  std::uint64_t copy = 0;
-  for (std::int64_t k = 0; k < copies[2]; ++k) {
-    for (std::int64_t j = 0; j < copies[1]; ++j) {
-      for (std::int64_t i = 0; i < copies[0]; ++i, ++copy) {
-        const Vec3<double> cell(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
-        Body& added = bodies.emplace_back(body);
-        added.id = id++;
-        added.name = alone || name.empty() ? name : fmt::format("{} {}", name, copy + 1);
-        move_shape(added.shape, cell.cwiseProduct(every) + shaken(jitter, stream, copy, 0));
-        added.velocity += shaken(speeds, stream, copy, 1);
-      }
-    }
+  for (std::int64_t copy = 0; copy < count; ++copy) {
+    const auto draw = static_cast<std::uint64_t>(copy);
+    const Eigen::Matrix<std::int64_t, 3, 1> cell(copy % copies[0], copy / copies[0] % copies[1],
+                                                 copy / copies[0] / copies[1]);
+    Body& added = bodies.emplace_back(body);
+    added.id = id++;
+    added.name = alone || name.empty() ? name : fmt::format("{} {}", name, copy + 1);
+    move_shape(added.shape, cell.cast<double>().cwiseProduct(every) + shaken(jitter, stream, draw, 0));
+    added.velocity += shaken(speeds, stream, draw, 1);
   }
+}
+
+/// Every [[body]] of the file, copies made: a grid, and random numbers that depend on the seed, on the body's own place,
+/// size and grid, and on the copy's place in it alone. Ids count up from 1, in the order of the file.
+/// Throws UsageError: a key out of range, missing, or not of the shape; more than two million bodies.
+std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
+  std::vector<Body> bodies;
+  TakenIds taken;
+  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies, taken);
+  return bodies;
 }
 
 constexpr std::array<std::string_view, 3> view_names = {"xy", "xz", "zy"};
@@ -193,8 +200,7 @@ std::string scene_name(const Settings& settings) {
 
 WorldOptions world_options(const Settings& settings, int threads) {
   WorldOptions options;
-  options.gravity =
-      vector3(settings, "gravity", {.lower = -most_of_a_scene, .upper = most_of_a_scene, .unit = "m/s^2"});
+  options.gravity = vector3(settings, "gravity", up_to_most("m/s^2"));
   options.policy = policy_named(settings.choice("policy", policy_names));
   options.substeps = static_cast<int>(settings.integer("substeps", 1, 1000));
   options.max_events = static_cast<int>(settings.integer("max_events", 1, 1'000'000));
@@ -254,13 +260,6 @@ void check_trace(const Settings& settings, const Scene& scene) {
 
 }  // namespace
 
-std::vector<Body> read_bodies(const Settings& scene, std::uint64_t seed) {
-  std::vector<Body> bodies;
-  TakenIds taken;
-  for (const Settings& body : scene.tables("body", embedded_toml("scene_body"))) append(body, seed, bodies, taken);
-  return bodies;
-}
-
 Aabb<double> box_of(const Body& body) {
   const Aabb<double> none = {Vec3<double>::Zero(), Vec3<double>::Zero()};
   return of_shape(body.shape, none, [](const auto& held) -> Aabb<double> { return {center(held), half_widths(held)}; });
@@ -268,13 +267,17 @@ Aabb<double> box_of(const Body& body) {
 
 Vec3<double> size_of(const Body& body) { return 2 * box_of(body).half_extents; }
 
-TimePolicy policy_named(std::string_view name) {
-  const auto found = std::ranges::find(policy_names, name);
-  if (found == policy_names.end()) throw std::logic_error(fmt::format("no policy is called '{}'", name));
-  return static_cast<TimePolicy>(found - policy_names.begin());
-}
-
 constexpr std::int64_t most_steps = 1'000'000;  // a run holds 1.2 kB of each until its tables are written
+
+CompareKeys read_compare_keys(const Settings& settings) {
+  CompareKeys keys;
+  keys.policies = settings.choices("compare.policy", policy_names);
+  keys.steps = settings.numbers("compare.dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
+  std::sort(keys.steps.begin(), keys.steps.end());
+  keys.finer = static_cast<int>(settings.integer("compare.finer", 1, 1000));
+  keys.repeats = static_cast<int>(settings.integer("compare.repeats", 1, 100));
+  return keys;
+}
 
 Scene read_scene(const Settings& settings, const RunOptions& options) {
   Scene scene;

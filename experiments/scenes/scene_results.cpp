@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <thinwall/experiments/lab/columns.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
@@ -19,9 +19,9 @@ namespace thinwall {
 namespace {
 
 /// What a body is called, by its id.
-std::string name_in(const Scene& scene, std::uint32_t id) {
-  const auto found = std::ranges::find(scene.bodies, id, &Body::id);
-  const bool named = found != scene.bodies.end() && !found->name.empty();
+std::string name_in(const Playback& playback, std::uint32_t id) {
+  const auto found = std::ranges::lower_bound(playback.places, std::int64_t{id}, {}, &FinalPlace::id);
+  const bool named = found != playback.places.end() && found->id == id && !found->name.empty();
   return named ? found->name : "body " + std::to_string(id);
 }
 
@@ -33,13 +33,13 @@ std::string policy_text(const Scene& scene) {
 }
 
 /// The first lines of the log: who met whom.
-std::string log_text(const Scene& scene, const Playback& playback) {
+std::string log_text(const Playback& playback) {
   const std::size_t shown = std::min<std::size_t>(12, playback.events.size());
   std::string text;
   for (std::size_t i = 0; i < shown; ++i) {
     const LoggedEvent& e = playback.events[i];
-    text += fmt::format("{:>10} s  {} {} {}\n", rounded_text(e.time, 6), name_in(scene, e.first),
-                        e.begins ? "meets" : "leaves", name_in(scene, e.second));
+    text += fmt::format("{:>10} s  {} {} {}\n", rounded_text(e.time, 6), name_in(playback, e.first),
+                        e.begins ? "meets" : "leaves", name_in(playback, e.second));
   }
   const auto more = static_cast<std::int64_t>(playback.events.size() - shown);
   const std::int64_t lost = playback.all_events - std::ssize(playback.events);
@@ -73,7 +73,7 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
   std::string text = fmt::format("{}: {} {}, {} of {} ms, {}\n\n", scene.name, grouped_text(std::ssize(scene.bodies)),
                                  scene.bodies.size() == 1 ? "body" : "bodies", plural_text(scene.steps, "step"),
                                  rounded_text(1e3 * scene.dt, 4), policy_text(scene));
-  text += log_text(scene, playback);
+  text += log_text(playback);
   text += fmt::format("\ncontacts begun {:>12}   ended {:>12}   not ended {:>12}\n", grouped_text(sums.begins),
                       grouped_text(sums.ends), grouped_text(playback.live));
   text += fmt::format("pairs found    {:>12}   asked {:>12}   gated     {:>12}\n", grouped_text(sums.pairs),
@@ -90,48 +90,38 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
 }
 
 /// Who met whom.
-template <class Row> Columns<Row> pair_columns(const Scene& scene) {
+template <class Row> Columns<Row> pair_columns(const Playback& playback) {
   return columns_of<Row>(
-      text("first", "The body with the lower id.", [&scene](const Row& row) { return name_in(scene, row.first); }),
-      text("second", "The other.", [&scene](const Row& row) { return name_in(scene, row.second); }));
+      text("first", "The body with the lower id.", [&](const Row& row) { return name_in(playback, row.first); }),
+      text("second", "The other.", [&](const Row& row) { return name_in(playback, row.second); }));
 }
 
-Table steps_table(const Playback& playback) {
-  return table("steps", "What each step did.", columns_of<StepRow>(fields(std::identity())), playback.rows);
+Table in_report_if_short(Table table) {
+  table.in_report = table.rows.size() <= 40;
+  return table;
 }
 
-Table events_table(const Scene& scene, const Playback& playback) {
+Table events_table(const Playback& playback) {
   const auto columns = columns_of<LoggedEvent>(
       value("time", "s", "When they met; of an end, when the step ended.", &LoggedEvent::time),
       value("step", "1", "Number of the step.", &LoggedEvent::step),
       text("event", "begin or end.", [](const LoggedEvent& e) { return e.begins ? "begin" : "end"; }),
-      pair_columns<LoggedEvent>(scene));
-  Table events = table("events", "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.",
-                       columns, playback.events);
-  events.in_report = events.rows.size() <= 40;
-  return events;
+      pair_columns<LoggedEvent>(playback));
+  return in_report_if_short(table("events",
+                                  "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.",
+                                  columns, playback.events));
 }
 
-Table missed_table(const Scene& scene, const Playback& playback) {
-  const auto columns = columns_of<MissedContact>(fields(std::identity(), {"time"}), pair_columns<MissedContact>(scene));
-  Table missed = table("tunneled", "Who went through whom unseen, and when they first touched; the first 10 000.",
-                       columns, playback.missed);
-  missed.in_report = missed.rows.size() <= 40;
-  return missed;
+Table missed_table(const Playback& playback) {
+  const auto columns = columns_of<Meeting>(fields(std::identity(), {"time"}), pair_columns<Meeting>(playback));
+  return in_report_if_short(table("tunneled",
+                                  "Who went through whom unseen, and when they first touched; the first 10 000.",
+                                  columns, playback.missed));
 }
 
-Table bodies_table(const Scene& scene, const Playback& playback) {
-  std::vector<std::pair<std::int64_t, std::string>> names;  // by id, for a scene of many
-  for (const Body& body : scene.bodies) names.emplace_back(body.id, body.name);
-  std::ranges::sort(names);
-  const auto name = [&names](const FinalPlace& place) {
-    const auto found = std::ranges::lower_bound(names, std::pair<std::int64_t, std::string>(place.id, ""));
-    return found == names.end() ? "" : found->second;
-  };
-  return table("bodies", "Where each body is at the end.",
-               columns_of<FinalPlace>(fields(std::identity(), {"id"}), text("name", "Name.", name),
-                                      fields(std::identity(), {"x", "y", "z"})),
-               playback.places);
+/// Of records that say all of it.
+template <class Row> Table records_table(const char* name, const char* description, const std::vector<Row>& rows) {
+  return table(name, description, columns_of<Row>(fields(std::identity())), rows);
 }
 
 Table plan_table(const Plan& plan) {
@@ -146,61 +136,56 @@ constexpr std::size_t most_outlines = 400;
 constexpr std::size_t most_marks = 1500;  // more would be a blot: then lines
 constexpr std::size_t most_named = 8;     // tracks in the legend; the others share one entry
 
-/// A rectangle of the picture.
-struct Window {
-  double left = 0, right = 1, bottom = 0, top = 1;  ///< [m]
-};
+using Point = Eigen::Vector2d;  ///< [m] of the picture
+using Window = Eigen::AlignedBox2d;
+
+Point seen(const Scene& scene, const Vec3<double>& at) { return {at[scene.across], at[scene.up]}; }
 
 /// Where anything moved, with room for the bodies themselves and a fifth more on each side.
 Window window_of(const Scene& scene, const Playback& playback) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Window w{far, -far, far, -far};
+  Window window;
   for (const Track& track : playback.tracks) {
     const auto body = std::ranges::find(scene.bodies, track.id, &Body::id);
-    const Vec3<double> half = body == scene.bodies.end() ? Vec3<double>::Zero().eval() : box_of(*body).half_extents;
+    const Point half = seen(scene, box_of(*body).half_extents);
     for (std::size_t i = 0; i < track.x.size(); ++i) {
-      w.left = std::min(w.left, track.x[i] - half[scene.across]);
-      w.right = std::max(w.right, track.x[i] + half[scene.across]);
-      w.bottom = std::min(w.bottom, track.y[i] - half[scene.up]);
-      w.top = std::max(w.top, track.y[i] + half[scene.up]);
+      const Point at = {track.x[i], track.y[i]};
+      window.extend(at - half).extend(at + half);
     }
   }
-  const double wide = 0.2 * (w.right - w.left), high = 0.2 * (w.top - w.bottom);
-  return {w.left - wide, w.right + wide, w.bottom - high, w.top + high};
+  const Point room = 0.2 * window.sizes();
+  return {window.min() - room, window.max() + room};
 }
 
 /// The part of a segment within the window, appended with a gap before it. Source: Liang and Barsky, 1984.
-void append_clipped(Series& series, const Window& w, double x0, double y0, double x1, double y1) {
+void append_clipped(Series& series, const Window& w, const Point& a, const Point& b) {
   double from = 0, to = 1;
-  const auto cut = [&](double start, double change, double low, double high) {
-    if (change == 0) return low <= start && start <= high;
-    const double enter = ((change > 0 ? low : high) - start) / change;
-    const double leave = ((change > 0 ? high : low) - start) / change;
-    from = std::max(from, enter);
-    to = std::min(to, leave);
-    return from <= to;
-  };
-  if (!cut(x0, x1 - x0, w.left, w.right) || !cut(y0, y1 - y0, w.bottom, w.top)) return;
+  for (const int axis : {0, 1}) {
+    const double start = a[axis], change = b[axis] - start, low = w.min()[axis], high = w.max()[axis];
+    if (change == 0) {
+      if (start < low || high < start) return;
+      continue;
+    }
+    from = std::max(from, ((change > 0 ? low : high) - start) / change);
+    to = std::min(to, ((change > 0 ? high : low) - start) / change);
+  }
+  if (from > to) return;
   series.end_line();
-  for (const double t : {from, to}) series.add(x0 + t * (x1 - x0), y0 + t * (y1 - y0));
+  for (const double t : {from, to}) series.add(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]));
 }
 
 /// The twelve edges of a box: its corners differ along one axis.
-void append_edges(Series& series, const Window& w, const Scene& scene, const Vec3<double>& center,
-                  const Mat3<double>& axes, const Vec3<double>& half) {
+void append_edges(Series& series, const Window& w, const Scene& scene, const Obb<double>& box) {
   const auto corner = [&](unsigned which) {
-    Vec3<double> at = center;
+    Vec3<double> at = box.center;
     for (unsigned i = 0; i < 3; ++i) {
       const double side = (which >> i & 1U) != 0 ? 1 : -1;
-      at += side * half[static_cast<int>(i)] * axes.col(static_cast<int>(i));
+      at += side * box.half_extents[static_cast<int>(i)] * box.axes.col(static_cast<int>(i));
     }
-    return at;
+    return seen(scene, at);
   };
   for (unsigned from = 0; from < 8; ++from) {
     for (unsigned axis = 0; axis < 3; ++axis) {
-      if ((from >> axis & 1U) != 0) continue;
-      const Vec3<double> a = corner(from), b = corner(from | 1U << axis);
-      append_clipped(series, w, a[scene.across], a[scene.up], b[scene.across], b[scene.up]);
+      if ((from >> axis & 1U) == 0) append_clipped(series, w, corner(from), corner(from | 1U << axis));
     }
   }
 }
@@ -212,12 +197,10 @@ Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
   for (const Body& body : scene.bodies) {
     if (!body.is_static || std::holds_alternative<std::monostate>(body.shape)) continue;
     const std::size_t before = series.x.size();
-    if (const auto* const turned = std::get_if<Obb<double>>(&body.shape)) {
-      append_edges(series, window, scene, turned->center, turned->axes, turned->half_extents);
-    } else {
-      const Aabb<double> box = box_of(body);
-      append_edges(series, window, scene, box.center, Mat3<double>::Identity(), box.half_extents);
-    }
+    const Aabb<double> upright = box_of(body);
+    const auto* const turned = std::get_if<Obb<double>>(&body.shape);
+    append_edges(series, window, scene,
+                 turned ? *turned : Obb<double>{upright.center, upright.half_extents, Mat3<double>::Identity()});
     if (series.x.size() == before || ++drawn <= most_outlines) continue;
     series.x.resize(before);  // one too many
     series.y.resize(before);
@@ -227,9 +210,8 @@ Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
 }
 
 Figure tracks_figure(const Scene& scene, const Playback& playback) {
-  Panel panel;
-  panel.x_label = std::string(1, static_cast<char>('x' + scene.across)) + " [m]";
-  panel.y_label = std::string(1, static_cast<char>('x' + scene.up)) + " [m]";
+  Panel panel = {.x_label = fmt::format("{} [m]", "xyz"[scene.across]),
+                 .y_label = fmt::format("{} [m]", "xyz"[scene.up])};
   std::size_t outlined = 0;
   panel.series.push_back(outlines(scene, window_of(scene, playback), outlined));
   if (panel.series.back().x.empty()) panel.series.clear();
@@ -239,7 +221,7 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   const Mark mark = points <= most_marks ? Mark::points : Mark::line;
   for (const Track& track : playback.tracks) {
     if (few || &track == &playback.tracks.front())
-      panel.series.push_back({.label = few ? name_in(scene, track.id) : "bodies that move", .mark = mark});
+      panel.series.push_back({.label = few ? name_in(playback, track.id) : "bodies that move", .mark = mark});
     Series& series = panel.series.back();
     series.end_line();
     series.x.insert(series.x.end(), track.x.begin(), track.x.end());
@@ -275,18 +257,14 @@ Figure course_figure(const Playback& playback) {
     begun.add(row.time, static_cast<double>(begins += row.begins));
     through.add(row.time, static_cast<double>(tunneled += row.tunneled));
   }
-  Panel top, bottom;
-  top.x_label = bottom.x_label = "time [s]";
-  top.y_label = "energy [J]";
-  bottom.y_label = "counted so far [1]";
-  top.series = {std::move(energy)};
-  bottom.series = {std::move(begun), std::move(through)};
+  const std::string time = "time [s]";
   return {.name = "course",
           .title = "Energy and contacts over time",
           .caption =
               "Above: kinetic energy and energy of height at the end of each step. Below: contacts that have begun, "
               "and pairs that have gone through each other unseen.",
-          .panels = {std::move(top), std::move(bottom)}};
+          .panels = {{.x_label = time, .y_label = "energy [J]", .series = {energy}},
+                     {.x_label = time, .y_label = "counted so far [1]", .series = {begun, through}}}};
 }
 
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
@@ -300,8 +278,12 @@ Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& play
       playback.all_missed == 1 ? "pair went" : "pairs went", rounded_text(playback.energy, 6),
       rounded_text(playback.rows.back().energy, 6), playback.hash);
   out.summary = summary_text(scene, plan, playback);
-  out.tables = {plan_table(plan),      missed_table(scene, playback), events_table(scene, playback),
-                steps_table(playback), bodies_table(scene, playback), phases_table(playback)};
+  out.tables = {plan_table(plan),
+                missed_table(playback),
+                events_table(playback),
+                records_table("steps", "What each step did.", playback.rows),
+                records_table("bodies", "Where each body is at the end.", playback.places),
+                phases_table(playback)};
   out.figures = {tracks_figure(scene, playback), course_figure(playback)};
   out.self_test_passed = claims_held(scene, playback);
   return out;

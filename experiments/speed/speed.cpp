@@ -301,7 +301,7 @@ std::optional<std::string> left_out(const BenchOutput& output) {
     const auto some = only(output.peers_left_out, [&](const std::string& peer) { return is_npm(peer) == npm; });
     if (some.empty()) continue;
     text += fmt::format("{}without {}: {}", text.empty() ? "" : "; ", listed(some),
-                        npm ? "install nodejs and run `npm ci` in experiments/engines/npm"
+                        npm ? "install nodejs and run `npm ci` in experiments/adapters/npm"
                             : "install their development packages, configure with -DTHINWALL_PEERS=ON and build again");
   }
   return text.empty() ? std::nullopt : std::optional(text);

@@ -8,6 +8,15 @@
 
 namespace thinwall {
 
+std::string name_of(TimePolicy policy, int substeps) {
+  const std::string name(name_of(policy));
+  return policy == TimePolicy::substeps ? name + "_" + std::to_string(substeps) : name;
+}
+
+TimePolicy policy_named(std::string_view name) {
+  return static_cast<TimePolicy>(std::ranges::find(policy_names, name) - policy_names.begin());
+}
+
 Vec3<double> position(const Body& body) {
   const Vec3<double> none = Vec3<double>::Zero();
   return of_shape(body.shape, none, [](const auto& shape) { return center(shape); });

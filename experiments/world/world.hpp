@@ -34,6 +34,8 @@ enum class TimePolicy {
 /// As a scene spells them, in the order of TimePolicy.
 inline constexpr std::array<std::string_view, 4> policy_names = {"discrete", "substeps", "clamp", "event_driven"};
 inline std::string_view name_of(TimePolicy policy) { return policy_names[static_cast<std::size_t>(policy)]; }
+std::string name_of(TimePolicy policy, int substeps);  ///< with their number, if it has substeps: `substeps_4`
+TimePolicy policy_named(std::string_view name);        ///< one of policy_names
 /// True of those that look at all of the motion.
 inline bool sweeps(TimePolicy policy) { return policy == TimePolicy::clamp || policy == TimePolicy::event_driven; }
 

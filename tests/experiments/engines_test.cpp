@@ -12,14 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include <thinwall/experiments/engines/model.hpp>
-#include <thinwall/experiments/engines/speaker.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/random.hpp>
 #include <thinwall/experiments/models/tunneling_theory.hpp>
@@ -36,10 +31,10 @@ constexpr EngineCell meter_cell = {
     .path = 1, .step = 1.0 / 60, .radius = 0.05, .thickness = 0.01, .wall_size = 250, .angle_deg = 60, .steps = 10};
 
 TEST(EngineShots, touch_when_the_oracle_says_so) {
-  const RandomStream stream = random_stream(meter_cell, 7);
-  const EngineStage stage = wall_stage(meter_cell);
+  const RandomStream stream = random_stream(ball_at_wall, meter_cell, 7);
+  const EngineStage stage = ball_at_wall.stage(meter_cell);
   for (std::uint64_t i = 0; i < 200; ++i) {
-    const EngineShot shot = engine_shot(meter_cell, stream, i);
+    const EngineShot shot = ball_at_wall.shot(meter_cell, random_words(stream, i, 0));
     EXPECT_GT(shot.contact, 0);
     EXPECT_LE(shot.contact, 2);
     const Vec3<double> at = shot.start[0].position + shot.contact * stage.step * shot.start[0].velocity;
@@ -49,11 +44,11 @@ TEST(EngineShots, touch_when_the_oracle_says_so) {
 }
 
 TEST(EngineShots, are_spread_over_the_angles_and_the_step) {
-  const RandomStream stream = random_stream(meter_cell, 7);
+  const RandomStream stream = random_stream(ball_at_wall, meter_cell, 7);
   double angle = 0, phase = 0, steepest = 0;
   constexpr int count = 2000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const EngineShot shot = engine_shot(meter_cell, stream, i);
+    const EngineShot shot = ball_at_wall.shot(meter_cell, random_words(stream, i, 0));
     const double a = std::acos(shot.start[0].velocity[0] / shot.start[0].velocity.norm()) * 180 / std::numbers::pi;
     angle += a / count;
     steepest = std::max(steepest, a);
@@ -70,13 +65,13 @@ TEST(EngineShots, are_the_same_at_a_wall_of_another_width_and_others_in_another_
   EngineCell wide = meter_cell, far = meter_cell;
   wide.wall_size = 2000;
   far.path = 2;
-  const EngineShot one = engine_shot(meter_cell, random_stream(meter_cell, 7), 3);
-  const EngineShot other = engine_shot(wide, random_stream(wide, 7), 3);
+  const EngineShot one = ball_at_wall.shot(meter_cell, random_words(random_stream(ball_at_wall, meter_cell, 7), 3, 0));
+  const EngineShot other = ball_at_wall.shot(wide, random_words(random_stream(ball_at_wall, wide, 7), 3, 0));
   EXPECT_EQ(one.start[0].position, other.start[0].position);
   EXPECT_EQ(one.start[0].velocity, other.start[0].velocity);
   EXPECT_EQ(one.contact, other.contact);
-  EXPECT_EQ(wall_stage(wide).wall_half_extents()[1], 1000);
-  EXPECT_NE(random_stream(meter_cell, 7).stream, random_stream(far, 7).stream);
+  EXPECT_EQ(ball_at_wall.stage(wide).wall_half_extents()[1], 1000);
+  EXPECT_NE(random_stream(ball_at_wall, meter_cell, 7).stream, random_stream(ball_at_wall, far, 7).stream);
 }
 
 /// The same by the midpoint rule, from the formula for one angle.
@@ -113,7 +108,8 @@ TEST(EngineTheory, counts_both_surfaces_of_what_is_never_seen_and_half_of_what_i
 /// Head-on: contact at x = -1, half a step after the start; 2 m a step, steps of 1 s.
 const EngineStage one_wall = {
     .step = 1, .fixed = {Aabb<double>{{0, 0, 0}, {0.5, 100, 100}}}, .moving = {Sphere<double>{{0, 0, 0}, 0.5}}};
-const EngineShot head_on_shot = {.start = {{.position = {-2, 0, 0}, .velocity = {2, 0, 0}}}, .contact = 0.5};
+const EngineShot head_on_shot = {
+    .start = {{.position = {-2, 0, 0}, .velocity = {2, 0, 0}}}, .ahead = {1, 0, 0}, .beyond = 0.5, .contact = 0.5};
 
 /// At the end of 4 steps.
 EngineTally judged(const Vec3<double>& position, const Vec3<double>& velocity) {
@@ -134,7 +130,7 @@ TEST(EngineJudge, tells_in_front_from_within_and_beyond) {
   EXPECT_EQ(judged({0.51, 0, 0}, {-2, 0, 0}).tunneled, 1);
   for (const double x : {-0.5, 0.0, 0.5}) EXPECT_EQ(judged({x, 0, 0}, {-2, 0, 0}).stuck, 1) << x;
   const EngineTally held = judged({-0.51, 0, 0}, {0, 1, 0});
-  EXPECT_EQ(held.kept_in_front(), 1);
+  EXPECT_EQ(held.wrong(), 0);
   EXPECT_EQ(held.turned, 0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(judged({nan, 0, 0}, {-2, 0, 0}).lost, 1);
@@ -185,8 +181,8 @@ EnginePlan engine_plan(std::string_view text, std::optional<std::int64_t> trials
 }
 
 std::vector<EngineRow> fired(const EnginePlan& plan) {
-  std::vector<EngineRow> rows = engine_rows(plan);
-  const std::vector<EngineVolley> volleys = volleys_in_turn(rows, &EngineRow::cell, plan.shots);
+  std::vector<EngineRow> rows = plan.rows;
+  const std::vector<EngineVolley> volleys = volleys_in_turn(rows, plan.shots);
   std::vector<EngineTally> tallies;
   for (const EngineVolley& v : volleys) tallies.push_back(fire(rows[v.row], v.first, v.shots, plan.seed));
   add_results(volleys, tallies, rows);
@@ -241,7 +237,7 @@ TEST(Engines, ours_lets_no_ball_through_where_it_sweeps_and_wastes_no_energy) {
 TEST(Engines, ours_follows_theory_where_it_looks_at_poses) {
   const EnginePlan plan = engine_plan("engine = ['thinwall']" + std::string(few_engine_shots));
   std::vector<EngineRow> rows = fired(plan);
-  std::vector<CellCount> counts = own_counts(rows);
+  std::vector<CellCount> counts = own_counts(rows, {});
   EXPECT_EQ(counts.size(), 4U * 3);
   EXPECT_TRUE(all_passed(self_test(counts)));
   const EngineRow discrete = rows_of(rows, "thinwall discrete", 250).front();
@@ -253,7 +249,7 @@ TEST(Engines, ours_follows_theory_where_it_looks_at_poses) {
   for (EngineRow& row : rows) {
     if (row.theory) row.theory = *row.theory * 0.8;
   }
-  EXPECT_FALSE(all_passed(self_test(own_counts(rows))));
+  EXPECT_FALSE(all_passed(self_test(own_counts(rows, {}))));
 }
 
 TEST(Engines, bullet_tunnels_without_its_sweep_and_not_with_it) {
@@ -331,8 +327,8 @@ TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
   const Engine& jolt = engine_called(engines, "jolt");
   EXPECT_EQ(jolt.version, "2.0.0");
   EXPECT_EQ(jolt.integrity, "sha512-x");
-  const EngineSetup setup = {jolt, jolt.modes({}).front()};
-  const EngineTally tally = fire(EngineRow{meter_cell, &setup}, 0, 5, 1);  // there is no script
+  const EngineSetup setup = {jolt, jolt.modes.front()};
+  const EngineTally tally = fire(EngineRow{meter_cell, &setup, &ball_at_wall}, 0, 5, 1);  // there is no script
   EXPECT_EQ(tally.unanswered, 5);
   EXPECT_EQ(tally.shots, 0);
 }
@@ -340,7 +336,7 @@ TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
 TEST(Engines, that_die_are_named_and_left_out) {
   const EnginePlan plan = engine_plan("engine = ['thinwall']" + std::string(few_engine_shots));
   std::vector<EngineRow> rows = fired(plan);
-  std::vector<StageRow> stages = stage_rows(plan);
+  std::vector<StageRow> stages = plan.stages;
   const std::size_t all = rows.size();
   EXPECT_EQ(drop_failed(rows, stages), std::vector<std::string>{});
   EXPECT_EQ(rows.size(), all);
@@ -364,71 +360,6 @@ TEST(Engines, that_die_are_told_in_the_answer_and_in_the_report) {
   const Outcome outcome = run->finish(results, std::vector<double>(results.size(), 1));
   EXPECT_TRUE(outcome.answer.ends_with("Clopper-Pearson). ODE is left out, having died or hung.")) << outcome.answer;
   EXPECT_TRUE(outcome.sections[0].text.starts_with("ODE is left out, having died or hung.\n\n"));
-}
-
-/// What a shell says to `question`, or what is wrong with it.
-std::string said(const char* script, const nlohmann::json& question = {{"id", 1}}, double seconds = 60) {
-  try {
-    Speaker speaker("It", {"sh", "-c", script}, "/");
-    return speaker.ask(question, seconds).dump();
-  } catch (const SpeakerError& error) {
-    return error.what();
-  }
-}
-
-TEST(Speakers, answer_in_lines_of_json) {
-  EXPECT_EQ(said("cat"), R"({"id":1})");
-  const nlohmann::json much = std::vector<int>(500'000, 7);
-  EXPECT_TRUE(said("cat", much) == much.dump()) << "more than a pipe holds, both ways";
-  EXPECT_EQ(said("read line; printf '[1,'; sleep 0.1; echo '2]'"), "[1,2]");
-}
-
-/// Ctrl-C is for this program, which then tells its speakers: a volley that is being played is played to its end.
-TEST(Speakers, are_in_a_process_group_of_their_own) {
-  Speaker speaker("It", {"sh", "-c", "cut -d' ' -f5 /proc/$$/stat"}, "/");
-  EXPECT_NE(speaker.hear(5).get<int>(), getpgrp());
-}
-
-TEST(Speakers, that_die_hang_or_talk_nonsense_are_named_errors) {
-  EXPECT_EQ(said("exit 3"), "It has died");
-  EXPECT_EQ(said("read line; kill -9 $$"), "It has died");
-  EXPECT_EQ(said("exec sleep 100", 1, 0.5), "It has said nothing for 0.5 s");
-  EXPECT_EQ(said("read line; echo garbage"), "It says what is not JSON: \"garbage\"");
-  EXPECT_EQ(error_of<SpeakerError>([] { Speaker("It", {"/no/such/program"}, "/").hear(5); }),
-            "It cannot be started: is /no/such/program installed?");
-}
-
-/// A ball and boxes that meet after 1.7, 1.4 and 1.4 of 4 m, and a ball that stays in front.
-TEST(EngineCasts, of_npm_meet_what_they_fly_at_and_nothing_else) {
-  const auto shape = [](const char* kind, const nlohmann::json& size, double x) -> nlohmann::json {
-    return {{kind, size}, {"at", {x, 0, 0}}, {"turn", {0, 0, 0, 1}}, {"by", {4, 0, 0}}};
-  };
-  const nlohmann::json ball = shape("sphere", 0.1, -2), box = shape("box", {0.1, 0.1, 0.1}, -2),
-                       large = shape("sphere", 0.2, 0), wall = shape("box", {0.5, 0.3, 0.2}, 0);
-  const nlohmann::json pairs = {{ball, wall}, {shape("sphere", 0.1, -6), wall}, {ball, large}, {box, wall}};
-  const std::string missing = with_npm_engines([&](const Engine& engine) {
-    Speaker speaker(engine.called, {"node", "serve.mjs", engine.name}, THINWALL_SOURCE "/experiments/engines/npm");
-    const nlohmann::json offer = speaker.hear(60);
-    EXPECT_EQ(offer.at("casts").empty(), engine.name == "mujoco");
-    for (const nlohmann::json& cast : offer.at("casts")) {
-      nlohmann::json asked = pairs;
-      if (engine.name == "box2d3") asked.erase(3);  // its cast is built of a ball alone
-      const nlohmann::json answer = speaker.ask({{"id", 1}, {"cast", cast}, {"pairs", asked}}, 60);
-      const nlohmann::json& times = answer.at("times");
-      ASSERT_EQ(times.size(), asked.size()) << engine.called;
-      EXPECT_TRUE(times[1].is_null()) << engine.called;
-      constexpr double off = 0.005 / 4 * 1.01;  // Box2D's slop is 5 mm
-      EXPECT_NEAR(times[0].get<double>(), 1.4 / 4, off) << engine.called;
-      EXPECT_NEAR(times[2].get<double>(), 1.7 / 4, off) << engine.called;
-      if (asked.size() == 4) {
-        EXPECT_NEAR(times[3].get<double>(), 1.4 / 4, off) << engine.called;
-      }
-      EXPECT_GT(answer.at("seconds").get<double>(), 0);
-      EXPECT_GT(answer.at("call_seconds").get<double>(), 0);
-    }
-    EXPECT_TRUE(speaker.ask({{"id", 2}, {"cast", "nonsense"}, {"pairs", pairs}}, 60).contains("error"));
-  });
-  if (!missing.empty()) GTEST_SKIP() << missing;
 }
 
 /// In every engine of the build: no shot knows of another, on whatever thread.
@@ -458,12 +389,12 @@ TEST(Engines, give_the_same_bits_on_four_threads_and_in_any_order) {
 
 /// As many worlds at once of one engine as there are threads.
 TEST(Engines, bear_worlds_of_their_own_kind_on_other_threads) {
-  const EngineCell cell = engine_plan("path = [1]").cells.front();
+  const EngineCell cell = engine_plan("path = [1]").rows.front().cell;
   for (const Engine& engine : engine_list()) {
     if (!engine.is_there()) continue;
-    const EngineSetup setup = {engine, engine.modes({{0.5}, 0.5, {2}}).front()};
+    const EngineSetup setup = {engine, engine.modes.front()};
     const auto counts = [&](std::int64_t shots) {
-      EngineTally tally = fire(EngineRow{cell, &setup}, 0, shots, 3);
+      EngineTally tally = fire(EngineRow{cell, &setup, &ball_at_wall}, 0, shots, 3);
       tally.seconds = 0;
       return to_text(tally);
     };
@@ -486,11 +417,8 @@ TEST(Engines, says_what_is_missing_and_does_the_rest) {
     EXPECT_TRUE(holds(outcome.summary, note));
     EXPECT_TRUE(holds(outcome.sections[0].text, note));
   }
-  EnginePlan plan = engine_plan(few_engine_shots);
-  plan.missing = {engine_called(engine_list(), "bullet")};
-  ASSERT_EQ(missing_engines(plan).size(), 1U);
-  EXPECT_EQ(missing_engines(plan)[0],
-            "Bullet is left out: install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
+  EXPECT_EQ(engine_called(engine_list(), "bullet").remedy,
+            "install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
 }
 
 TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {
@@ -506,9 +434,8 @@ TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {
 
 TEST(Engines, hold_every_shot_once_in_volleys) {
   const EnginePlan plan = engine_plan("shots = 2345");
-  const std::vector<EngineRow> rows = engine_rows(plan);
-  std::vector<std::int64_t> next(rows.size(), 0);
-  for (const EngineVolley& volley : volleys_in_turn(rows, &EngineRow::cell, plan.shots)) {
+  std::vector<std::int64_t> next(plan.rows.size(), 0);
+  for (const EngineVolley& volley : volleys_in_turn(plan.rows, plan.shots)) {
     EXPECT_EQ(volley.first, next[volley.row]);
     EXPECT_LE(volley.shots, most_shots_an_engine_volley);
     next[volley.row] += volley.shots;
@@ -525,9 +452,8 @@ TEST(Engines, answer_with_theory_and_hand_over_pictures_of_which_one_is_of_times
 
 TEST(EnginesConfig, paths_are_sorted_and_engines_keep_their_order) {
   const EnginePlan plan = engine_plan("path = [2, 0.5, 1]\nwall_size = [300, 250]\nengine = ['all']");
-  ASSERT_EQ(plan.cells.size(), 6U);
-  EXPECT_EQ(plan.cells[0].path, 0.5);
-  EXPECT_EQ(plan.cells[0].wall_size, 300);
+  EXPECT_EQ(distinct(plan.rows, [](const EngineRow& row) { return row.cell.path; }), (std::vector{0.5, 1.0, 2.0}));
+  EXPECT_EQ(distinct(plan.rows, [](const EngineRow& row) { return row.cell.wall_size; }), (std::vector{300.0, 250.0}));
   EXPECT_EQ(plan.setups.back().label(), "thinwall event_driven");
 }
 
@@ -569,20 +495,18 @@ TEST(EnginesConfig, an_engine_with_no_path_that_it_can_do_is_refused) {
 
 // ---- The stages: what is right on each, on flights made up by hand and in our world, and what passes where only poses are looked at.
 
-const StageKind& stage_called(std::string_view name) {
-  return *std::ranges::find(stage_kinds(), name, &StageKind::name);
-}
+const StageKind& stage_called(std::string_view name) { return *std::ranges::find(stage_kinds, name, &StageKind::name); }
 
 constexpr const char* one_cell = "\npath = [1]\nwall_size = [250]";
 
 std::vector<StageRow> played(const EnginePlan& plan) {
-  std::vector<StageRow> rows = stage_rows(plan);
+  std::vector<StageRow> rows = plan.stages;
   for (StageRow& row : rows) row.tally = fire(row, 0, plan.stage_shots, plan.seed);
   return rows;
 }
 
 /// Where bodies that meet nothing are at the end of each step.
-EngineFlights::Flight straight(const StageShot& shot, const EngineCell& cell, std::int64_t steps) {
+EngineFlights::Flight straight(const EngineShot& shot, const EngineCell& cell, std::int64_t steps) {
   EngineFlights::Flight flight;
   std::vector<BodyState> at = shot.start;
   for (std::int64_t i = 0; i < steps; ++i) {
@@ -593,20 +517,20 @@ EngineFlights::Flight straight(const StageShot& shot, const EngineCell& cell, st
 }
 
 TEST(EngineStages, tell_who_passes_from_who_flies_away) {
-  for (const StageKind& kind : stage_kinds()) {
+  for (const StageKind& kind : stage_kinds) {
     for (std::uint64_t i = 0; i < 200; ++i) {
-      const StageShot shot = kind.shot(meter_cell, random_words({3, 4}, i, 0));
+      const EngineShot shot = kind.shot(meter_cell, random_words({3, 4}, i, 0));
       EXPECT_EQ(shot.start.size(), kind.stage(meter_cell).moving.size()) << kind.name;
       StageTally tally;
       EngineFlights::Flight flight = straight(shot, meter_cell, kind.steps);
-      judge(kind, shot, flight, tally);
+      judge(kind.stage(meter_cell), shot, flight, tally);
       EXPECT_EQ(tally.passed, kind.name == "near_miss" ? 0 : 1) << kind.name << " " << i;
       EXPECT_EQ(tally.disturbed, 0) << kind.name << " " << i;
 
       StageTally turned;  // where it was, with the velocity that is right
       flight = {shot.start};
       if (shot.velocity) flight.back().front().velocity = *shot.velocity;
-      judge(kind, shot, flight, turned);
+      judge(kind.stage(meter_cell), shot, flight, turned);
       EXPECT_EQ(turned.passed + turned.disturbed + turned.lost, 0) << kind.name << " " << i;
       EXPECT_EQ(turned.most_error, shot.velocity ? 0 : no_most) << kind.name << " " << i;
     }
@@ -615,12 +539,12 @@ TEST(EngineStages, tell_who_passes_from_who_flies_away) {
 
 TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
   const StageKind& kind = stage_called("near_miss");
-  const StageShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
+  const EngineShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
   const auto off_by = [&](double share) {
     StageTally tally;
     EngineFlights::Flight flight = {shot.start};
     flight.back().front().velocity[1] += share * shot.velocity->norm();
-    judge(kind, shot, flight, tally);
+    judge(kind.stage(meter_cell), shot, flight, tally);
     return tally;
   };
   EXPECT_EQ(off_by(0.009).disturbed, 0);
@@ -633,14 +557,14 @@ TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
 
 TEST(EngineStages, along_a_wall_count_what_is_lost_along_it) {
   const StageKind& kind = stage_called("tiles");
-  const StageShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
+  const EngineShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
   StageTally tally;
   EngineFlights::Flight flight = {shot.start};
   flight.back().front().velocity = {0, shot.velocity->y(), 0};  // stopped by the wall, not along it
-  judge(kind, shot, flight, tally);
+  judge(kind.stage(meter_cell), shot, flight, tally);
   EXPECT_EQ(tally.disturbed, 0);
   flight.back().front().velocity[1] += 0.02 * shot.velocity->norm();
-  judge(kind, shot, flight, tally);
+  judge(kind.stage(meter_cell), shot, flight, tally);
   EXPECT_EQ(tally.disturbed, 1);
 }
 
@@ -648,7 +572,7 @@ TEST(EngineStages, are_played_without_fault_by_ours_where_it_sweeps_and_to_theor
   const EnginePlan plan = engine_plan(std::string("engine = ['thinwall']") + one_cell, 500);
   std::vector<StageRow> rows = played(plan);
   EXPECT_EQ(rows.size(), 4U * 7) << "four modes; no mesh";
-  EXPECT_TRUE(all_passed(self_test(own_counts(rows))));
+  EXPECT_TRUE(all_passed(self_test(own_counts({}, rows))));
   std::int64_t passed = 0;
   for (const StageRow& row : rows) {
     EXPECT_EQ(row.tally.shots, 500);
@@ -659,13 +583,13 @@ TEST(EngineStages, are_played_without_fault_by_ours_where_it_sweeps_and_to_theor
   for (StageRow& row : rows) {
     if (row.setup->mode.exact && row.kind->name == "near_miss") row.tally.disturbed = 1;
   }
-  EXPECT_FALSE(all_passed(self_test(own_counts(rows)))) << "one that is disturbed is too many";
+  EXPECT_FALSE(all_passed(self_test(own_counts({}, rows)))) << "one that is disturbed is too many";
 }
 
 /// Of two volleys, in the first of which a step took 2 us and in the second 4.
 TEST(EngineStages, take_as_long_a_step_as_the_volleys_say) {
   const EnginePlan plan = engine_plan(std::string("engine = ['thinwall']\nstage = ['head_on']") + one_cell);
-  std::vector<StageRow> rows = stage_rows(plan);
+  std::vector<StageRow> rows = plan.stages;
   StageTally fast, slow;
   fast.shots = slow.shots = 1000;
   fast.seconds = 2e-6 * static_cast<double>(1000 * rows[0].steps());

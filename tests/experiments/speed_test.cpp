@@ -106,7 +106,7 @@ TEST_F(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_res
   const std::string text = whole_text(result());
   EXPECT_TRUE(holds(text, "Left out: batch: it is not in the folder of the benchmarks"));
   EXPECT_TRUE(holds(text, "Left out: peers: without ODE: install"));
-  EXPECT_TRUE(holds(text, "; without Jolt: install nodejs and run `npm ci` in experiments/engines/npm"));
+  EXPECT_TRUE(holds(text, "; without Jolt: install nodejs and run `npm ci` in experiments/adapters/npm"));
   std::filesystem::remove(folder.path() / "peers");
   const std::string without = whole_text(result());
   EXPECT_TRUE(holds(without, "No other library took part."));

@@ -11,6 +11,6 @@ export default [
   { rules },
   { files: ['experiments/explorer/page/*.js'], languageOptions: { globals: globals.browser } },
   { files: ['experiments/explorer/page/worker.js'], languageOptions: { globals: globals.worker } },
-  { files: ['experiments/engines/npm/*.mjs'], languageOptions: { globals: globals.node } },
+  { files: ['experiments/adapters/npm/*.mjs'], languageOptions: { globals: globals.node } },
   { files: ['tests/explorer/*'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

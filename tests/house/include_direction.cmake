@@ -1,5 +1,5 @@
 # Reads the includes of the tree under ROOT and names, as file:line, each that breaks the rules of the house:
-# discrete <- capsule <- swept <- experiments, where lab, models and world stand below the experiments, none of which includes another, and
+# discrete <- capsule <- swept <- experiments, where lab, models, world and adapters stand below the experiments, none of which includes another, and
 # what the command line is made of above; one spelling, <thinwall/FOLDER/...>; no library but Eigen in the headers, and
 # Boost.Multiprecision in swept/certified alone, which nothing but swept/certified.hpp may include; Highway and oneTBB in the
 # sources of swept/batch alone, which nothing but swept/batch.hpp may include.
@@ -15,16 +15,18 @@ set(below_tests ${below_experiments})
 set(below_bench ${below_experiments})
 set(below_python ${below_experiments})
 # Under experiments/: what a room may include beside itself. A room that is not named is an experiment.
-set(below_experiment lab models world scenes)
+set(below_experiment lab models world adapters)
 set(below_lab "")
 set(below_models lab)
 set(below_world lab)
+set(below_adapters lab world)
 set(below_scenes lab world)
+set(below_compare lab world scenes)
 set(below_check lab)
 set(below_validate lab)
 set(below_advise lab models)
 set(below_explorer lab models advise)
-set(below_program lab models world scenes check validate advise explorer)
+set(below_program lab models world scenes compare check validate advise explorer)
 set(libraries_discrete "^(Eigen|boost/geometry)/")  # Boost.Geometry: the R-tree of the broad phase
 set(libraries_capsule "^Eigen/")
 set(libraries_swept "^Eigen/")

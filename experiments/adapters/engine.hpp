@@ -1,5 +1,5 @@
 #pragma once
-/// A physics engine as this experiment sees it: something that plays shots, each in a world of its own. An engine is one file, which
+/// A physics engine as an experiment sees it: something that plays shots, each in a world of its own. An engine is one file, which
 /// makes an `Engine`, and one line in the list below. Its own headers stay in that file.
 
 #include <array>
@@ -17,6 +17,7 @@
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/discrete/sphere.hpp>
 #include <thinwall/experiments/lab/race.hpp>
+#include <thinwall/experiments/lab/settings.hpp>
 
 namespace thinwall {
 
@@ -24,6 +25,7 @@ struct BodyState {
   Vec3<double> position;                     ///< [m] of the center
   Vec3<double> velocity;                     ///< [m/s]
   Vec3<double> spin = Vec3<double>::Zero();  ///< [rad/s]
+  bool is_finite() const { return position.allFinite() && velocity.allFinite(); }
 };
 
 /// Triangles by their corners, counterclockwise as seen from outside.
@@ -84,36 +86,38 @@ struct EngineMode {
   bool never_sweeps = false;  ///< so it does too, but what gives way follows no theory
   bool exact = false;         ///< it claims that no ball goes through: the self-test holds it to that
   EnginePlay play = nullptr;
-  bool plays_stages = false, has_meshes = false, turns = false;  ///< what it can play besides a ball at a wall
 };
 
 /// What the settings say of modes.
 struct EngineChoices {
-  std::vector<double> swept_radius;    ///< [1] > 0, of the ball's radius
-  double motion_threshold;             ///< [1] > 0, of the ball's radius
-  std::vector<std::int64_t> substeps;  ///< >= 2 poses a step
+  std::vector<double> swept_radius = {};    ///< [1] > 0, of the ball's radius
+  double motion_threshold = 0;              ///< [1] > 0, of the ball's radius
+  std::vector<std::int64_t> substeps = {};  ///< >= 2 poses a step
 };
 
 struct Engine {
-  std::string name;     ///< as in the settings: "bullet"
-  std::string called;   ///< by people: "Bullet"
-  std::string package;  ///< the package that brings it; empty for what is always there
-  std::string made_of;  ///< what of it makes a world, for the report; ends with a period
-  std::function<std::vector<EngineMode>(const EngineChoices&)> modes = nullptr;  ///< null: it is not there
+  std::string name;                    ///< as in the settings: "bullet"
+  std::string called;                  ///< by people: "Bullet"
+  std::string package;                 ///< the package that brings it; empty for what is always there
+  std::string made_of;                 ///< what of it makes a world, for the report; ends with a period
+  std::vector<EngineMode> modes = {};  ///< none: it is not there
+  bool plays_stages = false;           ///< not only a ball at a wall
+  bool has_meshes = false;
   double most_path = std::numeric_limits<double>::infinity();  ///< [m] it moves nothing further in a step
   std::string why_most_path = {};                              ///< ... and what in it says so
 
-  std::string version = {};    ///< of the package, where the engine knows it
+  std::string version = {};    ///< of the package
   std::string integrity = {};  ///< its hash, as the lock file of what is installed has it: "sha512-..."
-  std::string remedy = {};     ///< what brings it, an imperative; empty: its Debian package and a build option
+  std::string remedy = {};     ///< what brings it, an imperative
 
-  bool is_there() const { return modes != nullptr; }
+  bool is_there() const { return !modes.empty(); }
 };
 
-/// An engine is a line here, and a file of its own that defines this function.
+/// An engine is a line here, and a file of its own that defines this function. Version and remedy, where it leaves them out, are those
+/// of what the program was built with.
 #define THINWALL_ENGINES(line) line(bullet_engine) line(ode_engine) line(box2d_engine) line(own_engine)
 
-#define THINWALL_DECLARE_ENGINE(make) Engine make();
+#define THINWALL_DECLARE_ENGINE(make) Engine make(const EngineChoices& choices);
 THINWALL_ENGINES(THINWALL_DECLARE_ENGINE)
 #undef THINWALL_DECLARE_ENGINE
 
@@ -122,7 +126,23 @@ THINWALL_ENGINES(THINWALL_DECLARE_ENGINE)
 std::vector<Engine> npm_engines(const std::filesystem::path& scripts);
 std::vector<Engine> npm_engines();  ///< of the source tree's, in a build with peers
 
-/// Every engine that this experiment knows, in the program or not.
-std::vector<Engine> engine_list();
+/// Every engine, in the program or not; ours is last.
+std::vector<Engine> engine_list(const EngineChoices& choices = {});
+
+/// An engine in one of its modes.
+struct EngineSetup {
+  Engine engine;
+  EngineMode mode;
+  std::string label() const { return engine.called + " " + mode.name; }  ///< for people
+  bool is_ours() const { return engine.package.empty(); }
+};
+
+struct ChosenEngines {
+  std::vector<EngineSetup> setups;
+  std::vector<std::string> missing;  ///< what "all" asks for and is not in the program, and what brings it: a line each
+};
+
+/// Every mode of the engines that the settings name. Throws UsageError.
+ChosenEngines choose_engines(const Settings& settings);
 
 }  // namespace thinwall

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine.hpp>
+#include <thinwall/experiments/adapters/engine.hpp>
 
 #ifdef THINWALL_HAS_BOX2D
 #include <box2d/box2d.h>
@@ -61,28 +61,22 @@ EngineMode box2d_mode(std::string name, std::string what, bool continuous, bool 
           .play = played_in<Box2dWorld>(continuous, bullet)};
 }
 
-std::vector<EngineMode> box2d_modes(const EngineChoices&) {
-  return {box2d_mode("discrete", "SetContinuousPhysics(false)", false, false),
-          box2d_mode("continuous", "as it comes: what moves is swept against what stays", true, false),
-          box2d_mode("bullet", "the ball's bullet flag is set", true, true)};
-}
-
-#else
-
-constexpr std::vector<EngineMode> (*box2d_modes)(const EngineChoices&) = nullptr;
-
 #endif
 
 }  // namespace
 
-Engine box2d_engine() {
+Engine box2d_engine(const EngineChoices&) {
   return {.name = "box2d",
           .called = "Box2D",
           .package = "libbox2d-dev",
           .made_of =
               "b2World in the plane of motion, 8 velocity and 3 position iterations, a circle and a static polygon, in "
               "float and in meters. Its polygons have a skin of 1 cm.",
-          .modes = box2d_modes,
+#ifdef THINWALL_HAS_BOX2D
+          .modes = {box2d_mode("discrete", "SetContinuousPhysics(false)", false, false),
+                    box2d_mode("continuous", "as it comes: what moves is swept against what stays", true, false),
+                    box2d_mode("bullet", "the ball's bullet flag is set", true, true)},
+#endif
           .most_path = 2,
           .why_most_path = "b2_maxTranslation"};
 }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -13,8 +12,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thinwall/experiments/engines/engine.hpp>
-#include <thinwall/experiments/engines/speaker.hpp>
+#include <thinwall/experiments/adapters/engine.hpp>
+#include <thinwall/experiments/adapters/speaker.hpp>
 
 #ifndef THINWALL_NPM_ENGINES
 #define THINWALL_NPM_ENGINES ""  // the folder of the scripts
@@ -29,76 +28,81 @@ using nlohmann::json;
 
 constexpr double seconds_to_start = 60, seconds_a_volley = 120;
 
-struct NpmEngine {
-  Engine engine;  ///< its name is the script's, too
-  bool has_meshes;
-  std::vector<EngineMode> modes;  ///< but for how they play
-};
-
-/// What it comes with and what its own documentation has for fast bodies; the scripts set it. Skins are the engines' own: of
-/// Rapier's prediction, Jolt's speculative distance, Box2D's four slops, PhysX's contact offset of either body.
-const std::vector<NpmEngine>& list() {
-  static const std::vector<NpmEngine> all = {
-      {{"rapier", "Rapier", "@dimforge/rapier3d-compat",
-        "A World with a fixed cuboid and a ball, in float, in WebAssembly."},
-       true,
-       {{"discrete", "World.maxCcdSubsteps = 0, without which it sweeps bodies that do not ask for it", 1, 0.02},
-        {"default", "as it comes"},
-        {"ccd", "RigidBodyDesc.setCcdEnabled(true), which its guide has for fast bodies"},
-        {"soft_ccd", "RigidBodyDesc.setSoftCcdPrediction(path of a step), World.maxCcdSubsteps = 0"}}},
-      {{"jolt", "Jolt", "jolt-physics",
-        "A PhysicsSystem with a static box and a sphere, in float, in WebAssembly; its speed limit of 500 m/s raised."},
-       true,
-       {{"discrete", "EMotionQuality_Discrete, as a body comes", 1, 0.02},
-        {"linear_cast", "EMotionQuality_LinearCast, which its documentation has for small fast bodies"}}},
-      {{"physx", "PhysX", "physx-js-webidl",
-        "A PxScene with a static box and a sphere, in float, in WebAssembly; its meshes are not built here."},
-       false,
-       {{"discrete", "as it comes", 1, 0.04},
-        {"swept",
-         "eENABLE_CCD of scene and body and eDETECT_CCD_CONTACT of the pair, which its guide has for fast bodies"},
-        {"speculative", "PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD"}}},
-      {{"havok", "Havok", "@babylonjs/havok",
-        "A world with a static box and a sphere, in float, in WebAssembly; its speed limit raised."},
-       true,
-       {{"default", "as it comes: it sweeps every body, and has no switch for that"}}},
-      {{"mujoco", "MuJoCo", "@mujoco/mujoco",
-        "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous "
-        "detection. Its meshes are convex hulls, which a flat one is not."},
-       false,
-       {{"default", "solref and solimp as they come, which take the speed away", 1, 0},
-        {"elastic", "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps", 0, 0,
-         true}}},
-      {{"box2d3", "Box2D 3", "box2d3-wasm",
-        "A b2World with a static box and a circle, in the plane, in float, in WebAssembly; its speed limit of 400 m/s raised."},
-       false,
-       {{"discrete", "b2WorldDef.enableContinuous = false", 1, 0.02},
-        {"continuous", "as it comes: what moves is swept against what is fixed"},
-        {"bullet", "b2BodyDef.isBullet = true, which its manual has for fast bodies"}}}};
-  return all;
+/// But for how they play. The modes are what it comes with and what its own documentation has for fast bodies; the scripts set them.
+/// Skins are the engines' own: of Rapier's prediction, Jolt's speculative distance, Box2D's four slops, PhysX's contact offset of
+/// either body.
+std::vector<Engine> known_engines() {
+  return {
+      {.name = "rapier",
+       .called = "Rapier",
+       .package = "@dimforge/rapier3d-compat",
+       .made_of = "A World with a fixed cuboid and a ball, in float, in WebAssembly.",
+       .modes = {{"discrete", "World.maxCcdSubsteps = 0, without which it sweeps bodies that do not ask for it", 1,
+                  0.02},
+                 {"default", "as it comes"},
+                 {"ccd", "RigidBodyDesc.setCcdEnabled(true), which its guide has for fast bodies"},
+                 {"soft_ccd", "RigidBodyDesc.setSoftCcdPrediction(path of a step), World.maxCcdSubsteps = 0"}},
+       .has_meshes = true},
+      {.name = "jolt",
+       .called = "Jolt",
+       .package = "jolt-physics",
+       .made_of =
+           "A PhysicsSystem with a static box and a sphere, in float, in WebAssembly; its speed limit of 500 m/s raised.",
+       .modes = {{"discrete", "EMotionQuality_Discrete, as a body comes", 1, 0.02},
+                 {"linear_cast", "EMotionQuality_LinearCast, which its documentation has for small fast bodies"}},
+       .has_meshes = true},
+      {.name = "physx",
+       .called = "PhysX",
+       .package = "physx-js-webidl",
+       .made_of = "A PxScene with a static box and a sphere, in float, in WebAssembly; its meshes are not built here.",
+       .modes =
+           {{"discrete", "as it comes", 1, 0.04},
+            {"swept",
+             "eENABLE_CCD of scene and body and eDETECT_CCD_CONTACT of the pair, which its guide has for fast bodies"},
+            {"speculative", "PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD"}}},
+      {.name = "havok",
+       .called = "Havok",
+       .package = "@babylonjs/havok",
+       .made_of = "A world with a static box and a sphere, in float, in WebAssembly; its speed limit raised.",
+       .modes = {{"default", "as it comes: it sweeps every body, and has no switch for that"}},
+       .has_meshes = true},
+      {.name = "mujoco",
+       .called = "MuJoCo",
+       .package = "@mujoco/mujoco",
+       .made_of =
+           "A model of a box and a free sphere, in double, in WebAssembly. Its contacts are springs; it has no continuous "
+           "detection. Its meshes are convex hulls, which a flat one is not.",
+       .modes = {{"default", "solref and solimp as they come, which take the speed away", 1, 0},
+                 {"elastic",
+                  "solref = \"-K 0\", which its documentation has for a bounce: K so that one takes two steps", 0, 0,
+                  true}}},
+      {.name = "box2d3",
+       .called = "Box2D 3",
+       .package = "box2d3-wasm",
+       .made_of =
+           "A b2World with a static box and a circle, in the plane, in float, in WebAssembly; its speed limit of 400 m/s raised.",
+       .modes = {{"discrete", "b2WorldDef.enableContinuous = false", 1, 0.02},
+                 {"continuous", "as it comes: what moves is swept against what is fixed"},
+                 {"bullet", "b2BodyDef.isBullet = true, which its manual has for fast bodies"}}}};
 }
 
-json read_json(const fs::path& file) {
+/// What a file of JSON says there; empty if that is no text.
+std::string text_in(const fs::path& file, const json::json_pointer& path) {
   std::ifstream in(file);
-  return json::parse(in, nullptr, false);
-}
-
-/// Empty if no text stands there.
-std::string text_in(const json& value, const json::json_pointer& path) {
+  const json value = json::parse(in, nullptr, false);
   return value.contains(path) && value.at(path).is_string() ? value.at(path).get<std::string>() : "";
 }
 
 /// The version that package.json asks for, if npm has brought it.
 std::string installed_version(const fs::path& scripts, const std::string& package) {
-  const json asked = read_json(scripts / "package.json"),
-             there = read_json(scripts / "node_modules" / package / "package.json");
-  const std::string version = text_in(there, json::json_pointer("/version"));
-  return text_in(asked, json::json_pointer("/dependencies") / package) == version ? version : "";
+  const std::string version =
+      text_in(scripts / "node_modules" / package / "package.json", json::json_pointer("/version"));
+  return text_in(scripts / "package.json", json::json_pointer("/dependencies") / package) == version ? version : "";
 }
 
 /// What npm noted, when it brought the package, of what it had checked it against.
 std::string integrity(const fs::path& scripts, const std::string& package) {
-  return text_in(read_json(scripts / "node_modules" / ".package-lock.json"),
+  return text_in(scripts / "node_modules" / ".package-lock.json",
                  json::json_pointer("/packages") / ("node_modules/" + package) / "integrity");
 }
 
@@ -209,42 +213,26 @@ class NpmProcesses {
   bool failed_ = false;
 };
 
-NpmProcesses& processes_of(const std::string& name, const fs::path& scripts) {
-  static std::mutex mutex;
-  static std::map<std::pair<fs::path, std::string>, NpmProcesses> all;
-  const std::scoped_lock lock(mutex);
-  return all.try_emplace({scripts, name}, name, scripts).first->second;
-}
-
-std::vector<EngineMode> modes_of(const NpmEngine& engine, const fs::path& scripts) {
-  std::vector<EngineMode> modes;
-  for (EngineMode mode : engine.modes) {
-    mode.play = [name = engine.engine.name, of = mode.name, scripts](
-                    const EngineStage& stage, std::span<const EngineStart> starts, std::int64_t steps) {
-      return processes_of(name, scripts).play(of, stage, starts, steps);
-    };
-    mode.has_meshes = engine.has_meshes;
-    mode.plays_stages = mode.turns = true;
-    modes.push_back(std::move(mode));
-  }
-  return modes;
-}
-
 }  // namespace
 
 std::vector<Engine> npm_engines() { return npm_engines(THINWALL_NPM_ENGINES); }
 
 std::vector<Engine> npm_engines(const fs::path& scripts) {
-  std::vector<Engine> engines;
-  for (const NpmEngine& one : list()) {
-    Engine engine = one.engine;
+  std::vector<Engine> engines = known_engines();
+  for (Engine& engine : engines) {
     engine.version = scripts.empty() ? "" : installed_version(scripts, engine.package);
-    engine.made_of += fmt::format(" Version {} of {}.", engine.version, engine.package);
     engine.integrity = integrity(scripts, engine.package);
-    engine.remedy = "run `npm ci` in experiments/engines/npm, configure with -DTHINWALL_PEERS=ON";
-    if (!engine.version.empty())
-      engine.modes = [&one, scripts](const EngineChoices&) { return modes_of(one, scripts); };
-    engines.push_back(std::move(engine));
+    engine.made_of += fmt::format(" Version {} of {}.", engine.version, engine.package);
+    engine.plays_stages = true;
+    engine.remedy = "run `npm ci` in experiments/adapters/npm, configure with -DTHINWALL_PEERS=ON";
+    if (engine.version.empty()) engine.modes.clear();
+    const auto processes = std::make_shared<NpmProcesses>(engine.name, scripts);
+    for (EngineMode& mode : engine.modes) {
+      mode.play = [processes, name = mode.name](const EngineStage& stage, std::span<const EngineStart> starts,
+                                                std::int64_t steps) {
+        return processes->play(name, stage, starts, steps);
+      };
+    }
   }
   return engines;
 }

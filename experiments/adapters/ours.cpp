@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine.hpp>
+#include <thinwall/experiments/adapters/engine.hpp>
 
 #include <stdexcept>
 #include <type_traits>
@@ -57,15 +57,11 @@ EngineMode own_mode(std::string what, TimePolicy policy, int substeps = 1) {
   WorldOptions options;
   options.policy = policy;
   options.substeps = substeps;
-  std::string name(name_of(policy));
-  if (policy == TimePolicy::substeps) name += fmt::format("_{}", substeps);
-  return {.name = std::move(name),
+  return {.name = name_of(policy, substeps),
           .what = std::move(what),
           .poses_per_step = sweeps(policy) ? 0 : substeps,
           .exact = sweeps(policy),
-          .play = played_in<OwnWorld>(options),
-          .plays_stages = true,
-          .turns = true};
+          .play = played_in<OwnWorld>(options)};
 }
 
 std::vector<EngineMode> own_modes(const EngineChoices& choices) {
@@ -81,12 +77,13 @@ std::vector<EngineMode> own_modes(const EngineChoices& choices) {
 
 }  // namespace
 
-Engine own_engine() {
+Engine own_engine(const EngineChoices& choices) {
   return {.name = "thinwall",
           .called = "thinwall",
           .package = {},
           .made_of = "World with each of its time policies, in double.",
-          .modes = own_modes};
+          .modes = own_modes(choices),
+          .plays_stages = true};
 }
 
 }  // namespace thinwall

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine.hpp>
+#include <thinwall/experiments/adapters/engine.hpp>
 
 #ifdef THINWALL_HAS_BULLET
 #include <algorithm>
@@ -110,20 +110,20 @@ std::vector<EngineMode> bullet_modes(const EngineChoices& choices) {
 
 #else
 
-constexpr std::vector<EngineMode> (*bullet_modes)(const EngineChoices&) = nullptr;
+std::vector<EngineMode> bullet_modes(const EngineChoices&) { return {}; }
 
 #endif
 
 }  // namespace
 
-Engine bullet_engine() {
+Engine bullet_engine(const EngineChoices& choices) {
   return {.name = "bullet",
           .called = "Bullet",
           .package = "libbullet-dev",
           .made_of =
               "btDiscreteDynamicsWorld with the default collision configuration, the dynamic tree and the sequential "
               "impulse solver, a btSphereShape and a static btBoxShape, in float.",
-          .modes = bullet_modes};
+          .modes = bullet_modes(choices)};
 }
 
 }  // namespace thinwall

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/speaker.hpp>
+#include <thinwall/experiments/adapters/speaker.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/scenes/scene.hpp>
+#include <thinwall/experiments/compare/compare.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,22 +22,6 @@
 namespace thinwall {
 
 constexpr double most_exact_steps = 1e7;  // of one run
-
-std::string Contender::label() const {
-  std::string text(name_of(policy));
-  if (policy == TimePolicy::substeps) text += fmt::format("_{}", substeps);
-  return text;
-}
-
-CompareKeys read_compare_keys(const Settings& settings) {
-  CompareKeys keys;
-  keys.policies = settings.choices("compare.policy", policy_names);
-  keys.steps = settings.numbers("compare.dt", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "s"});
-  std::sort(keys.steps.begin(), keys.steps.end());
-  keys.finer = static_cast<int>(settings.integer("compare.finer", 1, 1000));
-  keys.repeats = static_cast<int>(settings.integer("compare.repeats", 1, 100));
-  return keys;
-}
 
 Comparison read_comparison(const Settings& settings, const RunOptions& options) {
   Comparison out;
@@ -70,7 +54,7 @@ Scene scene_for(const Comparison& comparison, const Contender& contender) {
 }
 
 std::optional<double> Trial::met(std::uint32_t first, std::uint32_t second) const {
-  const auto ids = [](const FirstMeeting& m) { return std::pair(m.first, m.second); };
+  const auto ids = [](const Meeting& m) { return std::pair(m.first, m.second); };
   const auto found = std::ranges::lower_bound(meetings, std::pair(first, second), {}, ids);
   return found != meetings.end() && ids(*found) == std::pair(first, second) ? std::optional(found->time) : std::nullopt;
 }

@@ -1,4 +1,4 @@
-#include <thinwall/experiments/engines/engine.hpp>
+#include <thinwall/experiments/adapters/engine.hpp>
 
 #ifdef THINWALL_HAS_ODE
 #include <array>
@@ -81,19 +81,11 @@ class OdeWorld {
   dBodyID ball_ = dBodyCreate(world_);
 };
 
-std::vector<EngineMode> ode_modes(const EngineChoices&) {
-  return {{.name = "discrete", .what = "as it comes", .poses_per_step = 1, .play = played_in<OdeWorld>()}};
-}
-
-#else
-
-constexpr std::vector<EngineMode> (*ode_modes)(const EngineChoices&) = nullptr;
-
 #endif
 
 }  // namespace
 
-Engine ode_engine() {
+Engine ode_engine(const EngineChoices&) {
   return {
       .name = "ode",
       .called = "ODE",
@@ -101,7 +93,10 @@ Engine ode_engine() {
       .made_of =
           "dWorldStep with a dContactBounce joint for each contact (bounce 1, no friction) and the world's own error "
           "reduction, a sphere and a box without a body. It has no continuous detection.",
-      .modes = ode_modes};
+#ifdef THINWALL_HAS_ODE
+      .modes = {{.name = "discrete", .what = "as it comes", .poses_per_step = 1, .play = played_in<OdeWorld>()}},
+#endif
+  };
 }
 
 }  // namespace thinwall
