@@ -117,8 +117,9 @@ std::string pushed_through(const Advice& advice) {
 std::string at_slower_spins(const Advice& advice) {
   const std::optional<double>& longest = advice.advised()->longest_step;
   if (!advice.wish.rod || (longest && *longest >= advice.wish.cell.step)) return "";
-  return longest ? fmt::format(" At slower spins it does up to steps of {} s.", rounded_down_text(*longest, 4))
-                 : " At slower spins it does at no step.";
+  return longest
+             ? fmt::format(" At any slower spin it meets the wish up to steps of {} s.", rounded_down_text(*longest, 4))
+             : " At some slower spin it meets the wish at no step.";
 }
 
 /// What would become of the simplest method.

@@ -71,7 +71,7 @@ const char* offer(const auto& methods, std::initializer_list<Given> factors) {
   std::size_t steps = 0;
   for (const auto& method : methods) {
     const MethodLook* look = look_of(method.name);
-    const int mark = look == nullptr ? 6 : look->name == "substeps" ? substeps_marks[steps++] : look->point_type;
+    const int mark = look == nullptr ? 6 : look->name == "substeps" ? substeps_mark(steps++) : look->point_type;
     all["methods"].push_back(
         {{"name", method.name}, {"color", look == nullptr ? "#767676" : look->color}, {"mark", mark}});
   }

@@ -305,7 +305,7 @@ std::string ray_answer(const Rows& rows) {
   }
   if (half == never) return "";
   return fmt::format(
-      "The flight time decides: by theory the ray of a bullet without radius misses 5 % of its hits from {} s on and half from {} s on.",
+      "The flight time decides: by theory the ray of a bullet without radius misses 5 % of its hits from {} s on at the earliest, and half from {} s on.",
       rounded_text(few, 2), rounded_text(half, 2));
 }
 

@@ -143,7 +143,7 @@ void set_look(std::vector<SeriesStyle>& styles) {
     if (look == nullptr) continue;
     style.color = look->color;
     style.point_type = style.label.ends_with(" float") ? look->filled : look->point_type;
-    if (look->name == "substeps") style.point_type = substeps_marks[steps++ % substeps_marks.size()];
+    if (look->name == "substeps") style.point_type = substeps_mark(steps++);
   }
   std::size_t lines = 0, colors = 0;
   for (SeriesStyle& style : styles) {
@@ -156,7 +156,8 @@ void set_look(std::vector<SeriesStyle>& styles) {
         return &other != &style && other.has_points && other.point_type == style.point_type &&
                (tries < point_types.size() ? !other.color.empty() : other.color == style.color);
       };
-      if (tries > palette.size() * point_types.size() || !style.has_points || std::ranges::none_of(styles, is_taken))
+      if (tries > (palette.size() + 1) * point_types.size() || !style.has_points ||
+          std::ranges::none_of(styles, is_taken))
         break;
     }
     if (!style.has_points) ++lines;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace thinwall {
@@ -22,8 +23,11 @@ inline constexpr std::array method_looks = {
     MethodLook{"closed_form", "#0072B2", 6, 7},
 };
 
-/// The marks of substeps_2, substeps_8, ... where several are drawn: in one color.
-inline constexpr std::array substeps_marks = {8, 10, 3, 9, 11};
+/// The mark of the k-th of substeps_2, substeps_8, ... where several are drawn: in one color.
+inline int substeps_mark(std::size_t k) {
+  constexpr std::array marks = {8, 10, 3, 9, 11};
+  return marks[k % marks.size()];
+}
 
 /// Of `closed_form`, `closed_form float` or `substeps_16`; of a label that is no method's, nothing.
 inline const MethodLook* look_of(std::string_view label) {

@@ -226,7 +226,7 @@ template <class R, class A, class B> Problem<R> pose(const Moving<A>& a, const M
 
 /// The separation at one time, and how fast it falls.
 template <class R> struct Gap {
-  R core = 0;     ///< [length] distance between the cores; 0 once they meet
+  R core = 0;     ///< [length] distance between the cores; 0 once they meet, or less: see signed_gap_at
   R closing = 0;  ///< [length] per step; > 0 while the cores come nearer
   R scale = 0;  ///< [length] sum |n_i| (|cA| + |cB| + h + t (|vA| + |vB|))_i + reach: what one round-off is measured by
 };
@@ -254,20 +254,40 @@ template <class R> Gap<R> gap_at(const Problem<R>& problem, const R& time, const
   return gap;
 }
 
-/// Calls look(n) with the unit normals, both ways, of the faces of the cores' difference: of every two of its edges.
-template <class R, class Look> void for_each_face(const Problem<R>& problem, const Look& look) {
-  using std::sqrt;
+/// Of the cores' difference.
+template <class R> std::vector<Vec<R>> edges_of(const Problem<R>& problem) {
   std::vector<Vec<R>> edges = problem.generators;
   for (std::size_t i = 0; i < problem.corners.size(); ++i)
     edges.push_back(combination(R(1), problem.corners[(i + 1) % 3], R(-1), problem.corners[i]));
+  return edges;
+}
+
+/// Calls look(n) with the unit normals, both ways, of every two edges that are not parallel to rounding.
+template <class R, class Look> void for_each_face(const std::vector<Vec<R>>& edges, const Look& look) {
+  using std::sqrt;
+  const R least = 64 * std::numeric_limits<R>::epsilon();  // [1] sine
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = i + 1; j < edges.size(); ++j) {
       const Vec<R> n = cross(edges[i], edges[j]);
       const R length = sqrt(dot(n, n));
-      if (length == 0) continue;
+      if (!(length > least * sqrt(dot(edges[i], edges[i]) * dot(edges[j], edges[j])))) continue;
       for (const R& part : {R(R(1) / length), R(R(-1) / length)}) look(Vec<R>{n[0] * part, n[1] * part, n[2] * part});
     }
   }
+}
+
+/// True if three of the edges span a volume, by more than rounding: what is flat, or a line, has no inside.
+template <class R> bool has_inside(const std::vector<Vec<R>>& edges) {
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const R volume = dot(cross(edges[i], edges[j]), edges[k]);
+        const R squares = dot(edges[i], edges[i]) * dot(edges[j], edges[j]) * dot(edges[k], edges[k]);
+        if (volume * volume > std::numeric_limits<R>::epsilon() * squares) return true;
+      }
+    }
+  }
+  return false;
 }
 
 /// The same, but of cores that meet, and whose difference has an inside, `core` is less than 0: the least translation that parts them. Beside
@@ -275,13 +295,15 @@ template <class R, class Look> void for_each_face(const Problem<R>& problem, con
 template <class R> Gap<R> signed_gap_at(const Problem<R>& problem, const R& time, const R& tolerance) {
   const Gap<R> gap = gap_at(problem, time, tolerance);
   if (gap.core * gap.core > tolerance * gap.scale * gap.scale) return gap;
+  const std::vector<Vec<R>> edges = edges_of(problem);
+  if (!has_inside(edges)) return gap;
   const Vec<R> at = combination(R(1), problem.offset, time, problem.motion);
   std::optional<Gap<R>> nearest;
-  for_each_face(problem, [&](const Vec<R>& n) {
+  for_each_face(edges, [&](const Vec<R>& n) {
     const R core = dot(n, at) - problem.support(n);
     if (!nearest || core > nearest->core) nearest = {core, R(-dot(n, problem.motion)), problem.scale(time, n)};
   });
-  return nearest && !(nearest->core > 0) ? *nearest : gap;
+  return nearest->core > 0 ? gap : *nearest;
 }
 
 using Verdict = ToiStatus;  ///< apart, hit or overlapping
@@ -321,8 +343,11 @@ template <class R> Impact<R> first_contact(const Problem<R>& problem, const R& g
       };
       const R touch = 4096 * tolerance;  // where cores touch to the last digits the side they do it from is rounding:
       bool touches = round > 0 && reaches(gap, touch);
-      for (int k = 20; k <= 100 && round > 0 && !touches; k += 20)  // what comes next tells
-        touches = reaches(signed_gap_at(problem, R(time + ldexp(R(1), -k)), tolerance), R(-touch));
+      const bool may_meet = round > 0 && gap.core * gap.core <= tolerance * gap.scale * gap.scale;
+      for (int k = 20; k <= 100 && may_meet && !touches; k += 20) {  // what comes next tells
+        const R later = time + ldexp(R(1), -k);
+        touches = reaches(signed_gap_at(problem, later < 1 ? later : R(1), tolerance), R(-touch));
+      }
       return touches ? hit(time) : impact;
     }
     conditioning = gap.scale / gap.closing;

@@ -174,13 +174,16 @@ Panel gate_panel(const std::vector<GateRow>& rows, GateTarget target) {
   const std::string name = gate_target_name(target);
   Plot points = plot(columns_of<GateRow>(gate_columns(), label), rows);
   points.where("target", name).x("path", Axis::log, "path of a step [radii]").by("series");
-  const double shortest = std::ranges::min(rows, {}, path_of).cell.path;
+  const double shortest = std::ranges::min(rows, {}, path_of).cell.path,
+               longest = std::ranges::max(rows, {}, path_of).cell.path;
   for (const double gate : distinct(rows, gate_of)) {
     if (gate <= shortest) continue;
     points.curve(
         "theory, up to the gate",
-        [=](double path) { return missed_by_gate({.target = target, .path = std::min(path, gate), .gate = gate}); },
-        shortest, gate);
+        [=](double path) {  // whose last may round to beyond the gate
+          return missed_by_gate({.target = target, .path = std::min(path, gate), .gate = gate});
+        },
+        shortest, std::min(gate, longest));
   }
   return points.y("missed_share", Axis::linear, fmt::format("missed, of shots at a {} [1]", name));
 }

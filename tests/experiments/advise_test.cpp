@@ -494,6 +494,16 @@ TEST(RodAdvice, what_hits_falsely_is_not_advised) {
   EXPECT_TRUE(holds(advice_sentence(advice), " methods here that meet the wish without false hits."));
 }
 
+TEST(RodAdvice, says_of_poses_that_they_do_at_their_own_spin) {
+  const Wish wish = {.cell = {20, 1.0 / 60, 0.02, 0.01, 0}, .rod = TumblingRod{0.6, 1800}};
+  const std::vector<Candidate> all = rod_candidates(wish);
+  std::vector<StepCost> costs;
+  for (const Candidate& c : all) costs.push_back(costing(c.poses > 0 ? 1 : 100));
+  const Advice advice = advise(wish, all, costs);
+  EXPECT_LT(*advice.advised()->longest_step, wish.cell.step);
+  EXPECT_TRUE(holds(advice_sentence(advice), " At any slower spin it meets the wish up to steps of 0.01 s."));
+}
+
 /// A rod whose ends are no faster than it flies touches over one stretch: short steps see it in time, whatever the step. Without spin a sweep is
 /// exact.
 TEST(RodAdvice, a_slow_spin_leaves_a_longest_step_and_sweeps_true) {

@@ -160,6 +160,39 @@ TEST(Extremes, the_end_of_the_step_misses_a_thin_wall_and_the_closed_form_does_n
   EXPECT_EQ(tally_of("sphere_aabb", in_double, place, 12, "closed_form").wrong, 0);
 }
 
+template <class A, class B> double core_gap_by_oracle(const A& a, const B& b) {
+  const auto problem = oracle::pose<Digits50>(at_rest(a), at_rest(b));
+  return static_cast<double>(oracle::signed_gap_at(problem, Digits50(0), Digits50(ldexp(Digits50(1), -140))).core);
+}
+
+TEST(ExtremesOracle, knows_how_deep_cores_overlap) {
+  const Aabb<double> cube{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_NEAR(core_gap_by_oracle(cube, Aabb<double>{{0.5, 0.25, 0}, {1, 1, 1}}), -1.5, 1e-15);
+  EXPECT_NEAR(core_gap_by_oracle(cube, Sphere<double>{{0, -0.75, 0}, 7}), -0.25, 1e-15);
+  const Triangle<double> flat{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}};
+  EXPECT_NEAR(core_gap_by_oracle(flat, Capsule<double>{{0, 0, -1}, {0, 0, 1}, 7}), -std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(core_gap_by_oracle(flat, Sphere<double>{{0, 0, 0}, 7}), 0) << "it has no inside";
+  EXPECT_NEAR(core_gap_by_oracle(flat, Sphere<double>{{-1 - 0x1p-40, 0, 0}, 0}), 0x1p-40, 1e-25)
+      << "nor beside its edge";
+  const Capsule<double> rod{{-1, 0, 0}, {1, 0, 0}, 0};
+  EXPECT_NEAR(core_gap_by_oracle(rod, Capsule<double>{{1 + 0x1p-40, -1, 0}, {1 + 0x1p-40, 1, 0}, 0}), 0x1p-40, 1e-25);
+}
+
+/// Where they touch the nearest point has half of the digits that the sine of their edges leaves.
+TEST(ExtremesOracle, sees_boxes_meet_whose_edges_are_nearly_parallel) {
+  for (int k = 1; k <= 60; ++k) {
+    const double tilt = std::ldexp(1.0, -25 - k % 25), aside = 0.03 * k;
+    Mat3<double> axes = Mat3<double>::Identity();
+    axes.col(0) = safe_unit<double>({1, tilt, 0});
+    axes.col(1) = safe_unit<double>({-tilt, 1, 0});
+    const Moving<Obb<double>> box{{{3, aside, 0.2}, {1, 1, 1}, axes}, {-2, 0, 0.01}};
+    const auto problem = oracle::pose<Digits50>(box, at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}}));
+    const auto found = oracle::first_contact(problem, Digits50(0), Digits50(ldexp(Digits50(1), -140)));
+    EXPECT_EQ(found.verdict, oracle::Verdict::hit) << k;
+    EXPECT_NEAR(static_cast<double>(found.time), 0.5, 1e-6) << k;
+  }
+}
+
 /// A box of 1e-12 of the other's size: its oracle needs more than 50 digits.
 TEST(Extremes, the_oracle_is_right_about_very_unequal_boxes) {
   const ExtremeTally tally = tally_of("obb_obb", in_double, {ExtremeAxis::ratio, 1e-12}, 24, "closed_form");

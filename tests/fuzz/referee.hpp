@@ -82,7 +82,7 @@ template <class R> class Referee {
     State best;
     R margin = 0;
     bool found = false;
-    oracle::for_each_face(problem_, [&](const Vec& n) {
+    oracle::for_each_face(oracle::edges_of(problem_), [&](const Vec& n) {
       const R distance = oracle::dot(n, offset) - problem_.support(n), scale = problem_.scale(time, n);
       const R here = over(R(distance - problem_.reach), scale);
       if (!found || here > margin) margin = here;

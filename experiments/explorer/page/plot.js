@@ -21,7 +21,7 @@ export function svg(name, attributes, ...children) {
 /** By gnuplot's numbers, as in the figures: a path around (0, 0), 5 pixels wide either way. @type {Record<number, string>} */
 const marks = {
   1: 'M-5 0H5M0-5V5', 2: 'M-4-4 4 4M-4 4 4-4', 4: 'M-4-4H4V4H-4Z', 6: 'M-4.5 0A4.5 4.5 0 1 0 4.5 0A4.5 4.5 0 1 0-4.5 0Z',
-  8: 'M0-5 5 4H-5Z', 10: 'M0 5 5-4H-5Z', 12: 'M0-5.5 5.5 0 0 5.5-5.5 0Z',
+  3: 'M-5 0H5M0-5V5M-4-4 4 4M-4 4 4-4', 8: 'M0-5 5 4H-5Z', 10: 'M0 5 5-4H-5Z', 12: 'M0-5.5 5.5 0 0 5.5-5.5 0Z',
 };
 
 /** @param {{ color: string, mark?: number }} look @param {number} x @param {number} y */

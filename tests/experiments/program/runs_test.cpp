@@ -86,6 +86,7 @@ TEST_F(ToyRunTest, reports_a_failed_self_test) {
   EXPECT_EQ(run().status, 1) << "and still does when asked again";
   EXPECT_EQ(call({"report", out, "--check"}).out, out + ": whole, but its self-test failed: do not cite its numbers\n");
   EXPECT_EQ(nlohmann::json::parse(call({"report", out, "--check", "--json"}).out).at("self_test_passed"), false);
+  expect_reply(call({"cite", out}), 0, {"its self-test failed: do not cite its numbers\n"});
 }
 
 TEST_F(ToyRunTest, draws_no_figure_where_gnuplot_is_absent_and_says_so) {
