@@ -77,7 +77,9 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
   TurningInstant<T> now = instant(pair, pair.first);
   const auto past_orbits = [&](const TurningInstant<T>& next, const Vec3<T>& normal) {
     if (next.time >= T(1) || !(pair.turn > many_turns)) return next;
-    const T until = orbits_apart_until(pair, now, normal);
+    T until = orbits_apart_until(pair, now, normal);
+    for (const Vec3<T>& axis : {pair.a.axis, pair.b.axis})  // the disc of what turns about it is flat
+      until = std::max(until, orbits_apart_until<T>(pair, now, normal.dot(axis) < T(0) ? Vec3<T>(-axis) : axis));
     return until > next.time ? instant(pair, until >= pair.last ? T(1) : until) : next;  // and free ever after
   };
   for (int k = 1; k <= method.max_evaluations; ++k) {

@@ -318,14 +318,14 @@ TEST(Playback, the_referee_takes_no_rounding_for_a_contact) {
   EXPECT_EQ(play(scene_from(text)).all_missed, 0);
 }
 
-/// Rods that a board stops come to lie on each other and fall together, apart by a rounding or touching by one.
+/// Arrows that a board stops come to lie on each other and fall together, apart by a rounding or touching by one.
 TEST(Playback, what_lies_on_another_does_not_go_through_it) {
   const std::string text =
-      "scene = 'pile'\npolicy = 'discrete'\ndt = 0.001\nsteps = 600\ngravity = [0, 0, -9.81]\n"
-      "[[body]]\nname = 'rod'\nshape = 'capsule'\nradius = 0.005\nheight = 0.6\naxis = [1, 0, 0]\nat = [-5, 0, 1]\n"
+      "scene = 'pile'\npolicy = 'discrete'\ndt = 0.001\nsteps = 800\ngravity = [0, 0, -9.81]\n"
+      "[[body]]\nname = 'arrow'\nshape = 'capsule'\nradius = 0.005\nheight = 0.6\naxis = [1, 0, 0]\nat = [-5, 0, 1]\n"
       "velocity = [60, 0, 0]\ncopies = [1, 4, 3]\nevery = [0, 0.2, 0.2]\njitter = [0.5, 0, 0]\n"
       "[[body]]\nname = 'board'\nshape = 'box'\nmotion = 'static'\nsize = [0.02, 4, 4]\nat = [0, 0, 1]\n"
-      "[[push]]\ntime = 0.2\nbody = 'rod 1'\nvelocity = [2, 0, 0]\n";
+      "[[push]]\ntime = 0.2\nbody = 'arrow 1'\nvelocity = [2, 0, 0]\n";
   EXPECT_EQ(play(scene_from(text)).all_missed, 0);
 }
 

@@ -344,6 +344,9 @@ TEST(TurningShapes, what_spins_very_often_far_away_touches_nothing) {
     const Toi<double> toi = time_of_impact(tile, wall);
     EXPECT_EQ(toi.status, ToiStatus::apart) << spin;
     EXPECT_LE(toi.evaluations, 2) << spin;
+    const Turning<Capsule<double>> rotor{{V(-1, 0, 0), V(1, 0, 0), 0.1}, V::Zero(), V(0, 0, spin)};
+    const Turning<Sphere<double>> above{{V(0.3, 0.5, 0.2), 0.01}, V(0, 0, -0.001), V::Zero()};
+    EXPECT_EQ(time_of_impact(rotor, above).status, ToiStatus::apart) << spin << " above its disc";
   }
 }
 
