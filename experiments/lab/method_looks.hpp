@@ -25,8 +25,8 @@ inline constexpr std::array method_looks = {
 
 /// The mark of the k-th of substeps_2, substeps_8, ... where several are drawn: in one color.
 inline int substeps_mark(std::size_t k) {
-  constexpr std::array marks = {8, 10, 3, 9, 11};
-  return marks[k % marks.size()];
+  constexpr std::array in_turn = {8, 10, 3, 9, 11};
+  return in_turn[k % in_turn.size()];
 }
 
 /// Of `closed_form`, `closed_form float` or `substeps_16`; of a label that is no method's, nothing.
