@@ -99,13 +99,14 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
       }
     }
     const Separation<T> closest = separation_unchecked(a_now, b_now);
-    if (!is_finite(closest.normal)) return {ToiStatus::gave_up, k, rounded_down_to<S>(now.time)};
+    const Vec3<T> point = middle(closest);
+    if (!is_finite(closest.normal) || !is_finite(point)) return {ToiStatus::gave_up, k, rounded_down_to<S>(now.time)};
     const T gap = closest.distance - T(method.min_separation);
     if (now.time == T(0) && gap <= near && overlaps_unchecked(a.shape, b.shape, T(method.min_separation)))
       return overlapping_at_start(a, b, 1);
     if (pair.speed == T(0)) return {ToiStatus::apart, k};
     const AttachedPlane<T> plane = plane_from(pair, now, closest.normal);
-    const Toi<T> hit{ToiStatus::hit, k, rounded_down_to<S>(now.time), closest.normal, middle(closest)};
+    const Toi<T> hit{ToiStatus::hit, k, rounded_down_to<S>(now.time), closest.normal, point};
     if (gap <= near && !opens(pair, plane, now)) return hit;
     TurningInstant<T> next = ride(pair, plane, now, T(near / T(4)));
     if (!(next.time > now.time) && plane.rides != Rides::world) {

@@ -252,6 +252,13 @@ TEST(TurningBounds, a_turn_whose_angle_is_no_number_is_given_up) {
   const Toi<double> toi = time_of_impact(rod, vast);
   EXPECT_EQ(toi.status, ToiStatus::gave_up);
   EXPECT_EQ(toi.time, 0);
+  // The normal is a number, and no point is.
+  const Turning<Capsule<double>> wire{
+      {V(1, 0x1p33, 0), V(-0x1p33, 0, -0x1.63c83p-1), 1}, V(0, -4, 0x1.3p-3), V::Zero()};
+  const Turning<Triangle<double>> spun{
+      {V(0, 0, -5), V(-0x1.63c83p-1, 5, -2), V(-0x1.63c83p-1, -0x1.b3p-1, -5)}, V(0, 0x1p33, 5), V(most, most, -1)};
+  const Toi<double> of_spun = time_of_impact(wire, spun);
+  EXPECT_TRUE(is_finite(of_spun.point)) << of_spun.point.transpose();
 }
 
 TEST(TurningShapes, a_turn_that_is_out_of_range_is_no_hit_of_what_is_far_away) {
