@@ -72,11 +72,11 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
   if (!is_tolerance<T>(method.tolerance) || method.max_evaluations < 1) return invalid_toi<T>();
   const TurningPair<T> pair(a, b, T(method.min_separation));
   const T near = std::max(T(T(method.tolerance) * pair.speed), T(T(4) * pair.margin));
-  const T many_turns = 3;  // [rad] from here on whole orbits are worth a look
+  const bool spins_often = pair.turn > T(3);  // [rad] from here on whole orbits are worth a look
   if (pair.first > pair.last) return {ToiStatus::apart, 1};
   TurningInstant<T> now = instant(pair, pair.first);
   const auto past_orbits = [&](const TurningInstant<T>& next, const Vec3<T>& normal) {
-    if (next.time >= T(1) || !(pair.turn > many_turns)) return next;
+    if (next.time >= T(1)) return next;
     T until = orbits_apart_until(pair, now, normal);
     for (const Vec3<T>& axis : {pair.a.axis, pair.b.axis})  // the disc of what turns about it is flat
       until = std::max(until, orbits_apart_until<T>(pair, now, normal.dot(axis) < T(0) ? Vec3<T>(-axis) : axis));
@@ -89,8 +89,8 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
       const LeastOverlap<T> axis = least_overlap(box_pair(a_now, b_now));
       if (-axis.overlap - T(method.min_separation) > near) {
         const AttachedPlane<T> plane = plane_across(pair, now, a_now, b_now, axis);
-        const TurningInstant<T> next =
-            past_orbits(ride(pair, plane, now, T(near / T(4))), normal_out_of(a_now, axis.normal));
+        TurningInstant<T> next = ride(pair, plane, now, T(near / T(4)));
+        if (spins_often) next = past_orbits(next, normal_out_of(a_now, axis.normal));
         if (next.time >= T(1)) return {ToiStatus::apart, k};
         if (next.time > now.time) {
           now = next;
@@ -112,7 +112,7 @@ Toi<typename A::Scalar> impact(const ConservativeAdvancement<S>& method, const T
     if (!(next.time > now.time) && plane.rides != Rides::world) {
       next = ride(pair, plane_riding(pair, now, Rides::world, closest.normal), now, T(near / T(4)));
     }
-    next = past_orbits(next, closest.normal);
+    if (spins_often) next = past_orbits(next, closest.normal);
     if (next.time >= T(1)) return {ToiStatus::apart, k};
     const T gained = next.time - now.time;
     if (gap <= near && gained <= T(method.tolerance)) return hit;
