@@ -209,14 +209,16 @@ void add_theory(Panel& panel, const Rows& rows) {
 
 Figure tunneling_figure(const Rows& rows) {
   const EngineCell& cell = rows.front().cell;
-  Figure figure = {.name = "tunneling",
-                   .title = "How often a ball goes through a thin wall in whole engines",
-                   .caption = fmt::format(
-                       "A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
-                       "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
-                       "number of poses and each skin. Below: who sweeps, at each wall; ccd_F sweeps a ball of F "
-                       "times the radius.",
-                       cell.radius, cell.thickness, cell.angle_deg)};
+  const bool has_ccd =
+      std::ranges::any_of(rows, [](const Row& row) { return row.setup->mode.name.starts_with("ccd_"); });
+  Figure figure = {
+      .name = "tunneling",
+      .title = "How often a ball goes through a thin wall in whole engines",
+      .caption = fmt::format(
+          "A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
+          "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
+          "number of poses and each skin. Below: who sweeps, at each wall{}.",
+          cell.radius, cell.thickness, cell.angle_deg, has_ccd ? "; ccd_F sweeps a ball of F times the radius" : "")};
   figure.panels.push_back(tunneling_panel(rows_at(rows, cell.wall_size, true), "through, looking at poses [%]"));
   add_theory(figure.panels.back(), rows);
   for (const double wall : walls_of(rows)) {
@@ -425,7 +427,7 @@ std::string stages_text(const EnginePlan& plan, const std::vector<StageRow>& row
 
 // The whole.
 
-std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vector<StageRow>& stages, bool passed) {
+std::string summary_of(const Rows& rows, const std::vector<StageRow>& stages, bool passed) {
   std::string text;
   for (const double wall : walls_of(rows)) text += percent_matrix(rows, wall) + "\n";
   Table turned = cells_table(only(rows_at(told_rows(rows), wall_of(rows.front())), has_turned));
@@ -434,7 +436,6 @@ std::string summary_of(const EnginePlan& plan, const Rows& rows, const std::vect
       turned, {"engine", "mode", "wall_size", "path", "lateness", "latest", "energy", "least_energy", "most_energy"});
   text += "\n" + stages_summary(stages);
   text += fmt::format("\nSelf-test of ours: {}.\n", verdict_text(passed));
-  for (const std::string& missing : plan.missing) text += missing + ".\n";
   return text;
 }
 
@@ -478,7 +479,7 @@ Outcome outcome_of(const EnginePlan& plan, const Rows& rows, const std::vector<S
                    const std::vector<std::string>& failed) {
   const std::vector<SelfTest> tests = self_test(own_counts(rows, stages));
   return {.answer = answer_of(rows, failed),
-          .summary = summary_of(plan, rows, stages, all_passed(tests)),
+          .summary = summary_of(rows, stages, all_passed(tests)),
           .tables = {told_table(rows), stages_table(stages), cells_table(rows), packages_table(rows),
                      timings_table(rows), stage_timings_table(stages)},
           .figures = figures_of(rows),
