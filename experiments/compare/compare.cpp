@@ -60,7 +60,8 @@ std::optional<double> Trial::met(std::uint32_t first, std::uint32_t second) cons
 }
 
 bool Trial::same_outcome(const Trial& other) const {
-  return meetings == other.meetings && tunneled == other.tunneled && hits == other.hits && hash == other.hash;
+  return meetings == other.meetings && went_through() == other.went_through() && counts.hits == other.counts.hits &&
+         hash == other.hash;
 }
 
 Trial run_trial(const Scene& scene) {
@@ -72,9 +73,8 @@ Trial run_trial(const Scene& scene) {
     }
   });
   for (const auto& [ids, time] : meetings) trial.meetings.push_back({ids.first, ids.second, time});
-  trial.hits = playback.sums().hits;
-  trial.sweeps = playback.sums().sweeps;
   trial.tunneled = playback.all_missed;
+  trial.counts = playback.sums().counts;
   trial.energy = playback.energy;
   trial.energy_end = playback.rows.back().energy;
   trial.hash = playback.hash;
@@ -119,7 +119,7 @@ double cost(const Contest& c, double duration) { return median(c.seconds) / dura
 const Contest* cheapest_clean(const std::vector<Contest>& contests, bool all_met) {
   const Contest* best = nullptr;
   for (const Contest& c : contests) {
-    if (c.trial.tunneled > 0 || (all_met && c.unmet > 0)) continue;
+    if (c.trial.went_through() > 0 || (all_met && c.unmet > 0)) continue;
     if (!best || median(c.seconds) < median(best->seconds)) best = &c;
   }
   return best;
@@ -132,8 +132,10 @@ std::string answer_text(const Comparison& comparison, const Trial& exact, const 
   for (const Contest& c : contests) {
     if (c.contender.policy != TimePolicy::discrete || c.contender.dt != contests.back().contender.dt) continue;
     text += fmt::format(
-        "Looking only at the end of steps of {} ms lets {} through each other unseen; {} of the exact run's never meet. ",
-        rounded_text(1e3 * c.contender.dt, 4), plural_text(c.trial.tunneled, "pair"), grouped_text(c.unmet));
+        "Looking only at the end of steps of {} ms lets {} through each other unseen and pushes {} through; {} of the "
+        "exact run's never meet. ",
+        rounded_text(1e3 * c.contender.dt, 4), plural_text(c.trial.tunneled, "pair"),
+        grouped_text(c.trial.counts.pushed_through), grouped_text(c.unmet));
   }
   const Contest* const all_met = cheapest_clean(contests, true);
   const Contest* const best = all_met ? all_met : cheapest_clean(contests, false);
@@ -161,7 +163,7 @@ auto run_time_column(double duration) {
 
 Columns<Contest> compare_columns() {
   return columns_of<Contest>(
-      key_columns(), fields(&Contest::trial, {"tunneled"}),
+      key_columns(), fields(&Contest::trial, {"tunneled", "pushed_through"}),
       value("met", "1", "Pairs of bodies that met here and in the exact run.", &Contest::met),
       value("unmet", "1", "Pairs that met in the exact run alone, in time for this one to see it.", &Contest::unmet),
       value("extra", "1", "Pairs that met here alone.", &Contest::extra),
@@ -197,22 +199,25 @@ Table drawn_table(const Comparison& comparison, const std::vector<Contest>& cont
     const auto [shortest, longest] = std::ranges::minmax(c.seconds);
     return Measured{cost(c, duration), {shortest / duration, longest / duration}};
   };
-  const auto columns = columns_of<Contest>(
-      key_columns(), value("step", "", "", [](const Contest& c) { return 1e3 * c.contender.dt; }),
-      fields(&Contest::trial, {"tunneled"}), value("error", "", "", error), measured("seconds", "", "", run_time));
+  const auto columns =
+      columns_of<Contest>(key_columns(), value("step", "", "", [](const Contest& c) { return 1e3 * c.contender.dt; }),
+                          value("went_through", "", "", [](const Contest& c) { return c.trial.went_through(); }),
+                          value("error", "", "", error), measured("seconds", "", "", run_time));
   return table("drawn", "", columns, contests);
 }
 
-/// Tunneled pairs and time error against the step, one series a policy.
+/// Pairs that went through and time error against the step, one series a policy.
 Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
   Plot by_step = plot(drawn_table(comparison, contests)).x("step", Axis::log, "step [ms]").by("policy");
-  const Panel tunneled = by_step.y("tunneled", Axis::linear, "tunneled pairs [1]");
-  return {.name = "compare",
-          .title = "Discrete or swept, on this scene",
-          .caption =
-              "Above: pairs that went through each other unseen. Below: the median over pairs of how far their first "
-              "meeting is from the exact run's; errors below a rounding of the duration are drawn at that.",
-          .panels = {tunneled, by_step.y("error", Axis::log, "error of first meetings [s]")}};
+  const Panel through = by_step.y("went_through", Axis::linear, "pairs that went through [1]");
+  return {
+      .name = "compare",
+      .title = "Discrete or swept, on this scene",
+      .caption =
+          "Above: pairs that went through each other, unseen or pushed out the way they were going. Below: the median "
+          "over pairs of how far their first meeting is from the exact run's; errors below a rounding of the duration "
+          "are drawn at that.",
+      .panels = {through, by_step.y("error", Axis::log, "error of first meetings [s]")}};
 }
 
 /// Time error against run time.
@@ -251,12 +256,12 @@ Outcome outcome_of(const Comparison& comparison, const std::vector<Trial>& trial
                   comparison.scene.name, grouped_text(std::ssize(comparison.scene.bodies)), rounded_text(duration, 4),
                   rounded_text(1e3 * comparison.exact.dt, 4), grouped_text(std::ssize(exact.meetings))),
       columns_of<Contest>(compare_columns(), run_time_column(duration)), contests);
-  out.summary = terminal(
-      shown, {"policy", "dt", "tunneled", "met", "unmet", "extra", "error_median", "error_largest", "seconds"});
-  bool held = exact.tunneled == 0;
+  out.summary = terminal(shown, {"policy", "dt", "tunneled", "pushed_through", "met", "unmet", "extra", "error_median",
+                                 "error_largest", "seconds"});
+  bool held = exact.went_through() == 0;
   for (const Contest& c : contests) {
     held &= c.repeated_alike;
-    if (looks_at_all_motion(c.contender.policy, comparison.scene.options.gate)) held &= c.trial.tunneled == 0;
+    if (looks_at_all_motion(c.contender.policy, comparison.scene.options.gate)) held &= c.trial.went_through() == 0;
   }
   out.summary += fmt::format("\nSelf-test: {}.\n", verdict_text(held));
   out.tables = {

@@ -39,7 +39,8 @@ Scene scene_for(const Comparison& comparison, const Contender& contender);
 /// What a run of a contender leaves.
 struct Trial {
   std::vector<Meeting> meetings;  ///< the first of each pair, by id
-  std::int64_t tunneled = 0, hits = 0, sweeps = 0;
+  std::int64_t tunneled = 0;
+  StepCounts counts = {};             ///< over all steps
   double energy = 0, energy_end = 0;  ///< [J]
   std::uint64_t hash = 0;
   double seconds = 0;  ///< of stepping, the referee not included
@@ -49,13 +50,12 @@ struct Trial {
     return record(
         kept("meetings", &T::meetings),
         kept("tunneled", &T::tunneled, "1", "Pairs that went through each other unseen, counted step by step."),
-        kept("hits", &T::hits, "1", "Contacts over all steps."),
-        kept("sweeps", &T::sweeps, "1", "Pairs asked over all steps: the machine-independent cost."),
-        kept("energy", &T::energy), kept("energy_end", &T::energy_end), kept("hash", &T::hash),
+        part(&T::counts), kept("energy", &T::energy), kept("energy_end", &T::energy_end), kept("hash", &T::hash),
         kept("seconds", &T::seconds));
   }
   std::optional<double> met(std::uint32_t first, std::uint32_t second) const;  ///< [s] when these met first
 
+  std::int64_t went_through() const { return tunneled + counts.pushed_through; }
   bool same_outcome(const Trial& other) const;  ///< all but the seconds
 };
 

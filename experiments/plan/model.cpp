@@ -134,9 +134,9 @@ void run_once(const PlanScene& scene, const WorldOptions& options, std::int64_t 
     seconds += thread_seconds() - start;
     add_step(digest, world);
     if (!first) continue;
-    way.sweeps += static_cast<std::int64_t>(report.sweeps);
-    way.gated += static_cast<std::int64_t>(report.gated);
-    way.hits += static_cast<std::int64_t>(report.hits);
+    way.sweeps += report.sweeps;
+    way.gated += report.gated;
+    way.hits += report.hits;
     way.bytes = std::max(way.bytes, static_cast<std::int64_t>(report.bytes));
   }
   if (first) way.outcome = digest.value();
@@ -272,8 +272,8 @@ Flight fly(const GateCell& cell, const std::vector<Body>& bodies, double gate) {
   const std::int64_t steps = steps_of(cell);
   for (std::int64_t step = 0; step < steps; ++step) {
     const StepReport& report = world.step(whole_step);
-    flight.sweeps += static_cast<std::int64_t>(report.sweeps);
-    flight.gated += static_cast<std::int64_t>(report.gated);
+    flight.sweeps += report.sweeps;
+    flight.gated += report.gated;
     flight.milliseconds += 1e3 * report.seconds.total() / static_cast<double>(steps);
     for (const Hit& hit : world.hits()) {
       double& met = flight.met[(hit.first - 1) / 2];

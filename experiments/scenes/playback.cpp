@@ -102,18 +102,6 @@ void add(const PhaseSeconds& seconds, Playback& playback) {
   }
 }
 
-StepRow row_of(const StepReport& report) {
-  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return {.step = static_cast<std::int64_t>(report.step),
-          .time = report.time,
-          .pairs = count(report.pairs),
-          .sweeps = count(report.sweeps),
-          .gated = count(report.gated),
-          .hits = count(report.hits),
-          .impulses = count(report.impulses),
-          .waiting = count(report.waiting)};
-}
-
 }  // namespace
 
 std::string trace_of(const Scene& scene) {
@@ -149,8 +137,9 @@ Playback play(const Scene& scene, const Frame& on_frame) {
     const double start = static_cast<double>(step - 1) * scene.dt, dt = scene.length_of(step);
     const double begun = start * (1 + 4 * std::numeric_limits<double>::epsilon());  // as a step's start may be worded
     for (; push != scene.pushes.end() && push->time <= begun; ++push) world.set_velocity(push->id, push->velocity);
-    StepRow row = row_of(world.step(dt));
-    add(world.report().seconds, out);
+    const StepReport& report = world.step(dt);
+    StepRow row = {.step = static_cast<std::int64_t>(report.step), .time = report.time, .counts = report};
+    add(report.seconds, out);
     std::vector<CollisionEvent> events = world.events().events();
     std::ranges::stable_sort(events, {}, &CollisionEvent::time);  // those that are kept are the first
     for (const CollisionEvent& event : events) {

@@ -74,23 +74,18 @@ std::string trace_of(const Scene& scene);
 struct StepRow {
   std::int64_t step = 0;
   double time = 0;  ///< [s] at its end
-  std::int64_t pairs = 0, sweeps = 0, gated = 0, hits = 0, impulses = 0, waiting = 0;
-  std::int64_t begins = 0, ends = 0;
-  std::int64_t tunneled = 0;  ///< pairs that went through each other
-  double energy = 0;          ///< [J]
+  StepCounts counts = {};
+  std::int64_t begins = 0, ends = 0, tunneled = 0;
+  double energy = 0;  ///< [J]
 
   static constexpr auto fields() {
     using R = StepRow;
-    return record(
-        kept("step", &R::step, "1", "Number of the step, from 1."), kept("time", &R::time, "s", "Time at its end."),
-        sum("pairs", &R::pairs, "1", "Pairs whose boxes meet, as the broad phase found them."),
-        sum("sweeps", &R::sweeps, "1", "Pairs that were asked, those after a hit included."),
-        sum("gated", &R::gated, "1", "Of those, tested at an instant because both moved less than the gate."),
-        sum("hits", &R::hits, "1", "Contacts."), sum("impulses", &R::impulses, "1", "Impulses exchanged."),
-        sum("waiting", &R::waiting, "1", "Bodies that stopped before the end of the step."),
-        sum("begins", &R::begins, "1", "Contacts that began."), sum("ends", &R::ends, "1", "Contacts that ended."),
-        sum("tunneled", &R::tunneled, "1", "Pairs that went through each other unseen."),
-        kept("energy", &R::energy, "J", "Kinetic, and of height, at its end."));
+    return record(kept("step", &R::step, "1", "Number of the step, from 1."),
+                  kept("time", &R::time, "s", "Time at its end."), part(&R::counts),
+                  sum("begins", &R::begins, "1", "Contacts that began."),
+                  sum("ends", &R::ends, "1", "Contacts that ended."),
+                  sum("tunneled", &R::tunneled, "1", "Pairs that went through each other unseen."),
+                  kept("energy", &R::energy, "J", "Kinetic, and of height, at its end."));
   }
 };
 

@@ -76,11 +76,12 @@ std::string summary_text(const Scene& scene, const Plan& plan, const Playback& p
   text += log_text(playback);
   text += fmt::format("\ncontacts begun {:>12}   ended {:>12}   not ended {:>12}\n", grouped_text(sums.begins),
                       grouped_text(sums.ends), grouped_text(playback.live));
-  text += fmt::format("pairs found    {:>12}   asked {:>12}   gated     {:>12}\n", grouped_text(sums.pairs),
-                      grouped_text(sums.sweeps), grouped_text(sums.gated));
-  text += fmt::format("hits           {:>12}   impulses {:>9}   waited    {:>12}\n", grouped_text(sums.hits),
-                      grouped_text(sums.impulses), grouped_text(sums.waiting));
-  text += fmt::format("tunneled       {:>12}\n", grouped_text(playback.all_missed));
+  text += fmt::format("pairs found    {:>12}   asked {:>12}   gated     {:>12}\n", grouped_text(sums.counts.pairs),
+                      grouped_text(sums.counts.sweeps), grouped_text(sums.counts.gated));
+  text += fmt::format("hits           {:>12}   impulses {:>9}   waited    {:>12}\n", grouped_text(sums.counts.hits),
+                      grouped_text(sums.counts.impulses), grouped_text(sums.counts.waiting));
+  text += fmt::format("tunneled       {:>12}   pushed through {:>3}\n", grouped_text(playback.all_missed),
+                      grouped_text(sums.counts.pushed_through));
   text += fmt::format("energy         {:>12} J, {} J at the end\n", rounded_text(playback.energy, 6),
                       rounded_text(playback.rows.back().energy, 6));
   text += fmt::format("state hash     {:016x}\n", playback.hash);
@@ -272,11 +273,14 @@ Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& play
   Outcome out;
   out.answer = fmt::format(
       "In {} s, stepped {} at a time under {}, {} contacts began and {} ended; {} {} through each other "
-      "unseen. Energy went from {} J to {} J. State hash {:016x}.",
+      "unseen{}. Energy went from {} J to {} J. State hash {:016x}.",
       rounded_text(scene.duration(), 6), rounded_text(scene.dt, 4) + " s", policy_text(scene),
       grouped_text(sums.begins), grouped_text(sums.ends), grouped_text(playback.all_missed),
-      playback.all_missed == 1 ? "pair went" : "pairs went", rounded_text(playback.energy, 6),
-      rounded_text(playback.rows.back().energy, 6), playback.hash);
+      playback.all_missed == 1 ? "pair went" : "pairs went",
+      sums.counts.pushed_through > 0
+          ? fmt::format(", {} by being pushed out ahead", grouped_text(sums.counts.pushed_through))
+          : "",
+      rounded_text(playback.energy, 6), rounded_text(playback.rows.back().energy, 6), playback.hash);
   out.summary = summary_text(scene, plan, playback);
   out.tables = {plan_table(plan),
                 missed_table(playback),

@@ -304,7 +304,7 @@ template <class Held, bool with_spin> class Kernels final : public NarrowPhase {
 
   template <class Answer, class Query>
   Asked ask(std::span<const ProxyPair> pairs, double start, const Query& query, std::vector<Touch>& touches) {
-    Asked asked{pairs.size(), 0};
+    Asked asked{std::ssize(pairs), 0};
     if (pairs.size() <= few) {
       for (const ProxyPair& pair : pairs) keep(pair, start, one<Answer>(query, pair), touches, asked);
       return asked;

@@ -267,8 +267,8 @@ struct Touch {
 
 /// What a question cost, for the report.
 struct Asked {
-  std::size_t pairs = 0;
-  std::size_t gated = 0;  ///< not swept, because both moved less than the gate
+  std::int64_t pairs = 0;
+  std::int64_t gated = 0;  ///< not swept, because both moved less than the gate
 };
 
 /// The bodies as the narrow phase reads them: each at some time of the step, with what is left of its motion.

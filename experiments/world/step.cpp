@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include <thinwall/swept/dispatch.hpp>
+
 namespace thinwall {
 
 namespace {
@@ -87,7 +89,7 @@ void Stepper::finish() {
     if (motion.waiting) ++counts_.waiting;
     if (can_move(bodies_[i])) require_in_the_world(i, Vec3<double>::Zero());
   }
-  counts_.hits = touches_.size();
+  counts_.hits = std::ssize(touches_);
   counts_.bytes = bytes();
   ready_ = true;
 }
@@ -115,7 +117,7 @@ void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)
   const bool drops = plan_.static_pairs || plan_.masked_pairs;
   const auto ask_pairs = [&] {
     const Asked asked = ask(pairs_);
-    counts_.pairs += pairs_.size();
+    counts_.pairs += std::ssize(pairs_);
     counts_.sweeps += asked.pairs;
     counts_.gated += asked.gated;
   };
@@ -189,15 +191,40 @@ void Stepper::sampled_step(int parts) {
     if (!plan_.response) continue;
     const PhaseClock clock(counts_.seconds.response);
     if (options_.response) {
+      for (const Touch& touch : found_) counts_.pushed_through += is_pushed_through(touch, part) ? 1 : 0;
       respond_at_instant(motions_, spins_);
     } else {
-      const std::size_t impulses = counts_.impulses;
+      const std::int64_t impulses = counts_.impulses;
       std::vector<BodyMotion> dropped = motions_;
       std::vector<Spin> dropped_spins = spins_;
       respond_at_instant(dropped, dropped_spins);
       counts_.impulses = impulses;
     }
   }
+}
+
+/// True if the two part along the normal that is to push them out, and were apart `part` [s] ago: one has come in by a side that no pose
+/// shows, and the response sends it on.
+bool Stepper::is_pushed_through(const Touch& touch, double part) {
+  const auto mover = [&](std::size_t i) { return Mover{bodies_[i], motions_[i], spin(i)}; };
+  const Mover a = mover(touch.first), b = mover(touch.second);
+  if (!is_moved_by_impulses(a.body) && !is_moved_by_impulses(b.body)) return false;
+  const auto velocity = [&](const Mover& m) {
+    return velocity_of(m, arm_of(m, touch.point, m.motion.anchor, 0), false);
+  };
+  if (!(closing_speed(touch.normal, velocity(a), velocity(b)) < -closing_noise(a, b))) return false;
+  return !overlaps(before(touch.first, part), before(touch.second, part));
+}
+
+/// The shape where it was `part` [s] ago, since when it has met nothing.
+AnyShape Stepper::before(std::size_t which, double part) {
+  AnyShape shape = bodies_[which].shape;
+  if (const Spin* const turns = spin(which)) {
+    const Vec3<double>& rate = turns->velocity;
+    shape = turned_true(shape, rotation_about<double>(safe_unit(rate), -safe_norm(rate) * part) * turns->turned);
+  }
+  move_shape(shape, motions_[which].offset - motions_[which].velocity * part);
+  return shape;
 }
 
 /// Impulses in the order of the pairs, until nobody approaches or the rounds are over, then every penetration undone.

@@ -19,6 +19,7 @@
 #include <thinwall/discrete/collision_events.hpp>
 #include <thinwall/discrete/scalar.hpp>
 #include <thinwall/discrete/sphere.hpp>
+#include <thinwall/experiments/lab/record.hpp>
 
 namespace thinwall {
 
@@ -176,17 +177,28 @@ struct PhaseSeconds {
   double total() const { return integrate + broad + narrow + response + events; }
 };
 
-/// All but the seconds and the bytes are the same in every run.
-struct StepReport {
-  std::uint64_t step = 0;    ///< 1 for the first
-  double time = 0;           ///< [s] at its end
-  std::size_t pairs = 0;     ///< that the broad phase handed over; substeps add up
-  std::size_t sweeps = 0;    ///< pairs asked, those after a hit included
-  std::size_t gated = 0;     ///< of these: tested at an instant because both moved less than the gate
-  std::size_t hits = 0;      ///< contacts, each with its time
-  std::size_t impulses = 0;  ///< exchanged
-  std::size_t waiting = 0;   ///< bodies that stopped early: clamped, or out of events
-  std::size_t bytes = 0;     ///< [B] held for stepping, bodies not included
+/// The same in every run.
+struct StepCounts {
+  std::int64_t pairs = 0, sweeps = 0, gated = 0, hits = 0, impulses = 0, waiting = 0, pushed_through = 0;
+
+  static constexpr auto fields() {
+    using C = StepCounts;
+    return record(
+        sum("pairs", &C::pairs, "1", "Pairs whose boxes meet, as the broad phase found them; substeps add up."),
+        sum("sweeps", &C::sweeps, "1", "Pairs that were asked, those after a hit included."),
+        sum("gated", &C::gated, "1", "Of those, tested at an instant because both moved less than the gate."),
+        sum("hits", &C::hits, "1", "Contacts, each with its time."),
+        sum("impulses", &C::impulses, "1", "Impulses exchanged."),
+        sum("waiting", &C::waiting, "1", "Bodies that stopped before the end of the step: clamped, or out of events."),
+        sum("pushed_through", &C::pushed_through, "1",
+            "Pairs of which a pose showed one in the other, and its response pushed it out the way it was going."));
+  }
+};
+
+struct StepReport : StepCounts {
+  std::uint64_t step = 0;  ///< 1 for the first
+  double time = 0;         ///< [s] at its end
+  std::size_t bytes = 0;   ///< [B] held for stepping, bodies not included
   PhaseSeconds seconds;
 };
 

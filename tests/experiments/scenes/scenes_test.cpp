@@ -290,6 +290,31 @@ TEST(Playback, a_discrete_step_goes_through_the_wall_and_the_referee_sees_it) {
   EXPECT_GT(playback.places[0].x, 1);
 }
 
+/// A ball that a pose shows in the wall, before its middle, behind it, or in it and on its way out from the start.
+TEST(Playback, what_a_pose_shows_behind_the_middle_is_pushed_through) {
+  struct Case {
+    double from, velocity;
+    bool through;
+  };
+  for (const char* policy : {"policy = 'discrete'\n", "policy = 'substeps'\nsubsteps = 2\n"}) {
+    for (const Case& c : {Case{-0.5, 29.4, false},
+                          {-0.5, 30.6, true},
+                          {0.5, -30.6, true},
+                          {0.5, -29.4, false},
+                          {0.02, 0.12, false},
+                          {-0.02, -0.12, false},
+                          {0.02, -0.12, false}}) {
+      const Playback playback = play(scene_from(fmt::format(
+          "scene = 'pose'\nsteps = 3\ncorrection = 0.5\n{}dt = 0.016666666666666666\n[[body]]\nshape = 'sphere'\nradius = 0.02\n"
+          "restitution = 1\nat = [{}, 0, 0]\nvelocity = [{}, 0, 0]\n[[body]]\nshape = 'box'\nsize = [0.01, 2, 2]\nmotion = 'static'\n",
+          policy, c.from, c.velocity)));
+      EXPECT_EQ(playback.sums().counts.pushed_through, c.through ? 1 : 0) << policy << c.from << " at " << c.velocity;
+      EXPECT_EQ(playback.places[0].x * c.from < 0, c.through) << policy << c.from << " at " << c.velocity;
+      EXPECT_EQ(playback.all_missed, 0);
+    }
+  }
+}
+
 TEST(Playback, what_looks_at_all_of_the_motion_stops_at_it) {
   for (const char* policy : {"clamp", "event_driven"}) {
     const Playback playback = play(scene_from(bullet_text(std::string("policy = '") + policy + "'\n")));

@@ -161,11 +161,9 @@ TEST(WorldProperties, begins_and_ends_pair_up_and_nothing_is_ever_nan) {
     });
     for (int k = 0; k < 6; ++k) {
       const StepReport& report = world.step(drawn.dt);
-      const std::size_t count = world.bodies().size();
-      if (report.impulses > count * static_cast<std::size_t>(options.max_events) +
-                                count * count * static_cast<std::size_t>(options.contact_rounds + 1) * 3) {
+      const std::int64_t count = std::ssize(world.bodies());
+      if (report.impulses > count * options.max_events + count * count * (options.contact_rounds + 1) * 3)
         wrong = "too many impulses";
-      }
       for (const Body& body : world.bodies()) {
         if (!is_finite(body.velocity) || !is_finite(position(body))) wrong = called(body) + " is not finite";
       }
@@ -273,7 +271,7 @@ TEST_P(ShotsInACrowd, go_through_exactly_as_alone) {
     ends.push_back(position(*stepped(lane.bodies, GetParam(), seen_alone).find(2 * k + 1)));
   }
   const World crowd = stepped(together, GetParam(), seen_together);
-  EXPECT_GT(crowd.report().hits, 1000U);  // others do meet
+  EXPECT_GT(crowd.report().hits, 1000);  // others do meet
   int missed = 0;
   for (std::uint32_t k = 0; k < shot_count; ++k) {
     EXPECT_EQ(seen_together[k], seen_alone[k]) << k;
