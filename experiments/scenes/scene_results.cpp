@@ -210,23 +210,43 @@ Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
   return series;
 }
 
+/// [1] How many points of each track are drawn: all, or as many as keep the ways together below 50 diagonals of the window. More would cover
+/// each other.
+std::size_t points_drawn(const Playback& playback, const Window& window) {
+  std::size_t longest = 0;
+  for (const Track& track : playback.tracks) longest = std::max(longest, track.x.size());
+  std::size_t points = std::min<std::size_t>(longest, 1);
+  for (double way = 0; points < longest && way <= 50 * window.diagonal().norm(); ++points) {
+    for (const auto& [id, x, y] : playback.tracks) {
+      if (points < x.size()) way += std::hypot(x[points] - x[points - 1], y[points] - y[points - 1]);
+    }
+  }
+  return points;
+}
+
 Figure tracks_figure(const Scene& scene, const Playback& playback) {
   Panel panel = {.x_label = fmt::format("{} [m]", "xyz"[scene.across]),
                  .y_label = fmt::format("{} [m]", "xyz"[scene.up])};
   std::size_t outlined = 0;
-  panel.series.push_back(outlines(scene, window_of(scene, playback), outlined));
+  const Window window = window_of(scene, playback);
+  panel.series.push_back(outlines(scene, window, outlined));
   if (panel.series.back().x.empty()) panel.series.clear();
   const bool few = playback.tracks.size() <= most_named;
-  std::size_t points = 0;
-  for (const Track& track : playback.tracks) points += track.x.size();
+  const std::size_t most = points_drawn(playback, window);
+  std::size_t points = 0, left_out = 0;
+  for (const Track& track : playback.tracks) {
+    points += std::min(most, track.x.size());
+    left_out += track.x.size() - std::min(most, track.x.size());
+  }
   const Mark mark = points <= most_marks ? Mark::points : Mark::line;
   for (const Track& track : playback.tracks) {
     if (few || &track == &playback.tracks.front())
       panel.series.push_back({.label = few ? name_in(playback, track.id) : "bodies that move", .mark = mark});
     Series& series = panel.series.back();
     series.end_line();
-    series.x.insert(series.x.end(), track.x.begin(), track.x.end());
-    series.y.insert(series.y.end(), track.y.begin(), track.y.end());
+    const auto end = static_cast<std::ptrdiff_t>(std::min(most, track.x.size()));
+    series.x.insert(series.x.end(), track.x.begin(), track.x.begin() + end);
+    series.y.insert(series.y.end(), track.y.begin(), track.y.begin() + end);
   }
   const std::int64_t drawn = std::ssize(playback.tracks), all = std::ranges::count_if(scene.bodies, is_drawn);
   const std::int64_t stride = steps_a_point(scene);
@@ -236,6 +256,11 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   const std::string when =
       stride == 1 ? "at the end of each step" : fmt::format("every {} steps", grouped_text(stride));
   std::string caption = fmt::format("The center of {}, {}", who, when);
+  if (left_out > 0) {
+    caption +=
+        fmt::format(", until {} s: longer, they would cover each other",
+                    rounded_text(static_cast<double>((static_cast<std::int64_t>(most) - 1) * stride) * scene.dt, 3));
+  }
   if (outlined > 0) {
     caption += fmt::format("; {} stays, as the box that holds it, cut off at the edge",
                            outlined > most_outlines ? fmt::format("the first {} of what", most_outlines) : "what");

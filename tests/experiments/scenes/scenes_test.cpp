@@ -315,6 +315,21 @@ TEST(Playback, what_a_pose_shows_behind_the_middle_is_pushed_through) {
   }
 }
 
+/// To and fro, 400 m at 60 m/s, which is more than 50 diagonals of the picture, and less than one at 0.1 m/s.
+TEST(Playback, ways_are_drawn_until_they_cover_each_other) {
+  const std::string wall = "[[body]]\nshape = 'box'\nsize = [0.1, 1, 1]\nmotion = 'static'\nat = [";
+  const std::string flies =
+      "scene = 'room'\nsteps = 400\n[[body]]\nshape = 'sphere'\nradius = 0.05\nrestitution = 1\nvelocity = ";
+  const std::string room = wall + "-0.5, 0, 0]\n" + wall + "0.5, 0, 0]\n";
+  const auto drawn = [](const std::string& text) { return outcome_of(scene_experiment(), text).figures[0]; };
+  const Figure all = drawn(flies + "[0.1, 0, 0]\n" + room), part = drawn(flies + "[60, 0, 0]\n" + room);
+  EXPECT_EQ(all.panels[0].series.back().x.size(), 401U);
+  EXPECT_FALSE(holds(all.caption, "until"));
+  EXPECT_GE(part.panels[0].series.back().x.size(), 20U);
+  EXPECT_LT(part.panels[0].series.back().x.size(), 401U);
+  EXPECT_TRUE(holds(part.caption, ", until "));
+}
+
 TEST(Playback, what_looks_at_all_of_the_motion_stops_at_it) {
   for (const char* policy : {"clamp", "event_driven"}) {
     const Playback playback = play(scene_from(bullet_text(std::string("policy = '") + policy + "'\n")));
