@@ -125,6 +125,16 @@ TYPED_TEST(EveryBroadPhase, counts_touching_as_a_pair_and_the_next_number_as_non
   EXPECT_EQ(pairs_of<TypeParam>({cube(0, 0), cube(0, 0)}), (Pairs{{0, 1}}));              // two points at one place
   const Vec3<double> zero = Vec3<double>::Zero(), minus_zero = -zero;
   EXPECT_EQ(pairs_of<TypeParam>({box(zero, minus_zero), box(minus_zero, zero)}), (Pairs{{0, 1}}));
+  Proxy speck = box(zero, Vec3<double>::Constant(0x1p-1000));
+  speck.is_static = true;
+  EXPECT_EQ(pairs_of<TypeParam>({speck, box(zero, minus_zero)}), (Pairs{{0, 1}}));
+}
+
+TYPED_TEST(EveryBroadPhase,
+           knows_a_touch_whatever_a_quotient_is_rounded_to) {  // in units of 0.1 they begin at 7.9.. and at 9
+  const double low = std::nextafter(0.8, 0.0), middle = low + 0.1;
+  const std::vector<Proxy> proxies = {cube(0, 0.1), cube(0, 0.1), cube(0, 0.1), cube(low, 0.1), cube(middle, 0.1)};
+  EXPECT_EQ(pairs_of<TypeParam>(proxies), (Pairs{{0, 1}, {0, 2}, {1, 2}, {3, 4}}));
 }
 
 TYPED_TEST(EveryBroadPhase, knows_a_touch_far_from_the_origin) {
