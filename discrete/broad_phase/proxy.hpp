@@ -116,13 +116,12 @@ class PairSink {
       if (p.skipped) continue;
       groups |= p.group;
       common_mask &= p.mask;
-      has_static_ = has_static_ || p.is_static;
       has_groupless_ = has_groupless_ || p.group == 0;
     }
-    all_may_meet_ = !has_static_ && !has_groupless_ && (groups & ~common_mask) == 0;
+    all_may_meet_ = !has_groupless_ && (groups & ~common_mask) == 0;
   }
 
-  /// Takes a pair that differs from those before and whose boxes touch. Neither body is skipped.
+  /// Takes a pair that differs from those before and whose boxes touch. Neither body is skipped, and one can move.
   void add(std::uint32_t a, std::uint32_t b) {
     if (!all_may_meet_ && !may_meet(proxies_[a], proxies_[b])) return;
     if (memory_.found.size() == max_pairs_) throw TooManyPairs(max_pairs_);
@@ -168,7 +167,6 @@ class PairSink {
   std::span<const Proxy> proxies_;
   std::size_t max_pairs_;
   PairMemory& memory_;
-  bool has_static_ = false;
   bool has_groupless_ = false;
   bool all_may_meet_ = false;
 };

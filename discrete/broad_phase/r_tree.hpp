@@ -2,10 +2,8 @@
 /// A tree of nested boxes, built anew for each step. Needs Boost.Geometry; nothing else in discrete/ does.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -29,8 +27,8 @@
 
 namespace thinwall {
 
-/// Boost.Geometry's R-tree, packed from all boxes at once, asked once for each moving body. Its boxes are floats, rounded
-/// outward; what it finds is checked with the boxes given. Time n log n, whatever the sizes, as long as floats tell the boxes apart: not
+/// Boost.Geometry's R-tree, packed from all boxes at once, asked once for each moving body. Its boxes are rounded to
+/// floats; what it finds is checked with the boxes given. Time n log n, whatever the sizes, as long as floats tell the boxes apart: not
 /// beyond 1e36, nor below 1e-36.
 /// Source: Leutenegger, Lopez and Edgington, STR: a simple and efficient algorithm for R-tree packing, 1997, and
 /// Garcia, Lopez and Leutenegger 1998, as Boost.Geometry says.
@@ -66,17 +64,12 @@ using Tree =
 inline constexpr double largest =
     0x1p120;  ///< [length] beyond, coordinates are one: sums and differences must be floats
 
-/// The greatest float <= x, within `largest`. Never falls as x grows, so boxes that touch still do.
-inline float float_below(double x) {
-  const auto y = static_cast<float>(std::clamp(x, -largest, largest));
-  return static_cast<double>(y) > x ? std::nextafter(y, -std::numeric_limits<float>::infinity()) : y;
+/// Each coordinate's nearest float, within `largest`. That never falls as a number grows, so boxes that touch still do.
+inline Point point_of(const Vec3<double>& x) {
+  const auto rounded = [](double c) { return static_cast<float>(std::clamp(c, -largest, largest)); };
+  return {rounded(x[0]), rounded(x[1]), rounded(x[2])};
 }
-inline float float_above(double x) { return -float_below(-x); }
-
-inline Box box_of(const Proxy& p) {
-  return {{float_below(p.low[0]), float_below(p.low[1]), float_below(p.low[2])},
-          {float_above(p.high[0]), float_above(p.high[1]), float_above(p.high[2])}};
-}
+inline Box box_of(const Proxy& p) { return {point_of(p.low), point_of(p.high)}; }
 
 /// An output iterator that hands each entry to a function.
 template <class F> class Each {
