@@ -217,6 +217,13 @@ TEST(LadderFilters, a_graze_and_the_end_of_the_step_are_careful) {  // of which 
   for (const double off : {0.0, 0x1p-12}) EXPECT_FALSE(at_speed(2 + off)) << off;
   for (const double off : {0x1p-8, -0x1p-8}) EXPECT_TRUE(at_height(2 + off)) << off;
   for (const double off : {0x1p-6, -0x1p-6}) EXPECT_TRUE(at_speed(2 + off)) << off;
+  const auto onto_plate = [](double height, double by) {
+    return is_clear(at_rest(Flat{{-4, -4, 0}, {8, -4, 0}, {-4, 8, 0}}), shot({0, 0, 1 + height}, {0, 0, -by}));
+  };
+  for (const double off : {0.0, 0x1p-12}) EXPECT_FALSE(onto_plate(2, 2 + off)) << off;
+  EXPECT_TRUE(onto_plate(2, 2 + 0x1p-6));
+  EXPECT_FALSE(onto_plate(0x1p-38, 0x1p-38 * 1.01)) << "a hundredth of the gap is a few roundings";
+  EXPECT_TRUE(onto_plate(0x1p-20, 0x1p-20 * 1.01));
 }
 
 TEST(LadderFilters, a_start_in_touch_is_careful) {
@@ -232,6 +239,7 @@ TEST(LadderFilters, a_start_in_touch_is_careful) {
 TEST(LadderFilters, an_edge_met_by_an_edge_is_careful) {  // the slabs of x and y open and close at one time
   EXPECT_FALSE(is_clear(cube, box_shot({-4, 0, 0}, {4, 4, 0})));
   EXPECT_TRUE(is_clear(cube, box_shot({-4, 0, 0}, {4, 3, 0})));
+  EXPECT_FALSE(is_clear(cube, box_shot({-4, -4 + 0x1p-30, 0}, {4, 4, 0}))) << "two faces met at once, to rounding";
 }
 
 TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps, and along it
@@ -573,6 +581,7 @@ TEST(LadderAtOneInstant, doubt_is_careful) {
   EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3}, ball).clear);
   EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, -3}, ball).clear);
   EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3}, Box{{0, 0, 0}, {1, 1, 1}}).clear);
+  EXPECT_FALSE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3}, to_obb(Box{{0, 0, 0}, {1, 1, 1}})).clear);
   EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, ball).clear);
   EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, Box{{0, 0, 0}, {1, 1, 1}}).clear);
   EXPECT_TRUE(clear_contact(ball, Ball{{1, 0, 0}, 1}).clear);
