@@ -136,7 +136,8 @@ struct ClearSlabs {
 };
 
 /// Whether a path is in a box's slabs at one time, where every length is off by up to `noise` > 0, as it is once p and v have been turned:
-/// at one, at none, or neither is clear. It enters slab i before it leaves slab j if near_i W_j < far_j W_i; nothing is divided.
+/// at one, at none, or neither is clear. It enters slab i before it leaves slab j if near_i W_j < far_j W_i; nothing is divided. Of a
+/// start outside on some axis: a slab that has been left by then is out of order with that axis.
 struct ClearOrder {
   bool meets, misses;
 
@@ -147,7 +148,7 @@ struct ClearOrder {
     const Lanes near_least = near - noise, near_most = near + noise, far_least = far - noise, far_most = far + noise;
     const LanesMask in_order = (near_most * next < yzx(far_least) * W) & (yzx(near_most) * W < far_least * next);
     const LanesMask apart = (yzx(far_most) * W < near_least * next) | (far_most * next < yzx(near_least) * W);
-    meets = all_of(in_order & (near_most < end) & (all(0) < far_least));
+    meets = all_of(in_order & (near_most < end));
     misses = any_of(apart | (end < near_least) | (far_most < all(0)));
   }
   static constexpr double least_speed = 0x1p-1000,
