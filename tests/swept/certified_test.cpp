@@ -79,6 +79,19 @@ TEST(Certified, a_box_is_what_its_axes_span_though_they_lean) {  // by 2^-31: it
   EXPECT_EQ(at_height(0).verdict, ToiStatus::apart);  // there it ends at x = 1
 }
 
+TEST(Certified, a_face_is_crossed_between_its_sides_alone) {
+  const auto crossing = [](const Vec3<double>& middle, const Vec3<double>& by) {
+    return crossed_by(middle, {1, 0, 0}, {0, 1, 0}, by, {4, 4, 4});
+  };
+  EXPECT_GE(crossing({0.5, 0.5, 2}, {0, 0, -4}), 0.5);
+  EXPECT_NEAR(crossing({0.5, 0.5, 2}, {0, 0, -4}), 0.5, 1e-13);
+  for (const Vec3<double>& beside : {Vec3<double>(1.5, 0, 2), Vec3<double>(0, -1.5, 2)})
+    EXPECT_FALSE(is_finite(crossing(beside, {0, 0, -4}))) << beside.transpose();
+  EXPECT_FALSE(is_finite(crossing({0.5, 0.5, 2}, {0, 0, 4}))) << "it leads away";
+  EXPECT_TRUE(is_within({1 - 0x1p-40, 0, 0}, 1, {1, 1, 1}, 32));
+  EXPECT_FALSE(is_within({1 - 0x1p-48, 0, 0}, 1, {1, 1, 1}, 32)) << "within its rounding";
+}
+
 void expect_invalid(const CertifiedToi& toi) {
   EXPECT_EQ(toi.verdict, ToiStatus::invalid);
   EXPECT_TRUE(std::isnan(toi.lower) && std::isnan(toi.upper));
