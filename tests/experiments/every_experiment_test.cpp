@@ -1,5 +1,6 @@
 /// The rules of the house, for every experiment of the list, on its small configuration.
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -89,6 +90,25 @@ TEST_P(EveryExperiment, does_not_depend_on_the_order_of_its_units) {
   }
   expect_readable(forward);
   EXPECT_TRUE(forward.self_test_passed) << forward.summary;
+}
+
+/// A journal of numbers that are none of its own: the results of two units in each other's places, or another length or time everywhere.
+/// No count of it fits, or no error is small.
+TEST_P(EveryExperiment, fails_the_self_test_of_results_that_are_wrong) {
+  SKIP_IF_IT_NEEDS_PROGRAMS();
+  if (GetParam() == "broad_phase" || GetParam() == "plan") GTEST_SKIP() << "its own tests make up what its units find";
+  const auto run = configured(small());
+  const std::vector<std::string> right = results_of(run->units());
+  std::vector<std::string> swapped = right, far = right;
+  std::swap(swapped[0], swapped[1]);
+  for (std::string& result : far) result = std::regex_replace(result, std::regex("-?0x[^ ]+"), "0x1p+30");
+  bool all_pass = true;
+  for (const std::vector<std::string>& wrong : {swapped, far}) {
+    const Outcome outcome = run->finish(wrong, std::vector<double>(wrong.size(), 1e-3));
+    EXPECT_FALSE(outcome.self_test_passed && holds(outcome.summary, "FAILED")) << outcome.summary;
+    all_pass = all_pass && outcome.self_test_passed;
+  }
+  EXPECT_FALSE(all_pass);
 }
 
 /// The first of the names that a key takes in this build, as the refusal of another lists them: an engine may not be in it.
