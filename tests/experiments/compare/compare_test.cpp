@@ -104,6 +104,37 @@ TEST(Comparison, tells_discrete_from_swept) {
   }
 }
 
+/// 0 and 1 are discrete, 4 and 5 clamp, each at 1 ms and at 20 ms; times, and what was met and missed, as none are.
+TEST(Comparison, names_the_fastest_of_those_that_let_nothing_through_and_fails_an_exact_run_that_does) {
+  const auto run = run_of(compare_experiment(), bullet_text() + compared);
+  std::vector<Trial> trials;
+  for (const std::string& result : results_of(run->units())) trials.push_back(from_text<Trial>(result));
+  for (std::size_t i = 0; i < trials.size(); ++i) trials[i].seconds = i % 8 == 1 ? 1 : i % 8 == 5 ? 2 : 3;
+  trials[1].meetings = trials[9].meetings = trials[5].meetings;  // what it meets now, it lets through all the same
+  const auto outcome = [&] {
+    std::vector<std::string> results;
+    for (const Trial& trial : trials) results.push_back(to_text(trial));
+    return run->finish(results, std::vector<double>(results.size(), 1));
+  };
+  EXPECT_TRUE(holds(outcome().answer, "lets nothing through and meets every pair is clamp at 20 ms"));
+  trials[5].meetings.clear();
+  trials[13].meetings.clear();
+  EXPECT_TRUE(holds(outcome().answer, "lets nothing through and meets every pair is discrete at 1 ms"));
+  EXPECT_TRUE(outcome().self_test_passed);
+  trials.back().tunneled = 1;
+  EXPECT_FALSE(outcome().self_test_passed);
+}
+
+/// To and fro between two walls, 1 m to either side.
+TEST(Comparison, of_those_that_meet_again_the_first_time_counts) {
+  const Trial trial = run_trial(scene_from(
+      "scene = 'twice'\ndt = 0.2\nsteps = 30\n[[body]]\nshape = 'sphere'\nradius = 0.5\nvelocity = [2, 0, 0]\n"
+      "restitution = 1\n[[body]]\nshape = 'box'\nsize = [1, 9, 9]\nat = [2, 0, 0]\nmotion = 'static'\n"
+      "copies = [2, 1, 1]\nevery = [-4, 0, 0]\n"));
+  EXPECT_NEAR(trial.met(1, 2).value_or(-1), 0.5, 1e-12);
+  EXPECT_NEAR(trial.met(1, 3).value_or(-1), 1.5, 1e-12);
+}
+
 TEST(Comparison, has_no_error_to_tell_where_nothing_meets) {
   const Outcome outcome = outcome_of(compare_experiment(), "scene = 'none'\nsteps = 6\n" + compared);
   EXPECT_TRUE(outcome.answer.ends_with(" ms of run time a second of the scene.")) << outcome.answer;
