@@ -97,10 +97,11 @@ TEST_F(ValidateTest, a_displacement_without_a_double_is_rounded_or_left) {
 }
 
 TEST_F(ValidateTest, a_wrong_answer_is_status_1_and_is_named) {
-  const std::string file = write("set/vertex-face/a.csv", falling("1,2", 1) + falling("1,2", 0));
+  const std::string file = write("set/vertex-face/a.csv", falling("1,2", 1) + falling("1,2", 0) + falling("-1,2", 1));
   const Reply reply = call_validate(folder / "set");
-  expect_reply(reply, 1, {"0 false negatives, 1 false positives"});
-  EXPECT_EQ(reply.err, file + ":9: the file says miss, exact arithmetic hit; false positive\n");
+  expect_reply(reply, 1, {"1 false negatives, 1 false positives", "the file is wrong 2 times"});
+  EXPECT_EQ(reply.err, file + ":9: the file says miss, exact arithmetic hit; false positive\n" + file +
+                           ":17: the file says hit, exact arithmetic miss; false negative\n");
 }
 
 TEST_F(ValidateTest, malformed_files_are_refused_by_line) {
@@ -260,6 +261,8 @@ TEST_F(PublishedTurningFile, malformed_files_are_refused_by_line) {
   refused(good.substr(0, good.rfind(',')) + ",1\x1b", "column 29: '1\\x1b' is not a finite number");
   ball.shape.radius = -1;
   refused(row({"hit", "0.625", ""}), "B is no valid sphere");
+  rod.shape.radius = -1;
+  refused(row({"hit", "0.625", ""}), "A is no valid capsule");
 }
 
 TEST_F(PublishedTurningFile, what_is_no_file_is_refused) {
@@ -281,6 +284,7 @@ TEST_F(PublishedTurningFile, numbers_are_written_and_read_to_the_bit) {
   EXPECT_EQ(reply.status, 0) << reply.err;
   const json said = json::parse(reply.out);
   EXPECT_EQ(of_method(said["methods"], "certified")["touching"], 1);
+  EXPECT_GT(of_method(said["methods"], "conservative_advancement")["largest_error"], 0) << "though it is early";
   EXPECT_EQ(testing::shortest_text(rod.shape.radius), "0.49999999999999994");
 }
 
