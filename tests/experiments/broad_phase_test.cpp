@@ -162,7 +162,8 @@ TEST(BroadPhase, finds_the_exponent_of_a_power_and_no_interval_where_it_is_exact
   EXPECT_NEAR(growth.value, 1.25, 1e-12);
   EXPECT_NEAR(growth.interval.upper - growth.interval.lower, 0, 1e-6);
   points[1].cost *= 2;
-  EXPECT_GT(fit_growth(points)->interval.upper, 1.5);
+  constexpr double student = 12.706204736;  // of one degree of freedom, 2.5 % to either side
+  EXPECT_NEAR(fit_growth(points)->interval.upper, 1.25 + student * std::log10(2) / std::sqrt(3.0), 1e-6);
   points.pop_back();
   EXPECT_FALSE(fit_growth(points));
 }
@@ -178,6 +179,8 @@ TEST(BroadPhase, fits_only_counts_beyond_the_fixed_costs_and_sees_where_the_loop
   ASSERT_EQ(all.size(), 2U);
   EXPECT_NEAR(all[0].growth.value().value, 2, 1e-9);
   EXPECT_NEAR(all[1].growth.value().value, 1, 1e-9);
+  rows.push_back(made_up_row(100, {made_up_finding("all_pairs", 2), made_up_finding("uniform_grid", 1)}));
+  EXPECT_EQ(loop_is_best_up_to(rows), 10) << "in every world of so many";
 }
 
 TEST(BroadPhase, refuses_a_world_that_nobody_would_look_at) {

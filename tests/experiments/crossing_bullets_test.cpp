@@ -39,6 +39,10 @@ TEST(CrossingBullets, sweeping_both_makes_false_hits_and_the_confirmed_are_none)
   EXPECT_EQ(count("rules", "swept_overlap", "missed"), 0);
   EXPECT_EQ(count("rules", "sweep_then_confirm", "false_hits"), 0);
   EXPECT_GT(count("rules", "sweep_then_confirm", "missed"), 3000);
+  const auto missed = static_cast<double>(count("rules", "sweep_then_confirm", "missed"));
+  EXPECT_NEAR(std::get<double>(value_of(table_of(small_outcome(crossing_bullets_experiment()), "rules"),
+                                        "sweep_then_confirm", "missed_expected")),
+              missed, 0.05 * missed);
   EXPECT_EQ(count("rules", "closed_form", "missed"), 0);
   EXPECT_EQ(count("rules", "closed_form", "false_hits"), 0);
 }

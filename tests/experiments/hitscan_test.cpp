@@ -155,6 +155,15 @@ TEST(Hitscan, fails_a_wrong_theory) {
   EXPECT_FALSE(pass_with([](R& r) { r.tally.lateness.least = -2 * contact_window(r.cell).upper; }));
 }
 
+TEST(Hitscan, fails_a_wrong_count_whose_moments_are_right) {
+  const auto run = run_of(hitscan_experiment(), "rule = ['hitscan']\nrange = [3]\nspeed = [30]\nshots = 200");
+  std::vector<std::string> results = results_of(run->units());
+  auto tallies = from_text<std::vector<HitscanTally>>(results[0]);
+  tallies[0].missed = tallies[0].touching;
+  results[0] = to_text(tallies);
+  EXPECT_FALSE(run->finish(results, std::vector<double>(results.size(), 1)).self_test_passed);
+}
+
 TEST(HitscanConfig, takes_the_known_shots_and_every_combination_that_arrives) {
   const std::size_t known = known_shots.size();
   const auto cells = cells_of("range = [3, 10]\nspeed = [30, 300]\nradius = [0, 0.02]\nwind = [0, 5]");

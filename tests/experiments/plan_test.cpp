@@ -93,6 +93,8 @@ TEST(PlanGate, shots_are_all_seen_without_it_and_never_told_early) {
     EXPECT_EQ(tally.early, 0);
     EXPECT_EQ(tally.missed > 0, gate > 3);
     EXPECT_EQ(tally.gated > 0, gate > 3);
+    EXPECT_EQ(tally.late > 0, gate > 3);
+    EXPECT_LT(tally.late, 1) << "a step";
   }
 }
 
@@ -108,6 +110,10 @@ TEST(PlanGate, self_test_fails_a_wrong_count_an_early_meeting_and_a_miss_without
     return gate_is_right(changed);
   };
   EXPECT_TRUE(gate_is_right(rows));
+  std::vector<GateRow> again = rows;  // the same shots at a wider gate are no more evidence
+  again.push_back(rows[0]);
+  again.back().cell.gate = 5;
+  EXPECT_EQ(gate_self_test(again)[0].judged_cells, 1);
   EXPECT_FALSE(is_right_with(0, &GateTally::missed, 0));  // of 400, where 120 are due
   EXPECT_FALSE(is_right_with(0, &GateTally::early, 1));
   EXPECT_FALSE(is_right_with(1, &GateTally::missed_swept, 1));

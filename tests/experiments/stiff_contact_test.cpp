@@ -420,6 +420,9 @@ TEST(StiffContact, fails_a_wrong_limit) {
     return 2 * ratio;
   }));
   EXPECT_FALSE(passes_with_limit(m, Scheme::implicit_euler, [](double, double) { return 1e5; }));
+  StiffResults vague = m;  // around the limit still, but too far to tell
+  for (LimitRow& row : vague.limits) row.unstable *= 1.01;
+  EXPECT_FALSE(passes(vague));
 }
 
 TEST(StiffContact, fails_a_wrong_bounce) {

@@ -184,6 +184,11 @@ TEST(ThinWall, agrees_with_theory_and_nothing_passes_what_is_exact) {
     EXPECT_EQ(count(table_of(outcome, "cells"), method, "tunneled"), 0) << method;
   }
   EXPECT_GT(count(table_of(outcome, "cells"), "centre_ray", "tunneled"), 100);  // that only the rim would hit
+  const Table& methods = table_of(outcome, "methods");
+  EXPECT_EQ(count(methods, "closed_form", "clean_cells"), 2 * 33);
+  EXPECT_LT(count(methods, "end_of_step", "clean_cells"), 33);
+  const double expected = std::get<double>(value_of(methods, "end_of_step", "theory_expected"));
+  EXPECT_NEAR(static_cast<double>(count(methods, "end_of_step", "theory_tunneled")), 2 * expected, 0.05 * expected);
 }
 
 /// Does the self-test of end_of_step, over many shots at infinite walls, pass with another chord in its theory?
@@ -288,6 +293,26 @@ TEST(ThinWallBounce, ends_must_be_where_the_push_led) {
   EXPECT_FALSE(ends_agree(tallied(plan, {.shots = 100, .tunneled = 40, .wrong_side = 10, .behind = 49})));
 }
 
+/// Each of the self-tests alone: of who went through, of where balls end, and of evenly spread phases.
+TEST(ThinWallBounce, one_count_too_many_of_any_kind_fails_the_self_test) {
+  const auto run =
+      run_of(thin_wall_experiment(),
+             "speed = [40]\nstep = [0.01]\nradius = [0.02]\nthickness = [0.01]\nangle_deg = [0]\nshots = 50\n"
+             "wall = ['infinite']\nresponse = 'bounce'\nscalar = ['double']\nmethod = ['closed_form']");
+  const std::vector<std::string> right = results_of(run->units());
+  const auto passes = [&](const Tally& more, std::int64_t evenly) {
+    std::vector<std::string> results = right;
+    Tally tally = from_text<Tally>(results.front());
+    results.front() = to_text(tally += more);
+    results.back() = to_text(std::vector<std::int64_t>{evenly});
+    return run->finish(results, std::vector<double>(results.size(), 1)).self_test_passed;
+  };
+  EXPECT_TRUE(passes({}, 0));
+  EXPECT_FALSE(passes({.wrong_side = 1, .behind = 1}, 0));
+  EXPECT_FALSE(passes({.behind = 1}, 0));
+  EXPECT_FALSE(passes({}, 2));
+}
+
 /// Of a method whose bullets all are detected so late, at such a gap.
 ThinWallTotal detected(const char* method, double late, double gap) {
   static const ShotPlan plan = plan_of(small);
@@ -316,8 +341,10 @@ TEST(Stratified, passes_the_true_counts_and_catches_two_too_many) {
   }
   ASSERT_EQ(rows.size(), 17U * 11);  // infinite walls, in double
   for (const ThinWallTotal& total : totals_of(rows)) EXPECT_TRUE(total.even_passes()) << total.method->name;
-  rows.front().tunneled_evenly = 708;  // 0.7 * 1009 = 706.3
-  EXPECT_FALSE(totals_of(rows).front().even_passes());
+  for (const std::int64_t count : {704, 708}) {  // 0.7 * 1009 = 706.3
+    rows.front().tunneled_evenly = count;
+    EXPECT_FALSE(totals_of(rows).front().even_passes()) << count;
+  }
 }
 
 /// Evenly spread for any number of poses a step: the number of phases has no divisor that could be one.
