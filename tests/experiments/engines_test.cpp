@@ -240,6 +240,12 @@ TEST(Engines, ours_follows_theory_where_it_looks_at_poses) {
   std::vector<CellCount> counts = own_counts(rows, {});
   EXPECT_EQ(counts.size(), 4U * 3);
   EXPECT_TRUE(all_passed(self_test(counts)));
+  std::vector<EngineRow> at_two_walls = rows;  // the same shots, which theory is held against once
+  for (EngineRow row : rows) {
+    row.cell.wall_size = 500;
+    at_two_walls.push_back(row);
+  }
+  EXPECT_EQ(own_counts(at_two_walls, {}).size(), 6U * 3);
   const EngineRow discrete = rows_of(rows, "thinwall discrete", 250).front();
   EXPECT_GT(discrete.tally.tunneled, 80) << "the foil tunnels";
   for (CellCount& count : counts) {

@@ -226,7 +226,8 @@ TEST(ExtremeBreaks, are_the_first_outward_and_the_worst_there) {
                                          {1, {.worst_wrong = 3.9, .forward_max = 99}},
                                          {10, {}},
                                          {100, {.forward_max = 101}},
-                                         {100, {.invalid = 1, .worst_wrong = 5}}});
+                                         {100, {.invalid = 1, .worst_wrong = 5}},
+                                         {100, {.gave_up = 1}}});
   EXPECT_EQ(s.survived, 10);
   EXPECT_EQ(s.broken, 100);
   EXPECT_EQ(s.flaw, Flaw::verdict);
@@ -307,6 +308,19 @@ TEST(ExtremeTheory, fails_a_closed_form_that_is_the_textbooks) {
   std::erase_if(rows, [](const ExtremeRow& row) { return row.tally.method == "closed_form"; });
   rows.at(0).tally.method = "closed_form";
   EXPECT_FALSE(all_passed(ladder_tests(rows)));
+}
+
+/// Where contact lasts, and is no graze, by more than rounding.
+TEST(ExtremeTheory, holds_the_closed_form_to_what_a_precision_can_tell) {
+  const auto passes = [](ExtremeAxis axis, double value) {
+    ExtremeTally wrong = {.forward_max = 1e6};
+    wrong.method = "closed_form";
+    return all_passed(ladder_tests({{extreme_pairs().data(), in_double, {axis, value}, wrong}}));
+  };
+  EXPECT_FALSE(passes(ExtremeAxis::distance, 1e3));
+  EXPECT_TRUE(passes(ExtremeAxis::distance, 1e15));
+  EXPECT_FALSE(passes(ExtremeAxis::grazing, 1e-3));
+  EXPECT_TRUE(passes(ExtremeAxis::grazing, 1e-15));
 }
 
 /// Verdicts that go wrong a hundred times too near are not the theory's.
