@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -249,6 +250,24 @@ TEST(Estimate, tries_no_unit_that_says_how_long_it_takes) {
   const RunEstimate told = estimate_of(1, {{"a", 1, tried, 3}, {"b", 1, tried, 3}}, 0.2);
   EXPECT_EQ(told.whole_tried, 12);
   EXPECT_GE(told.seconds, 6);
+}
+
+/// 40 ms a trial: of 1000 trials each of the ten units would take 40 s, of one 40 ms, and not all of them are tried.
+TEST(Estimate, is_in_proportion_to_trials_and_units) {
+  const auto sleepy = [](std::int64_t trials) {
+    Tasks tasks;
+    for (int i = 0; i < 10; ++i) {
+      tasks.push_back({"unit " + std::to_string(i), trials, [trials] {
+                         std::this_thread::sleep_for(std::chrono::milliseconds(40 * trials));
+                         return std::string();
+                       }});
+    }
+    return make_run([](const Done<std::string>&) { return Outcome(); }, std::move(tasks));
+  };
+  for (const std::int64_t trials : {1, 1000}) {
+    const auto run = sleepy(trials);
+    EXPECT_GE(estimate(run->units(), sleepy, 0.3).seconds, 0.4 * static_cast<double>(trials));
+  }
 }
 
 TEST(Estimate, passes_over_trials_that_are_too_few) {

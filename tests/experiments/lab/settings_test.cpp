@@ -71,6 +71,7 @@ TEST(Settings, are_refused_by_name_in_one_line) {
       {"speed = -1", "my.toml:1: key 'speed': -1 is not a list; a list of numbers > 0 [m/s]"},
       {"speed = [1, 1.0]", "my.toml:1: key 'speed': 1 stands twice; every value once"},
       {"shots = 0", "my.toml:1: key 'shots': 0 is not allowed; a whole number from 1 to 5000"},
+      {"shots = 5001", "my.toml:1: key 'shots': 5001 is not allowed; a whole number from 1 to 5000"},
       {"shots = 1.5", "my.toml:1: key 'shots': 1.5 is not allowed; a whole number from 1 to 5000"},
       {"exact = 1", "my.toml:1: key 'exact': 1 is not allowed; true or false"},
       {"mode = \"fats\"", "my.toml:1: key 'mode': 'fats' is not allowed; did you mean 'fast'? (allowed: fast, slow)"},
@@ -108,10 +109,11 @@ TEST(Settings, let_the_user_override_the_defaults_one_by_one) {
   const Settings settings("radius = 2\nshots = 1e3\nwall.thickness = 3", "my.toml", defaults);
   EXPECT_NO_THROW(read_all(settings));
   EXPECT_EQ(settings.number("radius", {}), 2);
-  EXPECT_EQ(settings.integer("shots", 0, 5000), 1000);
+  EXPECT_EQ(settings.integer("shots", 1000, 1000), 1000);
   EXPECT_EQ(settings.number("wall.thickness", {}), 3);
   EXPECT_EQ(settings.numbers("speed", {}), (std::vector<double>{1, 10.5}));
   EXPECT_EQ(settings.choices("methods", methods), (std::vector<std::string>{"ray", "sweep"}));
+  EXPECT_FALSE(std::signbit(Settings("radius = -0.0", "my.toml", defaults).number("radius", {})));
   EXPECT_TRUE(settings.has("mode"));
   EXPECT_FALSE(settings.has("nonsense"));
 }
@@ -200,6 +202,7 @@ TEST(Text, of_numbers_is_exact_for_files_and_rounded_for_readers) {
   EXPECT_EQ(grouped_text(0), "0");
   EXPECT_EQ(grouped_text(999), "999");
   EXPECT_EQ(grouped_text(-1000), "-1,000");
+  EXPECT_EQ(grouped_text(-100), "-100");
   EXPECT_EQ(grouped_text(12000000), "12,000,000");
   EXPECT_EQ(percent_text(0.8576), "85.8 %");
   EXPECT_EQ(percent_text(std::nullopt), "-");
@@ -217,7 +220,8 @@ TEST(Text, of_a_count_is_taken_however_written) {
   EXPECT_EQ(parse_count("12"), 12);
   EXPECT_EQ(parse_count("1e6"), 1000000);
   EXPECT_EQ(parse_count("-3"), -3);
-  for (const char* bad : {"", "1.5", "12x", "nan", "inf", "1e300", " 1"}) EXPECT_FALSE(parse_count(bad)) << bad;
+  for (const char* bad : {"", "1.5", "12x", "nan", "inf", "1e300", " 1", "9007199254740993.0"})
+    EXPECT_FALSE(parse_count(bad)) << bad;
 }
 
 TEST(Text, of_a_mistyped_word_names_the_nearest_and_all) {
@@ -231,6 +235,7 @@ TEST(Text, of_a_mistyped_word_names_the_nearest_and_all) {
   EXPECT_EQ(spelling_hint("raduis", names), "did you mean 'radius'? (allowed: angle, radius)");
   EXPECT_EQ(spelling_hint("frequency", names), "allowed: angle, radius");
   EXPECT_EQ(spelling_hint("", names), "allowed: angle, radius");
+  EXPECT_EQ(spelling_hint("x", std::vector<std::string_view>{"a"}), "allowed: a") << "no letter is right";
 }
 
 TEST(Text, of_a_range_says_what_is_allowed_and_contains_refuses_what_is_no_number) {

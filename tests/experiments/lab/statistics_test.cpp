@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -153,13 +154,24 @@ TEST(SelfTest, fails_a_theory_that_is_five_percent_off) {
   EXPECT_FALSE(all_passed(self_test(simulated(1, [](double truth) { return 1.05 * truth; }))));
 }
 
-/// Phases spread evenly by mistake give counts that agree too well.
-TEST(SelfTest, fails_counts_that_are_too_good) {
-  auto cells = simulated(1, [](double truth) { return truth; });
-  for (CellCount& cell : cells) cell.counted = std::llround(500 * cell.theory);
-  const auto tests = self_test(cells);
-  EXPECT_EQ(tests[0].covered, 200);
-  EXPECT_FALSE(tests[0].passed());
+/// So many of 200 cells with one residual, all others with another: whether the self-test passes, and the test of residuals alone.
+std::pair<bool, bool> passed(int far, double residual, double other) {
+  std::vector<CellCount> cells;
+  ResidualTest alone;
+  for (int i = 0; i < 200; ++i) {
+    alone.add(i < far ? residual : other);
+    cells.push_back({"method", "double", 10000, 5000 + std::llround(50 * (i < far ? residual : other)), 0.5});
+  }
+  const SelfTest test = self_test(cells)[0];
+  EXPECT_EQ(test.chi_square_allowed.upper, chi_square_range(200, 1 - 0.001 / 2).upper);
+  return {test.passed(), alone.passed()};
+}
+
+TEST(SelfTest, fails_residuals_that_spread_as_no_normal_numbers_do) {
+  EXPECT_EQ(passed(10, 2.1, 0.9), std::pair(true, true));
+  EXPECT_EQ(passed(40, 2.1, 0.3), std::pair(false, true)) << "too many intervals without the theory";
+  EXPECT_EQ(passed(10, -2.1, 0.1), std::pair(false, false)) << "too good: phases spread evenly by mistake";
+  EXPECT_EQ(passed(10, 6, 0.9), std::pair(false, false)) << "too far off";
 }
 
 TEST(SelfTest, wants_certain_counts_to_be_exact) {
