@@ -374,6 +374,7 @@ TEST(SeenContacts, are_told_at_their_time_whatever_follows_from_them) {
           for (int step = 0; step < steps; ++step) {
             world.step(dt);
             if (!world.hits().empty() && !seen) seen = world.hits().front().time;
+            EXPECT_TRUE(response || world.report().impulses == 0) << "of an answer that nobody asked for";
           }
           const std::string where = std::string(name_of(policy)) + ": " + encounter.text() +
                                     (response ? ", response" : "") + (full_plan ? ", full plan" : "");
