@@ -126,6 +126,7 @@ TEST(Settings, resolve_to_the_same_text_however_a_number_is_written) {
   const Settings same("shots = 1e3\nspeed = [1.0, 1.05e1]\nwall.thickness = 1e-1", "my.toml", defaults);
   EXPECT_EQ(same.resolved_json(), plain.resolved_json());
   EXPECT_NE(Settings("radius = 0.25", "", defaults).resolved_json(), plain.resolved_json());
+  EXPECT_EQ(Settings("[wall]\nb = 3", "", "[wall]\na = 1\nb = 2").resolved_json(), R"({"wall":{"a":1,"b":3}})");
 }
 
 TEST(Settings, let_an_experiment_complain_of_its_own_and_blame_the_users_file_for_a_default) {

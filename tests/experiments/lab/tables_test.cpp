@@ -288,6 +288,11 @@ TEST(ShownTable, tells_a_constant_column_in_words) {
   EXPECT_EQ(markdown,
             "A & B. In every row: shots 12,000.\n\n| method | angle [deg] | passed |\n| :--- | ---: | :--- |\n"
             "| end\\_of\\_step | 0.1 | yes |\n| a,b\"c\" d | -1.5e-07 | \u2013 |\n");
+  Table table = small_table();
+  table.rows[1][3] = true;
+  EXPECT_TRUE(holds(markdown_table(table), "| method | angle [deg] | passed |")) << "a verdict is shown row by row";
+  table.rows.pop_back();
+  EXPECT_TRUE(holds(markdown_table(table), "| method | angle [deg] | shots | passed |")) << "one row is not every";
 }
 
 TEST(ShownTable, has_no_markup_of_its_words_in_markdown) {

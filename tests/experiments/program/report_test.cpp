@@ -354,7 +354,7 @@ TEST(CsvReader, reads_what_rfc_4180_allows_and_names_the_line_of_what_it_does_no
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[1].fields, (std::vector<std::string>{"x\n\"y\"", ""}));
   EXPECT_EQ(rows[2].line, 4u);
-  for (const char* text : {"a\nb\"c\n", "a\n\"b\n", "a\nb"}) {  // the last was cut
+  for (const char* text : {"a\nb\"c\n", "a\n\"b\"c\n", "a\n\"b\n", "a\nb"}) {  // the last was cut
     try {
       read_csv(text);
       ADD_FAILURE() << text;

@@ -397,6 +397,15 @@ TEST(Playback, survives_its_line) {
   EXPECT_EQ(again.places.front().x, playback.places.front().x);
 }
 
+/// The wall that the bullet goes through unseen is one that another ball touches in the same step.
+TEST(Playback, sees_who_passes_what_another_touches) {
+  const Playback playback =
+      play(scene_from(bullet_text("policy = 'discrete'\n") +
+                      "[[body]]\nshape = 'sphere'\nradius = 0.02\nat = [0, 0.5, 0]\nmotion = 'driven'\n"));
+  EXPECT_EQ(playback.sums().hits, 6);
+  EXPECT_EQ(playback.all_missed, 1);
+}
+
 TEST(Playback, a_scene_with_none_is_stepped_through) {
   const Playback playback = play(scene_from("scene = 'none'\nsteps = 2\n"));
   EXPECT_EQ(playback.rows.size(), 2U);
