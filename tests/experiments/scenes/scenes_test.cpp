@@ -402,7 +402,7 @@ TEST(Playback, sees_who_passes_what_another_touches) {
   const Playback playback =
       play(scene_from(bullet_text("policy = 'discrete'\n") +
                       "[[body]]\nshape = 'sphere'\nradius = 0.02\nat = [0, 0.5, 0]\nmotion = 'driven'\n"));
-  EXPECT_EQ(playback.sums().hits, 6);
+  EXPECT_EQ(playback.sums().counts.hits, 6);
   EXPECT_EQ(playback.all_missed, 1);
 }
 
