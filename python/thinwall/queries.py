@@ -114,7 +114,8 @@ def _room(query, out, rows, dtype, a, b):
 def _ask(query, a, b, threads, out=None, kind=None, method="", options=None):
     threads = _check_threads(query, threads)
     if a.dtype != b.dtype:
-        raise TypeError(f"{query}: b holds {b.dtype}; allowed is {a.dtype}, as a holds")
+        hint = "give one of them arrays of the other's; a shape of Python's own numbers alone holds float64"
+        raise TypeError(f"{query}: b holds {b.dtype}; allowed is {a.dtype}, as a holds: {hint}")
     rows = _rows_of(query, a, b)
     kind = kind or query
     out = _room(query, out, rows, _queries.row_type(kind, a.dtype == np.float32), a, b)
