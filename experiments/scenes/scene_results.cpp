@@ -273,34 +273,40 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
 
 Figure course_figure(const Playback& playback) {
   Series energy = {.label = "energy", .mark = Mark::line}, begun = {.label = "contacts begun", .mark = Mark::line};
-  Series through = {.label = "tunneled", .mark = Mark::dashes};
-  std::int64_t begins = 0, tunneled = 0;
+  Series through = {.label = "tunneled", .mark = Mark::dashes},
+         pushed = {.label = "pushed through", .mark = Mark::dashes};
+  std::int64_t begins = 0, tunneled = 0, ahead = 0;
   energy.add(0, playback.energy);
   begun.add(0, 0);
   through.add(0, 0);
+  pushed.add(0, 0);
   for (const StepRow& row : playback.rows) {
     energy.add(row.time, row.energy);
     begun.add(row.time, static_cast<double>(begins += row.begins));
     through.add(row.time, static_cast<double>(tunneled += row.tunneled));
+    pushed.add(row.time, static_cast<double>(ahead += row.counts.pushed_through));
   }
+  std::vector<Series> counted = {begun, through};
+  if (ahead > 0) counted.push_back(pushed);
   const std::string time = "time [s]";
   return {.name = "course",
           .title = "Energy and contacts over time",
           .caption =
               "Above: kinetic energy and energy of height at the end of each step. Below: contacts that have begun, "
-              "and pairs that have gone through each other unseen.",
+              "and pairs that have gone through each other unseen" +
+              std::string(ahead > 0 ? ", or pushed out ahead." : "."),
           .panels = {{.x_label = time, .y_label = "energy [J]", .series = {energy}},
-                     {.x_label = time, .y_label = "counted so far [1]", .series = {begun, through}}}};
+                     {.x_label = time, .y_label = "counted so far [1]", .series = std::move(counted)}}};
 }
 
 Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& playback) {
   const StepRow sums = playback.sums();
   Outcome out;
   out.answer = fmt::format(
-      "In {} s, stepped {} at a time under {}, {} contacts began and {} ended; {} {} through each other "
+      "In {} s, stepped {} at a time under {}, {} began and {} ended; {} {} through each other "
       "unseen{}. Energy went from {} J to {} J. State hash {:016x}.",
       rounded_text(scene.duration(), 6), rounded_text(scene.dt, 4) + " s", policy_text(scene),
-      grouped_text(sums.begins), grouped_text(sums.ends), grouped_text(playback.all_missed),
+      plural_text(sums.begins, "contact"), grouped_text(sums.ends), grouped_text(playback.all_missed),
       playback.all_missed == 1 ? "pair went" : "pairs went",
       sums.counts.pushed_through > 0
           ? fmt::format(", {} by being pushed out ahead", grouped_text(sums.counts.pushed_through))
