@@ -119,6 +119,10 @@ TEST(Comparison, names_the_fastest_of_those_that_let_nothing_through_and_fails_a
   EXPECT_TRUE(holds(outcome().answer, "lets nothing through and meets every pair is clamp at 20 ms"));
   trials[5].meetings.clear();
   trials[13].meetings.clear();
+  EXPECT_TRUE(holds(outcome().answer, "lets nothing through and meets every pair is substeps_4 at 1 ms"))
+      << "seen, pushed on";
+  EXPECT_EQ(trials[0].counts.pushed_through, 1);
+  trials[0].counts.pushed_through = trials[8].counts.pushed_through = 0;
   EXPECT_TRUE(holds(outcome().answer, "lets nothing through and meets every pair is discrete at 1 ms"));
   EXPECT_TRUE(outcome().self_test_passed);
   trials.back().tunneled = 1;
