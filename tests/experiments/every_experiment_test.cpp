@@ -97,7 +97,8 @@ TEST_P(EveryExperiment, does_not_depend_on_the_order_of_its_units) {
 TEST_P(EveryExperiment, fails_the_self_test_of_results_that_are_wrong) {
   SKIP_IF_IT_NEEDS_PROGRAMS();
   if (GetParam() == "broad_phase" || GetParam() == "plan") GTEST_SKIP() << "its own tests make up what its units find";
-  const auto run = configured(small());
+  const auto run =
+      configured(small() + (GetParam() == "engines" ? "engine = ['thinwall']\n" : ""));  // others' are not judged
   const std::vector<std::string> right = results_of(run->units());
   std::vector<std::string> swapped = right, far = right;
   std::swap(swapped[0], swapped[1]);

@@ -68,6 +68,8 @@ for (const [i, setting] of settings.entries()) {
   test(`it counts what the program counts: ${setting}`, async () => {
     const { page, done } = await open(`#${setting}&shots=3000`);
     for (const row of await rows(page)) if (!row.chosen) await page.getByLabel(row.name, { exact: true }).check();
+    await page.waitForFunction(() => [...document.querySelectorAll('#counts tbody tr')].every((row) => JSON.parse(row.dataset.counts)[0] === 3000),
+      null, { timeout: 60000 });
     await allFired(page);
     const mine = (await rows(page)).map(({ name, counts }) => [name, ...counts].join(','));
     const config = join(folder, `page-${i}.toml`), out = join(folder, `result-${i}`);
