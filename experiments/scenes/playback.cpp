@@ -138,7 +138,8 @@ Playback play(const Scene& scene, const Frame& on_frame) {
     const double begun = start * (1 + 4 * std::numeric_limits<double>::epsilon());  // as a step's start may be worded
     for (; push != scene.pushes.end() && push->time <= begun; ++push) world.set_velocity(push->id, push->velocity);
     const StepReport& report = world.step(dt);
-    StepRow row = {.step = static_cast<std::int64_t>(report.step), .time = report.time, .counts = report};
+    const StepCounts& counts = report;
+    StepRow row = {.step = static_cast<std::int64_t>(report.step), .time = report.time, .counts = counts};
     add(report.seconds, out);
     std::vector<CollisionEvent> events = world.events().events();
     std::ranges::stable_sort(events, {}, &CollisionEvent::time);  // those that are kept are the first
