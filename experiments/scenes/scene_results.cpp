@@ -213,13 +213,12 @@ Series outlines(const Scene& scene, const Window& window, std::size_t& drawn) {
 /// [1] How many points of each track are drawn: all, or as many as keep the ways together below 50 diagonals of the window. More would cover
 /// each other.
 std::size_t points_drawn(const Playback& playback, const Window& window) {
-  std::size_t longest = 0;
-  for (const Track& track : playback.tracks) longest = std::max(longest, track.x.size());
-  std::size_t points = std::min<std::size_t>(longest, 1);
-  for (double way = 0; points < longest && way <= 50 * window.diagonal().norm(); ++points) {
-    for (const auto& [id, x, y] : playback.tracks) {
-      if (points < x.size()) way += std::hypot(x[points] - x[points - 1], y[points] - y[points - 1]);
-    }
+  if (playback.tracks.empty()) return 0;
+  const std::size_t all = playback.tracks.front().x.size();
+  std::size_t points = 1;
+  for (double way = 0; points < all && way <= 50 * window.diagonal().norm(); ++points) {
+    for (const auto& [id, x, y] : playback.tracks)
+      way += std::hypot(x[points] - x[points - 1], y[points] - y[points - 1]);
   }
   return points;
 }
@@ -232,21 +231,14 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   panel.series.push_back(outlines(scene, window, outlined));
   if (panel.series.back().x.empty()) panel.series.clear();
   const bool few = playback.tracks.size() <= most_named;
-  const std::size_t most = points_drawn(playback, window);
-  std::size_t points = 0, left_out = 0;
-  for (const Track& track : playback.tracks) {
-    points += std::min(most, track.x.size());
-    left_out += track.x.size() - std::min(most, track.x.size());
-  }
-  const Mark mark = points <= most_marks ? Mark::points : Mark::line;
+  const std::size_t points = points_drawn(playback, window);
+  const Mark mark = points * playback.tracks.size() <= most_marks ? Mark::points : Mark::line;
   for (const Track& track : playback.tracks) {
     if (few || &track == &playback.tracks.front())
       panel.series.push_back({.label = few ? name_in(playback, track.id) : "bodies that move", .mark = mark});
     Series& series = panel.series.back();
     series.end_line();
-    const auto end = static_cast<std::ptrdiff_t>(std::min(most, track.x.size()));
-    series.x.insert(series.x.end(), track.x.begin(), track.x.begin() + end);
-    series.y.insert(series.y.end(), track.y.begin(), track.y.begin() + end);
+    for (std::size_t i = 0; i < points; ++i) series.add(track.x[i], track.y[i]);
   }
   const std::int64_t drawn = std::ssize(playback.tracks), all = std::ranges::count_if(scene.bodies, is_drawn);
   const std::int64_t stride = steps_a_point(scene);
@@ -256,10 +248,10 @@ Figure tracks_figure(const Scene& scene, const Playback& playback) {
   const std::string when =
       stride == 1 ? "at the end of each step" : fmt::format("every {} steps", grouped_text(stride));
   std::string caption = fmt::format("The center of {}, {}", who, when);
-  if (left_out > 0) {
+  if (drawn > 0 && points < playback.tracks.front().x.size()) {
     caption +=
         fmt::format(", until {} s: longer, they would cover each other",
-                    rounded_text(static_cast<double>((static_cast<std::int64_t>(most) - 1) * stride) * scene.dt, 3));
+                    rounded_text(static_cast<double>((static_cast<std::int64_t>(points) - 1) * stride) * scene.dt, 3));
   }
   if (outlined > 0) {
     caption += fmt::format("; {} stays, as the box that holds it, cut off at the edge",

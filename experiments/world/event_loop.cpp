@@ -103,10 +103,8 @@ bool EventLoop::press(const Touch& touch) {
 
 /// [m/s] Of the points where they touch. `in_effect`: a body that waits has none.
 double EventLoop::closing(const Touch& touch, bool in_effect) {
-  const auto velocity = [&](const Mover& m) {
-    return velocity_of(m, arm_of(m, touch.point, touch.time, scene_.dt), in_effect);
-  };
-  return closing_speed(touch.normal, velocity(mover(touch.first)), velocity(mover(touch.second)));
+  return closing_speed(mover(touch.first), mover(touch.second), touch.normal, touch.point, touch.time, scene_.dt,
+                       in_effect);
 }
 
 void EventLoop::advance(std::uint32_t which, double time) {

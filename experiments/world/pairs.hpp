@@ -163,6 +163,13 @@ inline double closing_speed(const Vec3<double>& normal, const Vec3<double>& a, c
   return normal.dot(Vec3<double>(a - b));
 }
 
+/// [m/s] The same of their points at `point` [m], at `time` [1] of the step of dt [s]. `in_effect`: see velocity_of.
+inline double closing_speed(const Mover& a, const Mover& b, const Vec3<double>& normal, const Vec3<double>& point,
+                            double time, double dt, bool in_effect) {
+  const auto velocity = [&](const Mover& m) { return velocity_of(m, arm_of(m, point, time, dt), in_effect); };
+  return closing_speed(normal, velocity(a), velocity(b));
+}
+
 /// [m/s] The largest speed of any point of it, in the sum of components: what rounding is of.
 inline double speed_of(const Body& body, const Vec3<double>& velocity, const Spin* spin) {
   const double straight = velocity.cwiseAbs().sum();

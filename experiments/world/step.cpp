@@ -191,7 +191,7 @@ void Stepper::sampled_step(int parts) {
     if (!plan_.response) continue;
     const PhaseClock clock(counts_.seconds.response);
     if (options_.response) {
-      for (const Touch& touch : found_) counts_.pushed_through += is_pushed_through(touch, part) ? 1 : 0;
+      for (const Touch& touch : found_) counts_.pushed_through += is_pushed_through(touch, 1 - 1.0 / parts) ? 1 : 0;
       respond_at_instant(motions_, spins_);
     } else {
       const std::int64_t impulses = counts_.impulses;
@@ -203,27 +203,23 @@ void Stepper::sampled_step(int parts) {
   }
 }
 
-/// True if the two part along the normal that is to push them out, and were apart `part` [s] ago: one has come in by a side that no pose
-/// shows, and the response sends it on.
-bool Stepper::is_pushed_through(const Touch& touch, double part) {
+/// True if the two part along the normal that is to push them out, and were apart at the look before, at `before` [1] of the step: one
+/// has come in by a side that no pose shows, and the response sends it on.
+bool Stepper::is_pushed_through(const Touch& touch, double before) {
   const auto mover = [&](std::size_t i) { return Mover{bodies_[i], motions_[i], spin(i)}; };
   const Mover a = mover(touch.first), b = mover(touch.second);
   if (!is_moved_by_impulses(a.body) && !is_moved_by_impulses(b.body)) return false;
-  const auto velocity = [&](const Mover& m) {
-    return velocity_of(m, arm_of(m, touch.point, m.motion.anchor, 0), false);
-  };
-  if (!(closing_speed(touch.normal, velocity(a), velocity(b)) < -closing_noise(a, b))) return false;
-  return !overlaps(before(touch.first, part), before(touch.second, part));
+  const double closing = closing_speed(a, b, touch.normal, touch.point, 1, dt_, false);
+  if (!(closing < -closing_noise(a, b))) return false;
+  return !overlaps(shape_at(touch.first, before), shape_at(touch.second, before));
 }
 
-/// The shape where it was `part` [s] ago, since when it has met nothing.
-AnyShape Stepper::before(std::size_t which, double part) {
+/// The shape where it was at `time` [1] of the step, since when it has met nothing.
+AnyShape Stepper::shape_at(std::size_t which, double time) {
   AnyShape shape = bodies_[which].shape;
-  if (const Spin* const turns = spin(which)) {
-    const Vec3<double>& rate = turns->velocity;
-    shape = turned_true(shape, rotation_about<double>(safe_unit(rate), -safe_norm(rate) * part) * turns->turned);
-  }
-  move_shape(shape, motions_[which].offset - motions_[which].velocity * part);
+  const BodyMotion& motion = motions_[which];
+  if (const Spin* const turns = spin(which)) shape = turned_true(shape, turned_at(*turns, motion, time, dt_));
+  move_shape(shape, offset_at(motion, time, dt_));
   return shape;
 }
 

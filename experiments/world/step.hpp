@@ -40,8 +40,8 @@ class Stepper {
   void find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask);
   void mark_proxies(bool as_they_are);
   void sampled_step(int parts);
-  bool is_pushed_through(const Touch& touch, double part);
-  AnyShape before(std::size_t which, double part);
+  bool is_pushed_through(const Touch& touch, double before);
+  AnyShape shape_at(std::size_t which, double time);
   void respond_at_instant(std::vector<BodyMotion>& motions, std::vector<Spin>& spins);
   void swept_step();
   void go_straight_on();
