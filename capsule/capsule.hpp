@@ -235,7 +235,7 @@ THINWALL_HOT ClearContact clear_contact(const Capsule<double>& capsule, const Sp
 THINWALL_HOT ClearContact clear_contact(const Capsule<double>& first, const Capsule<double>& second) {
   using packed::all, packed::lanes, packed::both;
   const packed::Lanes a = lanes(first.a), b = lanes(second.a), x = b - a;
-  const ClearSegments core(lanes(first.b) - a, lanes(second.b) - b, all(0));
+  const ClearSegments core(lanes(first.b) - a, lanes(second.b) - b);
   const ClearNearest nearest = core.nearest(x);
   ClearContact contact = clear_core_contact(core, nearest, x, first.radius, second.radius);
   const packed::Lanes on_a = core.d * all(nearest.place), on_b = on_a - nearest.at;  // from their starts

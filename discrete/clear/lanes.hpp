@@ -107,8 +107,8 @@ THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
 THINWALL_HOT Lanes lanes(const double* x) {
   return std::bit_cast<Lanes>(_mm256_blend_pd(_mm256_broadcast_sd(x + 2), _mm256_castpd128_pd256(_mm_loadu_pd(x)), 3));
 }
-THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) {
-  return {Four{all_bits(x), all_bits(y), all_bits(z), all_bits(z)}};
+THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z, bool fourth) {
+  return {Four{all_bits(x), all_bits(y), all_bits(z), all_bits(fourth)}};
 }
 /// Of what is there twice.
 template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) {
@@ -131,8 +131,8 @@ THINWALL_HOT Lanes lanes(const double* x) {
   std::memcpy(&a.xy, x, sizeof a.xy);
   return a;
 }
-THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) {
-  return {Two{all_bits(x), all_bits(y)}, Two{all_bits(z), all_bits(z)}};
+THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z, bool fourth) {
+  return {Two{all_bits(x), all_bits(y)}, Two{all_bits(z), all_bits(fourth)}};
 }
 template <class Kind> THINWALL_HOT LanesOf<Kind> all(const PairOf<Kind>& x) { return {x.v, x.v}; }
 THINWALL_HOT Pair xy_of(const Lanes& a) { return {a.xy}; }
@@ -142,6 +142,7 @@ THINWALL_HOT Lanes yzx(const Lanes& a) {
 }
 #endif
 
+THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) { return mask(x, y, z, z); }
 THINWALL_HOT Lanes lanes(const Vec3<double>& v) { return lanes(v.data()); }
 THINWALL_HOT void store(const Lanes& a, Vec3<double>& to) {
   const Pair xy = xy_of(a);
@@ -204,6 +205,23 @@ THINWALL_HOT LanesMask lowest(unsigned which) {
   static constexpr LanesMask x = mask(true, false, false), y = mask(false, true, false), z = mask(false, false, true);
   static constexpr LanesMask first[8] = {mask(false, false, false), x, y, x, z, x, y, x};
   return first[which];
+}
+
+/// Which lanes, of four numbers of which the last is its own.
+THINWALL_HOT unsigned four_bits(const LanesMask& m) {
+#ifdef __AVX__
+  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
+#else
+  return bits(PairMask{m.xy}) | bits(PairMask{m.zz}) << 2U;
+#endif
+}
+/// Of those the lowest, or none.
+THINWALL_HOT LanesMask lowest_of_four(const LanesMask& m) {
+  static constexpr LanesMask none = mask(false, false, false, false), x = mask(true, false, false, false),
+                             y = mask(false, true, false, false), z = mask(false, false, true, false),
+                             w = mask(false, false, false, true);
+  static constexpr LanesMask first[16] = {none, x, y, x, z, x, y, x, w, x, y, x, z, x, y, x};
+  return first[four_bits(m)];
 }
 
 }  // namespace thinwall::packed

@@ -3,12 +3,11 @@
 
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/capsule/clear_segment_box.hpp>
-#include <thinwall/capsule/clear_segments.hpp>
 #include <thinwall/discrete/clear/clear_entry.hpp>
-#include <thinwall/discrete/clear/clear_triangle.hpp>
 #include <thinwall/discrete/obb.hpp>
 #include <thinwall/discrete/triangle.hpp>
 #include <thinwall/swept/clear/clear_boxes.hpp>
+#include <thinwall/swept/clear/clear_flat.hpp>
 #include <thinwall/swept/clear/clear_walk.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
@@ -162,14 +161,11 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& a, const Movin
   using packed::Lanes, packed::all, packed::both, packed::lanes;
   const double r = a.shape.radius, s = b.shape.radius;
   const Lanes start = lanes(a.shape.a), path = lanes(a.displacement), from_b = lanes(b.shape.a);
-  const Lanes p = from_b - start, v = lanes(b.displacement) - path;
-  const Lanes core_a = lanes(a.shape.b) - start;
-  const ClearSegments cores(core_a, lanes(b.shape.b) - from_b, v);
-  const ClearWalk walk = clear_walk(cores, p, v, both(r + s + gap));
-  return {both(walk.clear, all_of(clear_sizes(r, s, gap) & clear_of_end(walk.time, walk.closing, walk.noise))),
-          walk.time, walk.normal,
-          ((start + path * all(walk.time)) + core_a * all(walk.nearest.place)) + walk.normal * all(r + gap / 2),
-          walk.rounds};
+  const Lanes p = from_b - start, v = lanes(b.displacement) - path, core = lanes(a.shape.b) - start;
+  const ClearFlatEntry entry(ClearFlat::parallelogram(core, from_b - lanes(b.shape.b)), p, v, both(r + s + gap));
+  const packed::PairMask one = entry.broad | (both(1) < entry.time);
+  return {both(entry.clear, all_of(one & clear_sizes(r, s, gap) & clear_of_end(entry.time))), entry.time, entry.normal,
+          ((start + path * all(entry.time)) + core * all(entry.s)) + entry.normal * all(r + gap / 2)};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Triangle<double>>& triangle, const Moving<Sphere<double>>& sphere,
@@ -177,11 +173,10 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Triangle<double>>& triangle, con
   using packed::Lanes, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(triangle.shape.a);
-  const Lanes p = center - a, v = path - lanes(triangle.displacement);
-  const ClearTriangle core(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a, v);
-  const ClearWalk walk = clear_walk(core, p, v, both(r + gap));
-  return {both(walk.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(walk.time, walk.closing, walk.noise))),
-          walk.time, walk.normal, (center + path * all(walk.time)) - walk.normal * all(r + gap / 2), walk.rounds};
+  const ClearFlat core = ClearFlat::triangle(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a);
+  const ClearFlatEntry entry(core, center - a, path - lanes(triangle.displacement), both(r + gap));
+  return {both(entry.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(entry.time))), entry.time, entry.normal,
+          (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
 }
 
 /// In the box's own axes; and where they are turned, the time once more by the plane of contact, as of a sphere and an oriented box.

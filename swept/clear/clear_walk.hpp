@@ -22,28 +22,9 @@ struct ClearWalk {
   int rounds = 1;
 };
 
-/// What of a core is nearest to one place after another; where the core can tell, first whether that is of the same part still.
-template <class Core> struct ClearLooks {
-  const Core& core;
-
-  THINWALL_HOT ClearNearest operator()(const packed::Lanes& x) const { return core.nearest(x); }
-};
-template <class Core>
-  requires requires { typename Core::Part; }
-struct ClearLooks<Core> {
-  const Core& core;
-  typename Core::Part part{};
-  bool has_part = false;
-
-  THINWALL_HOT const ClearNearest& operator()(const packed::Lanes& x) {
-    if (!has_part || !core.is_still(x, part)) part = core.part(x);
-    has_part = true;
-    return part.nearest;
-  }
-};
-
-/// The point p + v t within a step and a core rounded by R. The core has bounds, low() and high(), and more slabs, narrow(); nearest(x); how far
-/// it reaches along a vector, reach(n), times its length; and `size`, no less than the sum of what its numbers come of.
+/// The point p + v t within a step and a core rounded by R. The core has bounds, low() and high(), and more slabs, narrow(); the part(x) that is
+/// nearest, of which is_still(x) tells whether that is of another place too; how far it reaches along a vector, reach(n), times its length;
+/// and `size`, no less than the sum of what its numbers come of.
 template <class Core>
 THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, const packed::Lanes& v,
                                   const packed::Pair& R) {
@@ -65,9 +46,11 @@ THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, cons
     return walk;
   }
   Pair now = min(stretch.first, last);
-  ClearLooks<Core> look{core};
+  typename Core::Part part;
   for (; in_range && walk.rounds <= most_rounds; ++walk.rounds) {
-    const ClearNearest& nearest = look(p + v * all(now));
+    const Lanes place = p + v * all(now);
+    if (walk.rounds == 1 || !core.is_still(place, part)) part = core.part(place);
+    const ClearNearest& nearest = part.nearest;
     const Lanes& n = nearest.gap;
     const Pair of_n = two_sums(n * n, n * v), of_p = two_sums(n * p, n * nearest.at), reach = core.reach(n);
     const Pair square = firsts(of_n), along = seconds(of_n), length = root(square);

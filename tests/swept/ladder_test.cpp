@@ -336,7 +336,11 @@ struct SaidCore {
   packed::Lanes high() const { return packed::all(1); }
   void narrow(ClearStretch&, const packed::Lanes&, const packed::Pair&, const packed::Pair&) const {}
   packed::Pair reach(const packed::Lanes& n) const { return max(dot(n, packed::lanes(V(0.5, 0, 0))), packed::both(0)); }
-  ClearNearest nearest(const packed::Lanes& x) const { return {at, x - at, packed::both(4), packed::both(0), one}; }
+  struct Part {
+    ClearNearest nearest;
+  };
+  Part part(const packed::Lanes& x) const { return {{at, x - at, packed::both(4), packed::both(0), one}}; }
+  static bool is_still(const packed::Lanes&, const Part&) { return false; }
   ClearWalk walk(const V& from, const V& by, double R) const {
     return clear_walk(*this, packed::lanes(from), packed::lanes(by), packed::both(R));
   }
@@ -410,8 +414,8 @@ TEST(LadderFilters, a_ray_from_beside_a_corner_is_in_doubt_about_the_far_edge) {
 }
 
 TEST(LadderFilters, parallel_capsules_touch_in_more_than_one_place) {
-  const Rod rod{{0, 0, 0}, {0, 0, 1}, 0.25}, beside{{3, 0, 0.25}, {3, 0, 1.5}, 0.25},
-      askew{{3, 0, 0.25}, {3, 0.5, 1.5}, 0.25};
+  const Rod rod{{0, 0, 0}, {0, 0, 1}, 0.25}, beside{{3, 0, 0.25}, {3, 0, 1.75}, 0.25},
+      askew{{3, 0, 0.25}, {3, 0.75, 1.5}, 0.25};
   const auto is_clear_towards = [&](const Rod& to, double by) {
     return clear_impact(Moving<Rod>{rod, {by, 0, 0}}, at_rest(to), 0).clear;
   };
