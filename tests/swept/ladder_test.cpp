@@ -256,6 +256,23 @@ TEST(LadderFilters, a_graze_of_a_rod_is_careful) {  // of its side, of its caps,
   EXPECT_TRUE(is_sure({-4, 3, 2}, {8, 0, 0}));
 }
 
+TEST(LadderFilters, a_graze_of_a_plate_is_careful) {  // of an edge, of a corner, and along its face
+  const auto is_sure = [](const V& from, const V& by) {
+    return is_clear(at_rest(Flat{{-4, -4, 0}, {8, -4, 0}, {-4, 8, 0}}), shot(from, by));
+  };
+  const V down(0, 0, -6);
+  EXPECT_TRUE(is_sure({0, 0, 3}, down));
+  EXPECT_FALSE(is_sure({0, -5, 3}, down));
+  EXPECT_TRUE(is_sure({0, -5.25, 3}, down));
+  EXPECT_TRUE(is_sure({0, -4.75, 3}, down));
+  EXPECT_FALSE(is_sure({-4.6, -4.8, 3}, down));
+  EXPECT_TRUE(is_sure({-4.7, -4.8, 3}, down));
+  EXPECT_FALSE(is_sure({-3, 0, 1.001}, {4, 0, -0.01}));
+  EXPECT_TRUE(is_sure({-3, 0, 1.001}, {4, 0, -0.1}));
+  EXPECT_FALSE(is_sure({0, 0, 1 + 0x1p-46}, down)) << "in touch, as far as roundings tell";
+  EXPECT_FALSE(is_sure({0, 0, 0.5}, down));
+}
+
 // A hundredth of the gap beside it, which is a few roundings.
 TEST(LadderFilters, an_end_within_the_noise_of_a_creep_is_careful) {
   const auto creep = [](double gap) {

@@ -120,6 +120,11 @@ TEST(ClearLanes, vectors_side_by_side_are_asked_at_once) {
 
 TEST(ClearLanes, the_lowest_bit_has_the_lane) {
   for (const unsigned which : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U}) EXPECT_EQ(bits(lowest(which)), which & (~which + 1U));
+  for (unsigned which = 0; which < 16; ++which) {
+    const LanesMask of_four = mask((which & 1U) != 0, (which & 2U) != 0, (which & 4U) != 0, (which & 8U) != 0);
+    EXPECT_EQ(four_bits(of_four), which);
+    EXPECT_EQ(four_bits(lowest_of_four(of_four)), which & (~which + 1U));
+  }
 }
 
 }  // namespace
