@@ -35,15 +35,6 @@ struct ClearStretch {
     free = max(free, largest_of(max((enter - noise) * per_v, zero)));
     last = min(last, smallest_of(min((P + reach + noise) * per_v, all(last))));
   }
-  /// The same of one number.
-  THINWALL_HOT void narrow(const packed::Pair& p, const packed::Pair& v, const packed::Pair& reach,
-                           const packed::Pair& noise) {
-    using packed::Pair, packed::both;
-    const Pair P = against(p, v), per_v = both(1) / abs(v), enter = P - reach;
-    first = max(enter * per_v, first);
-    free = max((enter - noise) * per_v, free);
-    last = min((P + reach + noise) * per_v, last);
-  }
 };
 
 /// The number between 0 and 1 that is nearest to x; 0 or 1 for what is not a number.
