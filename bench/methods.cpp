@@ -28,7 +28,7 @@ void add(const std::string& set_name, const Shots<A, B>& (*set)(), const Operati
 }
 
 const bool added = [] {
-  add("sphere_thin_wall", &thin_wall_shots, flat_hit);
+  add("sphere_thin_wall", &thin_wall_shots<Aabb<double>>, flat_hit);
   add("sphere_sphere", &any_shots<Sphere<double>, Sphere<double>>, round_hit);
   return true;
 }();

@@ -200,8 +200,13 @@ const bool added = [] {
   const auto plain_ball_at_box = [](const auto& q) {
     return textbook::rounded_box<D>(between(q), motion(q), q.b.shape.half_extents, q.a.shape.radius);
   };
-  add_impact<S, A>("sphere_thin_wall", 14, &thin_wall_shots, flat_hit, plain_ball_at_box);
-  add_impact<S, A>("sphere_aabb", 14, &any_shots<S, A>, flat_hit, plain_ball_at_box);
+  const auto plain_ball_at_turned_box = [](const auto& q) {
+    return textbook::rounded_box<D>(into<D>(q.b.shape, between(q)), into<D>(q.b.shape, motion(q)),
+                                    q.b.shape.half_extents, q.a.shape.radius);
+  };
+  add_impact<S, A>("sphere_thin_wall", 14, &thin_wall_shots<A>, flat_hit, plain_ball_at_box);
+  add_impact<S, O>("sphere_turned_wall", 18, &thin_wall_shots<O>, flat_hit, plain_ball_at_turned_box);
+  add_impact<S, A>("sphere_aabb", 0, &any_shots<S, A>, flat_hit, plain_ball_at_box);
   add_impact<S, S>("sphere_sphere", 12, &any_shots<S, S>, round_hit, [](const auto& q) {
     return textbook::ball<D>(between(q), motion(q), q.a.shape.radius + q.b.shape.radius);
   });
@@ -216,10 +221,7 @@ const bool added = [] {
                    [](const auto& q) { return plain::bisection(q.a, q.b); });
   add_impact<C, C>("capsule_capsule", 35, &any_shots<C, C>, flat_hit,
                    [](const auto& q) { return plain::bisection(q.a, q.b); });
-  add_impact<S, O>("sphere_obb", 18, &any_shots<S, O>, flat_hit, [](const auto& q) {
-    return textbook::rounded_box<D>(into<D>(q.b.shape, between(q)), into<D>(q.b.shape, motion(q)),
-                                    q.b.shape.half_extents, q.a.shape.radius);
-  });
+  add_impact<S, O>("sphere_obb", 0, &any_shots<S, O>, flat_hit, plain_ball_at_turned_box);
   add_impact<A, O>("aabb_obb", 36, &any_shots<A, O>, flat_hit,
                    [](const auto& q) { return textbook::boxes<D>(to_obb(q.a.shape), q.b.shape, -motion(q)); });
   add_impact<O, O>("obb_obb", 55, &any_shots<O, O>, flat_hit,

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -134,7 +135,7 @@ Shots<A, B> shots(const MakeA& make_a, const MakeB& make_b, const Vec3<double>& 
   return set;
 }
 
-/// Bullets at thin walls, and any two shapes: the sets are made when first asked for.
+/// Any two shapes: the sets are made when first asked for.
 template <class A, class B> const Shots<A, B>& any_shots() {
   static const Shots<A, B> set = shots<A, B>([](Uniform& u) { return any_shape<A>(u); },  //
                                              [](Uniform& u) { return any_shape<B>(u); });
@@ -175,13 +176,19 @@ template <class A, class B> const Poses<A, B>& any_poses() {
   return set;
 }
 
-inline const Shots<Sphere<double>, Aabb<double>>& thin_wall_shots() {
-  static const auto set = shots<Sphere<double>, Aabb<double>>(
+/// Bullets at thin walls, upright or turned.
+template <class Wall> const Shots<Sphere<double>, Wall>& thin_wall_shots() {
+  static const auto set = shots<Sphere<double>, Wall>(
       [](Uniform& u) {
         return Sphere<double>{Vec3<double>::Zero(), u.between(0.02, 0.1)};
       },
       [](Uniform& u) {
-        return Aabb<double>{Vec3<double>::Zero(), {u.between(0.001, 0.02), 0.7, 0.7}};
+        const Aabb<double> wall{Vec3<double>::Zero(), {u.between(0.001, 0.02), 0.7, 0.7}};
+        if constexpr (std::is_same_v<Wall, Aabb<double>>) {
+          return wall;
+        } else {
+          return Wall{wall.center, wall.half_extents, u.axes()};
+        }
       });
   return set;
 }

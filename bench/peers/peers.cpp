@@ -9,7 +9,7 @@ namespace thinwall::bench {
 
 THINWALL_PEER_SETS()
 
-const Shots<Ball, Box>& wall_shots() { return thin_wall_shots(); }
+const Shots<Ball, Box>& wall_shots() { return thin_wall_shots<Box>(); }
 const Shots<Ball, Box>& plane_shots() {
   static const auto set = shots<Ball, Box>(&any_shape<Ball>, &any_shape<Box>, {1, 1, 0});
   return set;
