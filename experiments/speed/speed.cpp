@@ -538,7 +538,8 @@ std::string answer_of(const std::vector<TimedWay>& all) {
       worst_of_ours = std::max(worst_of_ours, length);
       if (!c.to_floor.empty()) floor.add(median(c.to_floor));
     } else if (const TimedWay* front = front_door_for(all, c); c.is_peer() && front != nullptr) {
-      slower.add(median(c.nanoseconds) / median(front->nanoseconds));
+      // a cast of 0 ns took less than the call that was subtracted: how long is not known
+      if (const double time = median(c.nanoseconds); time > 0) slower.add(time / median(front->nanoseconds));
       best_of_peers = std::min(best_of_peers, length);
       wrong += c.wrong_verdicts();
     }

@@ -88,6 +88,13 @@ TEST_F(Speed, draws_a_point_for_each_way_and_pair_and_tells_who_is_wrong) {
   EXPECT_TRUE(holds(text, "take 20.0 to 20 times as long"));  // 880 ns to the 44 of the same run
 }
 
+TEST_F(Speed, takes_no_ratio_of_a_cast_that_took_less_than_its_call) {
+  const std::string hidden = bench_row("time_of_impact/sphere_aabb/physx_sweep", 0, 0, 0, 1e-6);
+  write_bench(folder.path(), "pairs", bench_json(our_rows));
+  write_bench(folder.path(), "peers", bench_json(peer_rows + ", " + hidden));
+  EXPECT_TRUE(holds(whole_text(result()), "take 20.0 to 20 times as long"));
+}
+
 TEST_F(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
   const std::string row = R"({"run_name": "time_of_impact/sphere_aabb/jolt_cast_shape/iterations:1/manual_time", )"
                           R"("cpu_time": 5e8, "time_unit": "ns", "ns_row": 1400, "call_ns": 5$$, "missed": 0})";
