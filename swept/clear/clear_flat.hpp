@@ -114,7 +114,7 @@ struct ClearFlatEntry {
     const LanesMask side_clear =
         ((pierces | (reach < off * graze)) & (all(squares * both(0x1p-60)) * length <= w_w)) | (w_w <= zero);
     const LanesMask ball_clear = strikes | (all(wide) < aside * graze);
-    const Lanes beyond = all(1 + 0x1p-30);
+    const Lanes beyond = all(1 + 0x1p-30);  // a moment seen from 2^14 R is off by 2^-38 of itself
     const LanesMask outside = (RR * beyond < square) & ((RR_d * beyond < k_k) | (start < zero) | (length < start));
     // a face this narrow is in the cylinders, all but its square over 8 R
     const PairMask narrow = nn <= largest_of(RR_d) * both(0x1p-52);
