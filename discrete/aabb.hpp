@@ -203,16 +203,15 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Sphere<do
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double>& box) {
-  using packed::Lanes, packed::LanesMask, packed::all, packed::both;
+  using packed::Lanes, packed::all, packed::both;
   const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents), v = packed::lanes(ray.direction);
   const Lanes p = packed::lanes(ray.origin) - center;
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
   const ClearSlabs::Last last = slabs.last_entered();
-  const LanesMask axis = packed::lowest(last.axes);
   const bool clear = both(both(all_of(slabs.in_range), any_of(slabs.outside)), last.clear);
   const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
   return {both(both(clear, all_of(slabs.in_order())), ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
-          center + select(axis, against(h, v), clamped), keep(axis, against(all(1), v))};
+          center + select(last.axes, against(h, v), clamped), clear_face_normal(last.axes, v)};
 }
 
 }  // namespace thinwall

@@ -241,7 +241,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const Lanes enter = near / W, off = noise / W;
   const packed::Pair first = largest_of(enter);
   const unsigned may_be_last = bits(all(largest_of(enter - off)) <= enter + off);
-  const packed::LanesMask axis = packed::lowest(bits(all(first) <= enter));
+  const packed::LanesMask axis = all(first) <= enter;
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
   const bool outside = any_of(noise + noise < abs(p) - h);
   const bool one_face = (may_be_last & (may_be_last - 1)) == 0;

@@ -84,9 +84,9 @@ THINWALL_HOT ClearEntry clear_ball_entry(const packed::Lanes& p, const packed::L
           select(pierces & chord.approaches(), chord.time(), both(ClearEntry::never)), nearer_unit(chord.normal(v))};
 }
 
-/// The unit vector along the lowest axis of those whose bits are set, against the motion v.
-THINWALL_HOT packed::Lanes clear_face_normal(unsigned axes, const packed::Lanes& v) {
-  return keep(packed::lowest(axes), against(packed::all(1), v));
+/// The unit vector along an axis, against the motion v.
+THINWALL_HOT packed::Lanes clear_face_normal(const packed::LanesMask& axis, const packed::Lanes& v) {
+  return keep(axis, against(packed::all(1), v));
 }
 
 /// When p + v t is in the box [-h, h] widened by R >= 0, as if it moved downwards on every axis; not later than `until`.
@@ -118,14 +118,14 @@ struct ClearSlabs {
   /// is more than that one's own.
   struct Last {
     bool clear;
-    unsigned axes;
+    packed::LanesMask axes;
   };
   THINWALL_HOT Last last_entered() const {
     using packed::all, packed::both;
-    const packed::LanesMask early = enter < all(first * both(1 - 0x1p-20)), sure = early | (size * all(0x1p-28) <= low);
-    const unsigned axes = bits(early) ^ 7U, unsure = bits(sure) ^ 7U,
+    const packed::LanesMask late = all(first * both(1 - 0x1p-20)) <= enter;
+    const unsigned axes = bits(late), unsure = bits(late & (low < size * all(0x1p-28))),
                    hit = 0U - static_cast<unsigned>(all_of(first <= last));
-    return {(((axes & (axes - 1U)) | unsure) & hit) == 0U, axes};
+    return {(((axes & (axes - 1U)) | unsure) & hit) == 0U, late};
   }
   /// Which of `first` and `last` comes first.
   THINWALL_HOT packed::PairMask in_order() const {
@@ -171,22 +171,29 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
   const Lanes X = slabs.P - all(slabs.first) * slabs.W;
   const Lanes noise = turned ? clear_noise(p, h) : slabs.extent * all(0x1p-48);
+  const Lanes near = slabs.low - all(R), far = slabs.high + all(R), margin = noise * all(0x1p24);
   const LanesMask off = h < abs(X);
   const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & off), misses = bits(slabs.last < slabs.first);
   const LanesMask is_round = max(noise * all(0x1p20), all(1 / packed::most_length)) <= all(R);
-  bool clear = both(both(all_of(slabs.in_range & is_round), any_of(slabs.outside)), all_of(slabs.in_order()));
-  if (turned) {
-    const ClearOrder order(slabs.low - all(R), slabs.high + all(R), slabs.W, noise, ClearEntry::never);
-    clear = both(both(clear, any_of(all(R) + noise + noise < abs(p) - h)), order.meets || order.misses);
+
+  // Where the start is this far from where each slab begins and ends, no time is off by more than 2^-24 of itself.
+  const Pair almost = both(1 - 0x1p-20);
+  const PairMask apart = (slabs.last < slabs.first * almost) |
+                         ((both(0) < slabs.first) & (slabs.first < slabs.last * almost));
+  bool clear = both(all_of(margin <= min(abs(near), abs(far))), all_of(apart));
+  if (!clear) [[unlikely]] {
+    const ClearOrder order(near, far, slabs.W, noise, ClearEntry::never);
+    clear = turned ? both(any_of(all(R) + noise + noise < abs(p) - h), packed::either(order.meets, order.misses))
+                   : both(any_of(slabs.outside), all_of(slabs.in_order()));
   }
-  ClearEntry entry{both(clear, (axes | misses) != 0), slabs.time, clear_face_normal(axes, v)};
+  clear = both(clear, all_of(slabs.in_range & is_round));
+  ClearEntry entry{both(clear, (axes | misses) != 0), slabs.time, clear_face_normal(off, v)};
   if ((axes & (axes - 1)) == 0) {
     // A miss; or beside a face whose time is off by 2^-26 of itself at most; or beside it, and on one side of the step's end, while it is off.
-    const LanesMask far = noise * all(0x1p24) <= select(off, slabs.low - all(R), h - abs(X));
-    if ((misses | static_cast<unsigned>(all_of(far))) != 0) [[likely]]
+    const LanesMask well_beside = margin <= select(off, near, h - abs(X));
+    if ((misses | static_cast<unsigned>(all_of(well_beside))) != 0) [[likely]]
       return entry;
-    const LanesMask face = packed::lowest(axes);
-    const Pair its = two_sums(keep(face, slabs.W), keep(face, noise));
+    const Pair its = two_sums(keep(off, slabs.W), keep(off, noise));
     const LanesMask beside = all(seconds(its)) * slabs.W <= all(firsts(its)) * ((h - noise) - abs(X));
     const PairMask in_time = seconds(its) < firsts(its) * abs(slabs.first - both(1));
     entry.clear = both(entry.clear, both((bits(beside) | axes) == 7U, all_of(in_time)));

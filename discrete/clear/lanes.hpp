@@ -168,8 +168,9 @@ THINWALL_HOT unsigned bits(const LanesMask& m) {
 THINWALL_HOT bool all_of(const PairMask& m) { return bits(m) == 3U; }
 THINWALL_HOT bool all_of(const LanesMask& m) { return bits(m) == 7U; }
 THINWALL_HOT bool any_of(const LanesMask& m) { return bits(m) != 0U; }
-/// Both, without a jump.
+/// Both, and either, without a jump.
 THINWALL_HOT bool both(bool a, bool b) { return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0U; }
+THINWALL_HOT bool either(bool a, bool b) { return (static_cast<unsigned>(a) | static_cast<unsigned>(b)) != 0U; }
 
 template <template <class> class Pack> THINWALL_HOT Pack<double> root(const Pack<double>& a) {
   return each<double>([](const auto& x) { return root_of(x); }, a);
