@@ -72,13 +72,13 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const Lanes half_a = lanes(a.shape.half_extents), half_b = lanes(b.shape.half_extents), zero = all(0);
   const Lanes center_a = lanes(a.shape.center), center_b = lanes(b.shape.center);
   const Lanes path_a = lanes(a.displacement), path_b = lanes(b.displacement), v = path_b - path_a;
-  const ClearSlabs slabs(center_b - center_a, v, half_a + half_b, zero, 1);
+  const ClearSlabs slabs(center_b - center_a, v, half_a + half_b, zero, ClearEntry::never);
   const Lanes time = all(slabs.first), at_a = center_a + path_a * time, at_b = center_b + path_b * time;
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
   const ClearSlabs::Last last = slabs.last_entered();
   const bool sizes = all_of((zero <= min(half_a, half_b)) & slabs.in_range);
   const bool clear = both(both(sizes, any_of(slabs.outside)), last.clear);
-  return {both(both(clear, all_of(slabs.in_order())), gap == 0), slabs.time, clear_face_normal(last.axes, v), point};
+  return {both(both(clear, all_of(slabs.in_order() & clear_of_end(slabs.time))), gap == 0), slabs.time, clear_face_normal(last.axes, v), point};
 }
 
 /// As against an aligned box, in the box's own axes. A face is met as exactly as they are: what turning rounds of a place counts along one.

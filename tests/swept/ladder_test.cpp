@@ -224,6 +224,11 @@ TEST(LadderFilters, a_graze_and_the_end_of_the_step_are_careful) {  // of which 
   EXPECT_TRUE(onto_plate(2, 2 + 0x1p-6));
   EXPECT_FALSE(onto_plate(0x1p-38, 0x1p-38 * 1.01)) << "a hundredth of the gap is a few roundings";
   EXPECT_TRUE(onto_plate(0x1p-20, 0x1p-20 * 1.01));
+  const auto onto_wall = [](double gap) {  // where a place is rounded by 2^-35
+    return is_clear(at_rest(Box{{0, 0, 0}, {0x1p17, 1, 1}}), box_shot({0x1p17 + 1 + gap, 0, 0}, {-256, 0, 0}));
+  };
+  EXPECT_FALSE(onto_wall(256 + 0x1p-34)) << "short of the wall by two roundings";
+  EXPECT_TRUE(onto_wall(257));
 }
 
 TEST(LadderFilters, a_start_in_touch_is_careful) {
