@@ -25,17 +25,19 @@ struct ClearSegment {
 struct ClearSegments {
   packed::Lanes d, e;
   packed::Pair size;
-  packed::Pair de, per_dd, per_ee;  ///< d.e, 1 / d.d, 1 / e.e
-  packed::Lanes to_s;               ///< x.to_s is the place on the first's line that is nearest to the second's
-  packed::PairMask crossed;         ///< far enough from parallel for that
+  packed::Pair per_dd, per_ee, per_nn;  ///< 1 / d.d, 1 / e.e and 1 / n.n, of n = d x e
+  packed::Pair d_on_e, e_on_d;          ///< d.e / e.e and d.e / d.d
+  packed::Lanes to_s;                   ///< x.to_s / n.n is the place on the first's line that is nearest to the second's
+  packed::PairMask crossed;             ///< far enough from parallel for that
 
   THINWALL_HOT ClearSegments(const packed::Lanes& first, const packed::Lanes& second)
       : d(first), e(second), size(sum(abs(first) + abs(second))) {
     using packed::Lanes, packed::Pair, packed::all, packed::both;
     const Lanes normal = cross(d, e);
     const Pair lengths = two_sums(d * d, e * e), per = both(1) / lengths, others = two_sums(d * e, normal * normal);
-    de = firsts(others), per_dd = firsts(per), per_ee = seconds(per);
-    to_s = cross(e, normal) * all(both(1) / seconds(others));
+    per_dd = firsts(per), per_ee = seconds(per), per_nn = both(1) / seconds(others);
+    d_on_e = firsts(others) * per_ee, e_on_d = firsts(others) * per_dd;
+    to_s = cross(e, normal);
     crossed = both(0x1p-20) * (firsts(lengths) * seconds(lengths)) < seconds(others);
   }
 
@@ -47,9 +49,9 @@ struct ClearSegments {
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
     using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
     const Pair zero = both(0), one = both(1), of_x = two_sums(x * to_s, x * e);
-    const Pair across = clear_clamp(firsts(of_x)), u = clear_clamp((across * de - seconds(of_x)) * per_ee);
+    const Pair across = clear_clamp(firsts(of_x) * per_nn), u = clear_clamp(across * d_on_e - seconds(of_x) * per_ee);
     const PairMask end_u = (u <= zero) | (one <= u);
-    const Pair s = select(end_u, clear_clamp((dot(x, d) + u * de) * per_dd), across);
+    const Pair s = select(end_u, clear_clamp(dot(x, d) * per_dd + u * e_on_d), across);
     const Lanes at = d * all(s) - e * all(u);
     return {at, x - at, zero, s, all_of(crossed)};
   }

@@ -181,14 +181,12 @@ THINWALL_HOT ClearContact clear_contact_in_box(const packed::Lanes& x, const pac
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
   const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
   const Pair r = both(radius), rr = r * r, square = dot(excess, excess), distance = root(square);
-  const PairMask inside = square <= both(0);
-  const bool has_square = all_of(both(packed::least_square) <= square) || all_of(abs(x) <= h);
-  const PairMask in_range = (both(packed::least_square) <= rr) & (max(rr, square) <= both(packed::most_square)) &
-                            (both(0) <= r) & clearly_apart(square, rr);
   const ClearWayOut out(x, h);
-  const packed::LanesMask is_inside = all(square) <= zero;
+  const PairMask inside = both(0) <= out.depth, has_square = inside | (both(packed::least_square) <= square);
+  const PairMask decided = (both(1 / packed::most_length) <= r) & clearly_apart(square, rr) & has_square;
+  const packed::LanesMask in_range = (abs(x) + h) + all(r) <= all(packed::most_length), is_inside = all(inside);
   const Lanes outward = select(is_inside, out.normal, excess / all(distance));
-  return {both(both(all_of(in_range), has_square), all_of((abs(x) + h <= all(packed::most_length)) & (zero <= h))),
+  return {both(all_of(decided), all_of(in_range & (zero <= h))),
           all_of(square < rr),
           select(is_inside, x + out.normal * all(out.depth), x - excess),
           (zero - outward) * all(r),
