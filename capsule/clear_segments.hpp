@@ -27,8 +27,8 @@ struct ClearSegments {
   packed::Pair size;
   packed::Pair per_dd, per_ee, per_nn;  ///< 1 / d.d, 1 / e.e and 1 / n.n, of n = d x e
   packed::Pair d_on_e, e_on_d;          ///< d.e / e.e and d.e / d.d
-  packed::Lanes to_s;                   ///< x.to_s / n.n is the place on the first's line that is nearest to the second's
-  packed::PairMask crossed;             ///< far enough from parallel for that
+  packed::Lanes to_s;        ///< x.to_s / n.n is the place on the first's line that is nearest to the second's
+  packed::PairMask crossed;  ///< far enough from parallel for that
 
   THINWALL_HOT ClearSegments(const packed::Lanes& first, const packed::Lanes& second)
       : d(first), e(second), size(sum(abs(first) + abs(second))) {

@@ -206,10 +206,10 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double
   const Lanes p = packed::lanes(ray.origin) - center;
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
   const ClearSlabs::Last last = slabs.last_entered();
-  const bool clear = both(both(all_of(slabs.in_range), any_of(slabs.outside)), last.clear);
   const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
-  return {both(both(clear, all_of(slabs.in_order())), ray.max_t >= 0), all_of(slabs.first < slabs.last), slabs.first,
-          center + select(last.axes, against(h, v), clamped), clear_face_normal(last.axes, v)};
+  return {both(both(all_of(slabs.in_range), last.clear), both(all_of(slabs.in_order()), ray.max_t >= 0)),
+          all_of(slabs.first < slabs.last), slabs.first, center + select(last.axes, against(h, v), clamped),
+          clear_face_normal(last.axes, v)};
 }
 
 }  // namespace thinwall

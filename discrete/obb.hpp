@@ -142,13 +142,13 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 
 /// Two boxes whose centers are `between` apart in the first one's axes; `orthonormal` if all axes are clear.
 THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const packed::Lanes& between,
-                                              const packed::Lanes& size, bool orthonormal) {
+                                              const packed::Lanes& size, const packed::LanesMask& orthonormal) {
   using packed::Lanes, packed::LanesMask, packed::all, packed::both;
   const ClearOverlaps overlaps(boxes, between);
-  const LanesMask in_range =
-      (all(0) <= min(boxes.a, boxes.b)) & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
+  const LanesMask in_range = boxes.in_range() & (all(0) <= min(boxes.a, boxes.b)) & (size <= all(packed::most_length)) &
+                             (all(1 / packed::most_length) <= size);
   const bool decided = overlaps.within() != overlaps.apart();
-  return {both(both(all_of(in_range), boxes.in_range()), both(orthonormal, decided)), overlaps.within()};
+  return {both(all_of(in_range & orthonormal), decided), overlaps.within()};
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
@@ -156,7 +156,7 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>&
   const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
   const ClearBoxAxes boxes{
       {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)}, ha, hb, size * packed::all(0x1p-46)};
-  return clear_boxes_overlap(boxes, of_a.into(between), size, packed::both(of_a.clear(), of_b.clear()));
+  return clear_boxes_overlap(boxes, of_a.into(between), size, of_a.clear() & of_b.clear());
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& b, const Aabb<double>& a) {
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
@@ -173,7 +173,7 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& box, const Sphere<dou
   const Pair r = both(sphere.radius), distance = root(dot(excess, excess)), size = sum(abs(from_box) + h) + r;
   const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
   const packed::PairMask decided = size * both(0x1p-46) < abs(distance - r);
-  return {both(both(all_of(in_range & decided), frame.clear()), both(all_of(all(0) <= h), sphere.radius >= 0)),
+  return {both(both(all_of(in_range & decided), all_of(frame.clear() & (all(0) <= h))), sphere.radius >= 0),
           all_of(distance < r)};
 }
 /// In the box's own axes, made of unit length. Clear where no rounding of turning decides, nor says which way out is shortest, or where the
@@ -191,7 +191,7 @@ THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<dou
   const unsigned ways_out = bits(depths <= all(smallest_of(depths) + noise));
   const bool one_way = both(both(all_of(all(noise) < depths), (ways_out & (ways_out - 1)) == 0),
                             all_of(noise < abs(dot(x, contact.normal))));
-  contact.clear = both(both(contact.clear, frame.clear()), both(all_of(decided), all_of(wide) || one_way));
+  contact.clear = both(both(contact.clear, all_of(frame.clear())), both(all_of(decided), all_of(wide) || one_way));
   contact.normal = frame.out_of(contact.normal * per_length);
   contact.local_a = frame.out_of(contact.local_a * per_length);
   contact.local_b = (all(0) - contact.normal) * all(r);
@@ -233,19 +233,19 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
               start = packed::lanes(ray.origin) - center;
   const Lanes p = frame.into(start), v = frame.into(packed::lanes(ray.direction)), noise = clear_noise(start, h);
   const Lanes P = against(p, v), W = abs(v), reach = h * frame.squares, near = P - reach, far = P + reach;
-  const ClearOrder order(near, far, W, noise, ray.max_t);
-  const bool in_range = all_of((all(1 / packed::most_length) <= noise * all(0x1p48)) & (all(0) <= h) &
-                               (abs(p) + W + h <= all(packed::most_length)));
-  const bool sure = both(both(frame.clear(), in_range), ray.max_t >= 0);
-  if (both(order.misses, sure)) return ClearRayHit::miss();
-  const Lanes enter = near / W, off = noise / W;
-  const packed::Pair first = largest_of(enter);
-  const unsigned may_be_last = bits(all(largest_of(enter - off)) <= enter + off);
-  const packed::LanesMask axis = all(first) <= enter;
+  const packed::LanesMask in_range = (all(1 / packed::most_length) <= noise * all(0x1p48)) & (all(0) <= h) &
+                                     (abs(p) + W + h <= all(packed::most_length));
+  const packed::LanesMask from_afar = noise * all(0x1p24) <= min(abs(near), abs(far));
+  const Lanes enter = near / W;
+  const packed::Pair first = largest_of(max(enter, all(0))), last = min(smallest_of(far / W), both(ray.max_t));
+  const packed::Pair almost = both(1 - 0x1p-20), at_most = last * almost;
+  const bool misses = all_of(last < first * almost), meets = all_of((both(0) < first) & (first < at_most));
+  const packed::LanesMask axis = all(first * almost) <= enter;
+  const unsigned axes = bits(axis);
+  const bool sure = both(all_of(frame.clear() & in_range & from_afar), ray.max_t >= 0);
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
-  const bool outside = any_of(noise + noise < abs(p) - h);
-  const bool one_face = (may_be_last & (may_be_last - 1)) == 0;
-  return {both(both(sure, one_face), both(order.meets, outside)), true, first, center + frame.out_of(on_box),
+  const bool one_face = (axes & (axes - 1)) == 0;
+  return {both(sure, packed::either(misses, both(meets, one_face))), meets, first, center + frame.out_of(on_box),
           frame.out_of(keep(axis, against(frame.per_length(), v)))};
 }
 

@@ -27,9 +27,9 @@ struct ClearFrame {
         z(packed::lanes(numbers + 6)),
         rows(packed::transposed(x, y, z)),
         squares(dot(rows, rows)) {}
-  THINWALL_HOT bool clear() const {
+  THINWALL_HOT packed::LanesMask clear() const {
     const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
-    return all_of(abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(0x1p-49));
+    return abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(0x1p-49);
   }
   /// Over their lengths.
   THINWALL_HOT packed::Lanes per_length() const { return packed::all(1.5) - squares * packed::all(0.5); }
@@ -45,7 +45,7 @@ struct ClearFrame {
 /// A box that is not turned, as ClearFrame is one that is.
 struct ClearUpright {
   static constexpr bool is_turned = false;
-  THINWALL_HOT static bool clear() { return true; }
+  THINWALL_HOT static packed::LanesMask clear() { return packed::mask(true, true, true); }
   THINWALL_HOT static packed::Lanes per_length() { return packed::all(1); }
   THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
   THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }
@@ -61,11 +61,11 @@ struct ClearBoxAxes {
   packed::Lanes noise;  ///< [length] of every place and reach
 
   /// No number of the rows is so small, and not zero, that its products with lengths would underflow and part what overlaps.
-  THINWALL_HOT bool in_range() const {
+  THINWALL_HOT packed::LanesMask in_range() const {
     const auto is_plain = [](const packed::Lanes& x) {
       return (packed::all(0x1p-500) <= abs(x)) | (abs(x) <= packed::all(0));
     };
-    return all_of(is_plain(rows.x) & is_plain(rows.y) & is_plain(rows.z));
+    return is_plain(rows.x) & is_plain(rows.y) & is_plain(rows.z);
   }
 
   /// visit(along, reach, noise, square) of each group: `along` gives the part of a vector, spread, along the three axes, `reach` how

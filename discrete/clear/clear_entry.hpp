@@ -178,8 +178,8 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
 
   // Where the start is this far from where each slab begins and ends, no time is off by more than 2^-24 of itself.
   const Pair almost = both(1 - 0x1p-20);
-  const PairMask apart = (slabs.last < slabs.first * almost) |
-                         ((both(0) < slabs.first) & (slabs.first < slabs.last * almost));
+  const PairMask apart =
+      (slabs.last < slabs.first * almost) | ((both(0) < slabs.first) & (slabs.first < slabs.last * almost));
   bool clear = both(all_of(margin <= min(abs(near), abs(far))), all_of(apart));
   if (!clear) [[unlikely]] {
     const ClearOrder order(near, far, slabs.W, noise, ClearEntry::never);

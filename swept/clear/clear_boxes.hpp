@@ -39,10 +39,9 @@ struct ClearBoxes {
                           const packed::Lanes& v) {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both, packed::lanes;
     const Lanes zero = all(0), size = all(sum((abs(between) + abs(v)) + (ha + hb)));
-    const bool in_range = both(
-        all_of((size <= all(packed::most_length)) & (zero <= min(ha, hb)) & (all(1 / packed::most_length) <= size)),
-        both(of_a.clear(), of_b.clear()));
     const ClearBoxAxes boxes{rows, ha, hb, size * all(0x1p-46)};
+    const LanesMask in_range = (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size) &
+                               (zero <= min(ha, hb)) & boxes.in_range() & of_a.clear() & of_b.clear();
 
     const packed::Vectors<Lanes> D = spread(of_a.into(between)), V = spread(of_a.into(v));
     const Lanes until = all(1 + 0x1p-9);
@@ -57,7 +56,7 @@ struct ClearBoxes {
     });
     const Pair first = largest_of(times.in_least), last = smallest_of(times.out_most);
     const Pair first_most = largest_of(times.in_most), last_least = smallest_of(times.out_least);
-    clear = both(in_range, boxes.in_range()), time = both(ClearEntry::never), normal = from_a = zero;
+    clear = all_of(in_range), time = both(ClearEntry::never), normal = from_a = zero;
     if (all_of(last < first)) return;
 
     const Lanes near = all(first);

@@ -77,8 +77,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
   const ClearSlabs::Last last = slabs.last_entered();
   const bool sizes = all_of((zero <= min(half_a, half_b)) & slabs.in_range);
-  const bool clear = both(both(sizes, any_of(slabs.outside)), last.clear);
-  return {both(both(clear, all_of(slabs.in_order() & clear_of_end(slabs.time))), gap == 0), slabs.time, clear_face_normal(last.axes, v), point};
+  const bool ordered = all_of(slabs.in_order() & clear_of_end(slabs.time));
+  return {both(both(sizes, last.clear), both(ordered, gap == 0)), slabs.time, clear_face_normal(last.axes, v), point};
 }
 
 /// As against an aligned box, in the box's own axes. A face is met as exactly as they are: what turning rounds of a place counts along one.
@@ -110,8 +110,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
   }
   const Lanes normal = nearer_unit(n, square);
-  return {both(both(entry.clear, frame.clear()),
-               both(all_of((all(0) <= h) & (h <= all(packed::most_length))), all_of(clear_sizes(r, r, gap) & sure))),
+  return {both(both(entry.clear, all_of(frame.clear() & (all(0) <= h) & (h <= all(packed::most_length)))),
+               all_of(clear_sizes(r, r, gap) & sure)),
           time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
 }
 
@@ -203,7 +203,7 @@ THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, 
     normal = n / all(length);
   }
   const bool plain = all_of(clear_sizes(r, r, gap) & clear_of_end(time, closing, walk.noise));
-  return {both(both(walk.clear, frame.clear()), both(plain, all_of(all(0) <= h))), time, all(0) - normal,
+  return {both(both(walk.clear, plain), all_of(frame.clear() & (all(0) <= h))), time, all(0) - normal,
           ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Aabb<double>>& box,
