@@ -95,13 +95,13 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   // in axes of length a, R is R a and h is h a^2
   const Lanes reach = h + (h + all(R * both(0.5))) * (frame.squares - all(1));
   const ClearEntry entry = clear_box_entry<true>(frame.into(p), frame.into(v), max(reach, all(0)), R);
-  const Lanes n = frame.out_of(entry.normal);
-  const Pair square = dot(n, n);
+  Lanes normal = frame.out_of(entry.normal * frame.per_length());  // a face's
   Pair time = entry.time;
   PairMask sure = clear_of_end(time);
   if (entry.rounds > 1) {
-    const Lanes g = abs(frame.into(n)) * h;
-    const Pair toward = two_sums(n * p, n * v), closing = both(0) - seconds(toward);
+    const Lanes n = frame.out_of(entry.normal), g = abs(frame.into(n)) * h;
+    const Pair square = dot(n, n), toward = two_sums(n * p, n * v), closing = both(0) - seconds(toward);
+    normal = nearer_unit(n, square);
     const Pair plane = (firsts(toward) - (R * (both(0.5) + square * both(0.5)) + sum(g))) / closing;
     const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - time);
     const PairMask misses = both(ClearEntry::never) <= time;
@@ -109,7 +109,6 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
     time = select(misses, time, max(plane, both(0)));
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
   }
-  const Lanes normal = nearer_unit(n, square);
   return {both(both(entry.clear, all_of(frame.clear() & (all(0) <= h) & (h <= all(packed::most_length)))),
                all_of(clear_sizes(r, r, gap) & sure)),
           time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
