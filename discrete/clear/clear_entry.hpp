@@ -173,7 +173,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const Lanes noise = turned ? clear_noise(p, h) : slabs.extent * all(0x1p-48);
   const Lanes near = slabs.low - all(R), far = slabs.high + all(R), margin = noise * all(0x1p24);
   const LanesMask off = h < abs(X);
-  const unsigned axes = bits((all(slabs.first) < all(slabs.last)) & off), misses = bits(slabs.last < slabs.first);
+  const unsigned misses = bits(slabs.last < slabs.first) & 1U, axes = bits(off) & (misses - 1U);
   const LanesMask is_round = max(noise * all(0x1p20), all(1 / packed::most_length)) <= all(R);
 
   // Where the start is this far from where each slab begins and ends, no time is off by more than 2^-24 of itself.
@@ -186,8 +186,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     clear = turned ? both(any_of(all(R) + noise + noise < abs(p) - h), packed::either(order.meets, order.misses))
                    : both(any_of(slabs.outside), all_of(slabs.in_order()));
   }
-  clear = both(clear, all_of(slabs.in_range & is_round));
-  ClearEntry entry{both(clear, (axes | misses) != 0), slabs.time, clear_face_normal(off, v)};
+  ClearEntry entry{both(clear, all_of(slabs.in_range & is_round)), slabs.time, clear_face_normal(off, v)};
   if ((axes & (axes - 1)) == 0) {
     // A miss; or beside a face whose time is off by 2^-26 of itself at most; or beside it, and on one side of the step's end, while it is off.
     const LanesMask well_beside = margin <= select(off, near, h - abs(X));
