@@ -91,13 +91,13 @@ THINWALL_HOT packed::Lanes clear_face_normal(const packed::LanesMask& axis, cons
 
 /// When p + v t is in the box [-h, h] widened by R >= 0, as if it moved downwards on every axis; not later than `until`.
 struct ClearSlabs {
-  packed::Lanes P, W;                   ///< the place and the speed so seen
-  packed::Lanes low, high;              ///< how far it is to where the slabs begin and end, not widened
-  packed::Lanes size, extent;           ///< [length] of place and box on an axis, and with the path
-  packed::Lanes enter, leave;           ///< [1] when it is in the widened slabs
-  packed::Pair first, last;             ///< [1] when it is in all of them: last < first, never
-  packed::Pair time;                    ///< [1] `first`, or `never`
-  packed::LanesMask in_range, outside;  ///< outside on one axis is enough
+  packed::Lanes P, W;          ///< the place and the speed so seen
+  packed::Lanes low, high;     ///< how far it is to where the slabs begin and end, not widened
+  packed::Lanes size, extent;  ///< [length] of place and box on an axis, and with the path
+  packed::Lanes enter, leave;  ///< [1] when it is in the widened slabs
+  packed::Pair first, last;    ///< [1] when it is in all of them: last < first, never
+  packed::Pair time;           ///< [1] `first`, or `never`
+  packed::LanesMask in_range;
 
   THINWALL_HOT ClearSlabs(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& h,
                           const packed::Lanes& R, double until)
@@ -112,8 +112,7 @@ struct ClearSlabs {
         first(largest_of(enter)),
         last(smallest_of(leave)),
         time(select(last < first, packed::both(ClearEntry::never), first)),
-        in_range((extent <= packed::all(packed::most_length)) & (packed::all(0) <= h)),
-        outside(R * packed::all(packed::more_than_rounding) < abs(p) - h) {}
+        in_range((extent <= packed::all(packed::most_length)) & (packed::all(0) <= h)) {}
   /// The axes entered last, where nothing is widened; `clear` if it is a miss, or they are one and no rounding of its time, told for another's,
   /// is more than that one's own.
   struct Last {
@@ -127,7 +126,7 @@ struct ClearSlabs {
                    hit = 0U - static_cast<unsigned>(all_of(first <= last));
     return {(((axes & (axes - 1U)) | unsure) & hit) == 0U, late};
   }
-  /// Which of `first` and `last` comes first.
+  /// Which of `first` and `last` comes first. Where nothing is widened it then starts outside.
   THINWALL_HOT packed::PairMask in_order() const {
     using packed::both;
     const packed::Pair part = abs(first - last);
@@ -142,9 +141,9 @@ struct ClearOrder {
   bool meets, misses;
 
   THINWALL_HOT ClearOrder(const packed::Lanes& near, const packed::Lanes& far, const packed::Lanes& speed,
-                          const packed::Lanes& noise, double until) {
+                          const packed::Lanes& noise) {
     using packed::Lanes, packed::LanesMask, packed::all;
-    const Lanes W = max(speed, all(least_speed)), end = min(all(until), all(most_time)) * W, next = yzx(W);
+    const Lanes W = max(speed, all(least_speed)), end = W * all(most_time), next = yzx(W);
     const Lanes near_least = near - noise, near_most = near + noise, far_least = far - noise, far_most = far + noise;
     const LanesMask in_order = (near_most * next < yzx(far_least) * W) & (yzx(near_most) * W < far_least * next);
     const LanesMask apart = (yzx(far_most) * W < near_least * next) | (far_most * next < yzx(near_least) * W);
@@ -182,9 +181,10 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
       (slabs.last < slabs.first * almost) | ((both(0) < slabs.first) & (slabs.first < slabs.last * almost));
   bool clear = both(all_of(margin <= min(abs(near), abs(far))), all_of(apart));
   if (!clear) [[unlikely]] {
-    const ClearOrder order(near, far, slabs.W, noise, ClearEntry::never);
-    clear = turned ? both(any_of(all(R) + noise + noise < abs(p) - h), packed::either(order.meets, order.misses))
-                   : both(any_of(slabs.outside), all_of(slabs.in_order()));
+    const ClearOrder order(near, far, slabs.W, noise);
+    const Lanes touch = turned ? all(R) + noise + noise : all(R * both(packed::more_than_rounding));
+    clear =
+        both(any_of(touch < abs(p) - h), turned ? packed::either(order.meets, order.misses) : all_of(slabs.in_order()));
   }
   ClearEntry entry{both(clear, all_of(slabs.in_range & is_round)), slabs.time, clear_face_normal(off, v)};
   if ((axes & (axes - 1)) == 0) {

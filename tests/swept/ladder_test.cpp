@@ -287,6 +287,15 @@ TEST(LadderFilters, an_end_within_the_noise_of_a_creep_is_careful) {
   EXPECT_TRUE(creep(0x1p-20));
 }
 
+// Nearer to a plane of a slab than what times are told by; which slab comes first is asked of products then.
+TEST(LadderFilters, a_start_close_to_a_plane_of_a_box_is_clear) {
+  const auto turned_cube = at_rest(to_obb(cube.shape));
+  EXPECT_TRUE(is_clear(turned_cube, shot({-2 - 0x1p-30, 0, 0}, {8, 0, 0})));
+  const auto along_a_face = [&](double off) { return shot({-4, 2 + off, 0}, {8, 0, 0}); };
+  for (const double off : {0x1p-30, 0x1p-40}) EXPECT_TRUE(is_clear(turned_cube, along_a_face(off))) << off;
+  for (const double off : {0.0, 0x1p-49, -0x1p-30}) EXPECT_FALSE(is_clear(turned_cube, along_a_face(off))) << off;
+}
+
 // The slabs of x and y open both at zero, as far as double tells.
 TEST(LadderFilters, quotients_that_underflow_are_careful) {
   const Box plate{{0, 0, 0}, {1, 1e-300, 1}};
