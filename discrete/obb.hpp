@@ -238,14 +238,22 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const packed::LanesMask from_afar = noise * all(0x1p24) <= min(abs(near), abs(far));
   const Lanes enter = near / W;
   const packed::Pair first = largest_of(max(enter, all(0))), last = min(smallest_of(far / W), both(ray.max_t));
-  const packed::Pair almost = both(1 - 0x1p-20), at_most = last * almost;
-  const bool misses = all_of(last < first * almost), meets = all_of((both(0) < first) & (first < at_most));
-  const packed::LanesMask axis = all(first * almost) <= enter;
-  const unsigned axes = bits(axis);
-  const bool sure = both(all_of(frame.clear() & in_range & from_afar), ray.max_t >= 0);
+  const packed::Pair almost = both(1 - 0x1p-20), end = both(ClearOrder::most_time);
+  packed::LanesMask axis = all(first * almost) <= enter;
+  unsigned may_be_last = bits(axis);
+  bool misses = all_of(last < min(first * almost, end));
+  bool meets = all_of((both(0) < first) & (first < min(last * almost, end)));
+  const auto is_decided = [&] { return packed::either(misses, both(meets, (may_be_last & (may_be_last - 1)) == 0)); };
+  bool clear = both(all_of(from_afar), is_decided());
+  if (!clear) [[unlikely]] {
+    const Lanes off = noise / W;
+    axis = all(first) <= enter, may_be_last = bits(all(largest_of(enter - off)) <= enter + off);
+    const ClearOrder order(near, far, W, noise, ray.max_t);
+    misses = order.misses, meets = both(both(order.meets, !misses), any_of(noise + noise < abs(p) - h));
+    clear = both(is_decided(), all_of(both(1 / ClearOrder::most_time) <= largest_of(W)));
+  }
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
-  const bool one_face = (axes & (axes - 1)) == 0;
-  return {both(sure, packed::either(misses, both(meets, one_face))), meets, first, center + frame.out_of(on_box),
+  return {both(all_of(frame.clear() & in_range), clear), meets, first, center + frame.out_of(on_box),
           frame.out_of(keep(axis, against(frame.per_length(), v)))};
 }
 

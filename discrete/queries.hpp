@@ -248,7 +248,15 @@ template <Scalar S, Shape A>
     case Magnitudes::ordinary: {
       const S size = extent(shape) + ray.origin.cwiseAbs().sum() + ray.direction.cwiseAbs().sum();
       const bool is_tiny = size < constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 2>();
-      return is_tiny && size > S(0) ? divided_by_power(binary_exponent(size)) : finite(ray_entry(ray, shape));
+      if (is_tiny && size > S(0)) return divided_by_power(binary_exponent(size));
+      constexpr int lower = std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits;
+      const S longest = largest(ray.direction);
+      if (!(longest > S(0) && longest < constant_power_of_two<S, lower>())) return finite(ray_entry(ray, shape));
+      const int e = binary_exponent(longest);  // turned as it is it would lose digits
+      const Vec3<S> direction = times_power_of_two(ray.direction, -e);
+      auto hit = ray_entry({ray.origin, direction, times_power_of_two(ray.max_t, e)}, shape);
+      if (hit) hit->t = times_power_of_two(hit->t, -e);
+      return finite(hit);
     }
     case Magnitudes::huge: return divided_by_power(huge_exponent);
     case Magnitudes::invalid: break;

@@ -141,9 +141,9 @@ struct ClearOrder {
   bool meets, misses;
 
   THINWALL_HOT ClearOrder(const packed::Lanes& near, const packed::Lanes& far, const packed::Lanes& speed,
-                          const packed::Lanes& noise) {
+                          const packed::Lanes& noise, double until) {
     using packed::Lanes, packed::LanesMask, packed::all;
-    const Lanes W = max(speed, all(least_speed)), end = W * all(most_time), next = yzx(W);
+    const Lanes W = max(speed, all(least_speed)), end = min(all(until), all(most_time)) * W, next = yzx(W);
     const Lanes near_least = near - noise, near_most = near + noise, far_least = far - noise, far_most = far + noise;
     const LanesMask in_order = (near_most * next < yzx(far_least) * W) & (yzx(near_most) * W < far_least * next);
     const LanesMask apart = (yzx(far_most) * W < near_least * next) | (far_most * next < yzx(near_least) * W);
@@ -175,20 +175,21 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const unsigned misses = bits(slabs.last < slabs.first) & 1U, axes = bits(off) & (misses - 1U);
   const LanesMask is_round = max(noise * all(0x1p20), all(1 / packed::most_length)) <= all(R);
 
-  // Where the start is this far from where each slab begins and ends, no time is off by more than 2^-24 of itself.
+  // Where the start is this far from where each slab begins and ends, no time is off by more than 2^-24 of itself: not until a slab has been
+  // left, and then by no more than keeps it later.
   const Pair almost = both(1 - 0x1p-20);
   const PairMask apart =
       (slabs.last < slabs.first * almost) | ((both(0) < slabs.first) & (slabs.first < slabs.last * almost));
   bool clear = both(all_of(margin <= min(abs(near), abs(far))), all_of(apart));
   if (!clear) [[unlikely]] {
-    const ClearOrder order(near, far, slabs.W, noise);
+    const ClearOrder order(near, far, slabs.W, noise, ClearEntry::never);
     const Lanes touch = turned ? all(R) + noise + noise : all(R * both(packed::more_than_rounding));
     clear =
         both(any_of(touch < abs(p) - h), turned ? packed::either(order.meets, order.misses) : all_of(slabs.in_order()));
   }
   ClearEntry entry{both(clear, all_of(slabs.in_range & is_round)), slabs.time, clear_face_normal(off, v)};
   if ((axes & (axes - 1)) == 0) {
-    // A miss; or beside a face whose time is off by 2^-26 of itself at most; or beside it, and on one side of the step's end, while it is off.
+    // A miss; or well beside a face; or beside it, and on one side of the step's end, while it is off.
     const LanesMask well_beside = margin <= select(off, near, h - abs(X));
     if ((misses | static_cast<unsigned>(all_of(well_beside))) != 0) [[likely]]
       return entry;
@@ -209,7 +210,9 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
     ++entry.rounds;
     const Pair root = chord.time();
     const PairMask ahead = chord.pierces() & chord.approaches() & (now * chord.speed <= chord.half - chord.toward);
-    const PairMask meets = ahead & (root <= next), stays_out = chord.passes() | (ahead & (next < root));
+    // when a turned part is left is off by roundings
+    const Pair at_least = turned ? next * almost : next, at_most = turned ? root * almost : root;
+    const PairMask meets = ahead & (root <= at_least), stays_out = chord.passes() | (ahead & (next < at_most));
     // by then the point recedes; or as good as, within a rounding of a distance of at most 2^16 R
     const PairMask turns =
         (both(0) < next * chord.speed + chord.toward * both(packed::more_than_rounding)) |

@@ -30,12 +30,19 @@ template <Scalar S> struct ExactTwo {
   ExactTwo times_two_to(int e) const { return {times_power_of_two(first, e), times_power_of_two(second, e)}; }
   ExactNumber<S> sum(int i) const { return ExactNumber<S>(first[i]) + ExactNumber<S>(second[i]); }
   ExactNumber<S> difference(int i) const { return ExactNumber<S>(first[i]) - ExactNumber<S>(second[i]); }
-  bool operator==(const ExactTwo&) const = default;
+  /// No number that it came of has become so small that its product with another such loses digits.
+  bool is_plain(const ExactTwo& given) const { return is_plain(first, given.first) && is_plain(second, given.second); }
+
+ private:
+  static bool is_plain(const Vec3<S>& x, const Vec3<S>& given) {
+    constexpr int lower = (std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits) / 2;
+    return ((given.array() == S(0)) || (x.array().abs() >= constant_power_of_two<S, lower>())).all();
+  }
 };
 
 /// First time t >= 0 at which a point is in a box: it starts at `place` from the box's center and moves by `path`, both the first less the
-/// second; the box reaches the sum of `halves`. Nothing if it starts there or never is; nor where the scale at which products are in range
-/// would flush one of these numbers: they are 2^900 apart.
+/// second; the box reaches the sum of `halves`. Nothing if it starts there or never is; nor where products of these numbers are out of range
+/// at any scale: in double they are 2^400 apart.
 /// Error: the face is right; the time is off by a few u of itself.
 template <Scalar S>
 std::optional<Entry<S>> exact_box_entry(const ExactTwo<S>& place, const ExactTwo<S>& path, const ExactTwo<S>& halves) {
@@ -44,8 +51,7 @@ std::optional<Entry<S>> exact_box_entry(const ExactTwo<S>& place, const ExactTwo
   const int of_lengths = scale.length_exponent, of_path = scale.speed_exponent;
   const ExactTwo<S> x = place.times_two_to(-of_lengths), h = halves.times_two_to(-of_lengths),
                     v = path.times_two_to(-of_path);
-  if (x.times_two_to(of_lengths) != place || h.times_two_to(of_lengths) != halves || v.times_two_to(of_path) != path)
-    return std::nullopt;
+  if (!x.is_plain(place) || !h.is_plain(halves) || !v.is_plain(path)) return std::nullopt;
   ExactStretch<S> stretch(std::numeric_limits<S>::infinity());
   for (int i = 0; i < 3; ++i) {
     const ExactNumber<S> at = x.difference(i), half = h.sum(i), speed = v.difference(i);

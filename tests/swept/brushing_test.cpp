@@ -205,6 +205,17 @@ TEST(Ties, of_a_box_with_what_comes_beside_two_faces_at_once) {
   }
 }
 
+// Products of such numbers lose digits: then the plain times decide.
+TEST(Ties, are_not_asked_without_rounding_of_what_underflows) {
+  const double tiny = 0x1p-1074;
+  const Box plate{{0, 0, 0}, {8 * tiny, 0x1.9635514f14f96p-31, 0x1p-25}};
+  const Moving<Box> point{{{12 * tiny, -0x1p-23, 0x1.000008p-25}, {0, 0, 0}},
+                          {-17 * tiny, 0x1.73c2e24dfb42ep-23, -0x1.74fa72e88df54p-24}};
+  const Toi<double> careful = careful_impact({}, at_rest(plate), point);
+  EXPECT_NEAR(careful.time, (0x1p-23 - 0x1.9635514f14f96p-31) / 0x1.73c2e24dfb42ep-23, 1e-15);
+  EXPECT_EQ(careful.normal, V(0, -1, 0));
+}
+
 TEST(Ties, a_box_and_a_ray) {
   constexpr double never = std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::max();
   for (std::uint64_t seed = 0; seed < motions; ++seed) {

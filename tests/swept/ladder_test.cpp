@@ -304,6 +304,45 @@ TEST(LadderFilters, quotients_that_underflow_are_careful) {
   EXPECT_FALSE(is_clear(at_rest(plate), Moving{Box{above, {0, 0, 0}}, by}));
 }
 
+// Turning it would cost it digits.
+TEST(LadderFilters, a_ray_of_subnormal_direction_is_careful) {
+  const double c = 0x1.6a09e667f3bccp-1, h = 0x1p-20;
+  const Turned box{{0, 0, 0}, {h, h, h}, Mat3<double>{{1, 0, 0}, {0, c, -c}, {0, c, c}}};
+  const Ray<double> ray{{-0x1.1e9f8d19cdabp-22, 0x1.4f01d8ce0c298p-21, 0x1.8596b08c3e1fp-21},
+                        {0x0.00000004e0259p-1022, -0x0.000000017e509p-1022, -0x0.00000000fcacep-1022}};
+  EXPECT_FALSE(clear_raycast(ray, box).clear);
+  const auto hit = raycast(ray, box);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->t / 7.5156923536e307, 1, 1e-10);
+}
+
+// From within a plane of another face, at a plate of no thickness, and at its rim: told by products.
+TEST(LadderFilters, a_ray_close_to_a_plane_of_a_turned_box_is_clear) {
+  const double c = 0.6, s = 0.8;
+  const Mat3<double> axes{{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+  const auto is_sure = [&](const V& half, const V& from, const V& by) {
+    const Turned box{{0, 0, 0}, half, axes};
+    const Ray<double> ray{out_of<double>(box, from), out_of<double>(box, by)};
+    EXPECT_EQ(raycast(ray, box).has_value(), careful_raycast(ray, box).has_value());
+    return clear_raycast(ray, box).clear;
+  };
+  EXPECT_TRUE(is_sure({1, 1, 1}, {3, 1, 0.2}, {1, 0.1, 0.1}));
+  EXPECT_TRUE(is_sure({1, 1, 1}, {-3, 1, 0.2}, {1, -0.1, 0.1}));
+  EXPECT_TRUE(is_sure({1, 1, 0}, {0.2, 0.1, -3}, {0.1, 0.05, 1}));
+  EXPECT_TRUE(is_sure({1, 1, 0x1p-22}, {0.2, 0.1, -3}, {0.1, 0.05, 1}));
+  EXPECT_TRUE(is_sure({1, 1, 0x1p-22}, {-3, 0.1, 0.5}, {1, 0.05, -0.2}));
+}
+
+// The next slab is left when its ball would be met, to rounding: a graze in the end.
+TEST(LadderFilters, an_edge_met_as_it_ends_is_careful_where_it_is_turned) {
+  const double c = 0x1.10530ac424b02p-1, s = 0x1.b19210369aa1ap-1;
+  const Turned box{
+      {0, 0, 0}, {0x1.566277b2fb23ep+16, 1, 0x1.45854ddc3d182p-1}, Mat3<double>{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}};
+  EXPECT_FALSE(
+      is_clear(at_rest(box), shot({-0x1.c6d2a9a9ce00fp+14, 0x1.6a14320e3f769p+15, -0x1.00a2c4a833a3ep+8},
+                                  {-0x1.572075e85ddbbp+14, 0x1.1125de2f7a1cep+15, 0x1.41da5a7e7c396p-15}, 256)));
+}
+
 TEST(LadderFilters, axes_that_are_off_are_careful) {  // by more than a few roundings
   Turned box = to_obb(cube.shape);
   const auto is_sure = [&] {
