@@ -241,8 +241,8 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const packed::Pair almost = both(1 - 0x1p-20), end = both(ClearOrder::most_time);
   packed::LanesMask axis = all(first * almost) <= enter;
   unsigned may_be_last = bits(axis);
-  bool misses = all_of(last < min(first * almost, end));
-  bool meets = all_of((both(0) < first) & (first < min(last * almost, end)));
+  bool misses = all_of(last < min(end, first * almost));
+  bool meets = all_of((both(0) < first) & (first < min(end, last * almost)));
   const auto is_decided = [&] { return packed::either(misses, both(meets, (may_be_last & (may_be_last - 1)) == 0)); };
   bool clear = both(all_of(from_afar), is_decided());
   if (!clear) [[unlikely]] {
@@ -250,7 +250,7 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
     axis = all(first) <= enter, may_be_last = bits(all(largest_of(enter - off)) <= enter + off);
     const ClearOrder order(near, far, W, noise, ray.max_t);
     misses = order.misses, meets = both(both(order.meets, !misses), any_of(noise + noise < abs(p) - h));
-    clear = both(is_decided(), all_of(both(1 / ClearOrder::most_time) <= largest_of(W)));
+    clear = both(both(is_decided(), ray.max_t >= 0), all_of(both(ClearOrder::least_motion) <= largest_of(W)));
   }
   const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
   return {both(all_of(frame.clear() & in_range), clear), meets, first, center + frame.out_of(on_box),

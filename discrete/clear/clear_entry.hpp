@@ -150,8 +150,10 @@ struct ClearOrder {
     meets = all_of(in_order & (near_most < end));
     misses = any_of(apart | (end < near_least) | (far_most < all(0)));
   }
-  static constexpr double least_speed = 0x1p-1000,
-                          most_time = 0x1p800;  ///< what moves less stays where it is: their product is no length
+  /// What moves less stays where it is: their product is no length.
+  static constexpr double least_speed = 0x1p-1000, most_time = 0x1p800;
+  /// What moves by as much on some axis is past all lengths by that time.
+  static constexpr double least_motion = 0x1p-700;
 };
 
 /// What roundings move a place of a path past a box by, at most: those of turning it into the box's axes, three a component, too.

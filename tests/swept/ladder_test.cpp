@@ -314,6 +314,18 @@ TEST(LadderFilters, a_ray_of_subnormal_direction_is_careful) {
   const auto hit = raycast(ray, box);
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->t / 7.5156923536e307, 1, 1e-10);
+  const Turned far{
+      {0, 0, 0}, {0x1p50, 0x1p50, 0}, Mat3<double>::Identity()};  // met later than the slabs are asked about
+  EXPECT_FALSE(clear_raycast(Ray<double>{{1, 1, -0x1p50}, {0, 0, 0x1p-760}}, far).clear);
+}
+
+TEST(LadderFilters, a_ray_whose_end_is_no_number_is_careful) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const V& half : {V(1, 1, 1), V(1, 1, 0)}) {
+    const Turned box{{0, 0, 0}, half, Mat3<double>::Identity()};
+    EXPECT_FALSE(raycast(Ray<double>{{0.2, 0.1, -3}, {0.1, 0.05, 1}, nan}, box));
+    EXPECT_FALSE(raycast(Ray<double>{{0.2, 0.1, -3}, {0.1, 0.05, 1}, -1}, box));
+  }
 }
 
 // From within a plane of another face, at a plate of no thickness, and at its rim: told by products.
