@@ -32,9 +32,7 @@ template <Scalar S> struct SlabTimes {
   int axis = -1;                                ///< the axis that decided `first`; -1 where `first` is the start
   bool close = false;                           ///< `first` and `last` are equal to rounding
 
-  /// `over_speed(length, axis)` divides by v[axis].
-  template <class OverSpeed>
-  SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R, const OverSpeed& over_speed) {
+  SlabTimes(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
     using std::copysign;
     const S infinity = std::numeric_limits<S>::infinity();
     Vec3<S> widened_enter;
@@ -50,16 +48,18 @@ template <Scalar S> struct SlabTimes {
       }
       near[i] = -copysign(h[i], v[i]);
       const S widened = copysign(R, v[i]), to_near = near[i] - p[i], to_far = -near[i] - p[i];
-      enter[i] = over_speed(to_near, i);
-      leave[i] = over_speed(to_far, i);
-      widened_enter[i] = over_speed(S(to_near - widened), i);
-      last = std::min(last, over_speed(S(to_far + widened), i));
+      enter[i] = to_near / v[i];
+      leave[i] = to_far / v[i];
+      widened_enter[i] = (to_near - widened) / v[i];
+      last = std::min(last, S((to_far + widened) / v[i]));
     }
     const S before_last = std::max(widened_enter[0], widened_enter[1]);
     axis = widened_enter[2] > before_last ? 2 : widened_enter[1] > widened_enter[0] ? 1 : 0;
     first = std::max(before_last, widened_enter[2]);
     axis = first > S(0) ? axis : -1;
     first = std::max(S(0), first);
+    const S noise = 8 * std::numeric_limits<S>::epsilon() * std::max(first, largest(last));
+    close = !(largest(S(last - first)) > noise);
   }
 
   /// A face of axis i is met: not before the point is in the other slabs, nor after it leaves one.
@@ -68,27 +68,7 @@ template <Scalar S> struct SlabTimes {
     entry.not_before = std::max(enter[j], enter[k]);
     entry.not_after = std::min(leave[j], leave[k]);
   }
-  /// When the point enters the widened slab of axis i, rounded no more than its parts.
-  S entry_time(int i, const Vec3<S>& p, const Vec3<S>& v, const S& R) const {
-    using std::copysign;
-    return std::max(S(0), S(((near[i] - p[i]) - copysign(R, v[i])) / v[i]));
-  }
 };
-
-template <Scalar S>
-THINWALL_COLD SlabTimes<S> divided_slab_times(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
-  SlabTimes<S> times(p, v, h, R, [&](const S& length, int i) -> S { return length / v[i]; });
-  times.close = true;
-  return times;
-}
-
-/// Three reciprocals in place of twelve divisions, unless that could decide which of two times comes first.
-template <Scalar S> SlabTimes<S> slab_times(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& h, const S& R) {
-  const Vec3<S> inverse = v.cwiseInverse();
-  const SlabTimes<S> times(p, v, h, R, [&](const S& length, int i) -> S { return length * inverse[i]; });
-  const S noise = 8 * std::numeric_limits<S>::epsilon() * std::max(times.first, largest(times.last));
-  return largest(S(times.last - times.first)) > noise ? times : divided_slab_times(p, v, h, R);
-}
 
 /// The walk from region to region, after the slabs have shown no miss.
 template <Scalar S>
@@ -148,7 +128,7 @@ Entry<S> rounded_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S&
   Entry<S> entry;
   entry.inside = within(excess_of(p, h), R);
   if (entry.inside || v == Vec3<S>::Zero()) return entry;
-  const SlabTimes<S> slabs = slab_times(p, v, h, R);
+  const SlabTimes<S> slabs(p, v, h, R);
   entry.graze = slabs.close;
   if (!(slabs.first <= slabs.last)) return entry;
   bool on_face = slabs.axis >= 0;  // beside the face, not beyond its edges; a point that comes to an edge is on it
@@ -157,7 +137,7 @@ Entry<S> rounded_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S&
     on_face = on_face && (i == slabs.axis || is_beside);
   }
   if (!on_face) return walk_around_box(slabs, p, v, R);
-  entry.time = slabs.entry_time(slabs.axis, p, v, R);
+  entry.time = slabs.first;
   entry.graze = entry.graze || is_last_in_doubt(slabs.enter, slabs.leave, slabs.axis, slabs.first);
   slabs.meet(entry, slabs.axis);
   entry.normal = axis_vector<S>(slabs.axis, v[slabs.axis] > S(0));

@@ -214,6 +214,12 @@ TEST(Ties, are_not_asked_without_rounding_of_what_underflows) {
   const Toi<double> careful = careful_impact({}, at_rest(plate), point);
   EXPECT_NEAR(careful.time, (0x1p-23 - 0x1.9635514f14f96p-31) / 0x1.73c2e24dfb42ep-23, 1e-15);
   EXPECT_EQ(careful.normal, V(0, -1, 0));
+
+  const Moving<Box> slow{
+      {{-0x1.52659df7b2cb7p+9, 0x1p-1009, -0x1.2aeaad80df65fp+9}, {0, 0, 0}},
+      {0x1.9358467e46bcap+9, 0x0.0000009891069p-1022, 0x1.031ffd25b9dafp+10}};  // without a reciprocal
+  const Box left_at_once{{0, 0, 0}, {0x1.52659df7b2224p+9, 0x1p-1009, 0x1.2aeaad7788108p+9}};
+  EXPECT_EQ(careful_impact({}, at_rest(left_at_once), slow).status, ToiStatus::apart);
 }
 
 TEST(Ties, a_box_and_a_ray) {
