@@ -32,7 +32,7 @@ struct ClearSegments {
 
   THINWALL_HOT ClearSegments(const packed::Lanes& first, const packed::Lanes& second)
       : d(first), e(second), size(sum(abs(first) + abs(second))) {
-    using packed::Lanes, packed::Pair, packed::all, packed::both;
+    using packed::Lanes, packed::Pair, packed::both;
     const Lanes normal = cross(d, e);
     const Pair lengths = two_sums(d * d, e * e), per = both(1) / lengths, others = two_sums(d * e, normal * normal);
     per_dd = firsts(per), per_ee = seconds(per), per_nn = both(1) / seconds(others);

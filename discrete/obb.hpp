@@ -235,10 +235,10 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>
   const Lanes P = against(p, v), W = abs(v), reach = h * frame.squares, near = P - reach, far = P + reach;
   const packed::LanesMask in_range = (all(1 / packed::most_length) <= noise * all(0x1p48)) & (all(0) <= h) &
                                      (abs(p) + W + h <= all(packed::most_length));
-  const packed::LanesMask from_afar = noise * all(0x1p24) <= min(abs(near), abs(far));
+  const packed::LanesMask from_afar = noise * all(packed::from_afar) <= min(abs(near), abs(far));
   const Lanes enter = near / W;
   const packed::Pair first = largest_of(max(enter, all(0))), last = min(smallest_of(far / W), both(ray.max_t));
-  const packed::Pair almost = both(1 - 0x1p-20), end = both(ClearOrder::most_time);
+  const packed::Pair almost = both(packed::clearly_earlier), end = both(ClearOrder::most_time);
   packed::LanesMask axis = all(first * almost) <= enter;
   unsigned may_be_last = bits(axis);
   bool misses = all_of(last < min(end, first * almost));

@@ -35,6 +35,9 @@ inline constexpr double most_length = 0x1p60;
 inline constexpr double beside_graze = 1 - 0x1p-10;
 /// Sums and quotients of a few terms are clear where they differ by this factor.
 inline constexpr double more_than_rounding = 1 + 0x1p-44;
+/// Lengths this many times what roundings move them by are told from afar, and so are the times of their planes: of two of these the earlier
+/// is clear if it is before this part of the later.
+inline constexpr double from_afar = 0x1p24, clearly_earlier = 1 - 0x1p-20;
 /// Whether a contact comes within the step is the careful rung's to say where it comes this near the end.
 inline constexpr double near_end = 0x1p-10;
 }  // namespace packed
@@ -121,7 +124,7 @@ struct ClearSlabs {
   };
   THINWALL_HOT Last last_entered() const {
     using packed::all, packed::both;
-    const packed::LanesMask late = all(first * both(1 - 0x1p-20)) <= enter;
+    const packed::LanesMask late = all(first * both(packed::clearly_earlier)) <= enter;
     const unsigned axes = bits(late), unsure = bits(late & (low < size * all(0x1p-28))),
                    hit = 0U - static_cast<unsigned>(all_of(first <= last));
     return {(((axes & (axes - 1U)) | unsure) & hit) == 0U, late};
@@ -172,14 +175,14 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   const ClearSlabs slabs(p, v, h, all(R), ClearEntry::never);
   const Lanes X = slabs.P - all(slabs.first) * slabs.W;
   const Lanes noise = turned ? clear_noise(p, h) : slabs.extent * all(0x1p-48);
-  const Lanes near = slabs.low - all(R), far = slabs.high + all(R), margin = noise * all(0x1p24);
+  const Lanes near = slabs.low - all(R), far = slabs.high + all(R), margin = noise * all(packed::from_afar);
   const LanesMask off = h < abs(X);
   const unsigned misses = bits(slabs.last < slabs.first) & 1U, axes = bits(off) & (misses - 1U);
   const LanesMask is_round = max(noise * all(0x1p20), all(1 / packed::most_length)) <= all(R);
 
   // Where the start is this far from where each slab begins and ends, no time is off by more than 2^-24 of itself: not until a slab has been
   // left, and then by no more than keeps it later.
-  const Pair almost = both(1 - 0x1p-20);
+  const Pair almost = both(packed::clearly_earlier);
   const PairMask apart =
       (slabs.last < slabs.first * almost) | ((both(0) < slabs.first) & (slabs.first < slabs.last * almost));
   bool clear = both(all_of(margin <= min(abs(near), abs(far))), all_of(apart));
