@@ -71,13 +71,8 @@ concept HasClearManifold =
 /// The careful rung of manifold(), the shape of later rank first: any input, at any scale.
 template <Shape A, Shape B> [[gnu::noinline]] Manifold<typename A::Scalar> careful_manifold(const A& a, const B& b) {
   using S = typename A::Scalar;
-  if constexpr (HasClearManifold<A, B>) {
-    const auto near = asked_near_one(a, b, [](const A& x, const B& y) {
-      Manifold<S> made;
-      return clear_manifold(x, y, made) ? std::optional(made) : std::nullopt;
-    });
-    if (near) return *near;
-  }
+  const auto ask = [](const A& x, const B& y, int e) { return scaled(manifold(x, y), e); };
+  if (const auto near = asked_near_one(a, b, ask)) return *near;
   if (!overlaps(a, b)) return {};
   if (is_ordinary(S(magnitude(a) + magnitude(b)))) return touching_manifold(a, b);
   return scaled(touching_manifold(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);

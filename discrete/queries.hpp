@@ -108,9 +108,26 @@ template <class A, class B> THINWALL_HOT ClearOverlap clear_overlap_either_way(c
   }
 }
 
+/// What ask(a, b, e), a front door, says of shapes of the clear rung divided by 2^e to a size near 1, where no product underflows or
+/// overflows, so that the unit of length changes no bit. Nothing where the size is near 1 as it is or 0, a shape is not valid, or a division
+/// would not be exact.
+template <Shape A, Shape B, class Ask>
+std::optional<std::invoke_result_t<Ask, A, B, int>> asked_near_one(const A& a, const B& b, const Ask& ask) {
+  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
+    const Vec3<double> at = center(a);
+    const double size = extent(moved<double>(a, -at)) + extent(moved<double>(b, -at));  // wherever the origin is
+    const bool is_none = size == 0 || !is_finite(size);
+    if ((size >= 0x1p-50 && size <= 0x1p50) || is_none || !valid(a) || !valid(b)) return std::nullopt;
+    const int e = binary_exponent(size);
+    if (divides_exactly(a, e) && divides_exactly(b, e)) return ask(scaled(a, -e), scaled(b, -e), e);
+  }
+  return std::nullopt;
+}
+
 /// The careful rung of overlaps(): any input, at any scale.
 template <Shape A, Shape B> [[gnu::noinline]] bool careful_overlaps(const A& a, const B& b) {
-  return overlaps_within(a, b, typename A::Scalar(0));
+  const auto near = asked_near_one(a, b, [](const A& x, const B& y, int) { return overlaps(x, y); });
+  return near ? *near : overlaps_within(a, b, typename A::Scalar(0));
 }
 
 /// True if the shapes share a point; touching counts.
@@ -123,31 +140,12 @@ template <Shape A, Shape B> THINWALL_HOT bool overlaps(const A& a, const B& b) {
   return careful_overlaps(a, b);
 }
 
-/// What ask(a, b), a clear rung, says at a size near 1 of what it left for its size alone, so that the unit of length changes no bit. Nothing
-/// where the size is near 1, a shape is not valid, or a division would not be exact.
-template <Shape A, Shape B, class Ask>
-std::invoke_result_t<Ask, A, B> asked_near_one(const A& a, const B& b, const Ask& ask) {
-  const Vec3<double> at = center(a);
-  const double size = extent(moved<double>(a, -at)) + extent(moved<double>(b, -at));  // wherever the origin is
-  if ((size >= 0x1p-50 && size <= 0x1p50) || !is_finite(size) || !valid(a) || !valid(b)) return std::nullopt;
-  const int e = binary_exponent(size);
-  if (!divides_exactly(a, e) || !divides_exactly(b, e)) return std::nullopt;
-  auto near = ask(scaled(a, -e), scaled(b, -e));
-  if (near) near = scaled(*near, e);
-  return near;
-}
-
 /// The careful rung of contact(): any input, at any scale.
 template <Shape A, Shape B>
 [[gnu::noinline]] std::optional<Contact<typename A::Scalar>> careful_contact(const A& a, const B& b) {
   using S = typename A::Scalar;
-  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    const auto near = asked_near_one(a, b, [](const A& x, const B& y) {
-      const ClearContact answer = clear_contact_either_way(x, y);
-      return answer.clear ? std::optional(answer.contact()) : std::nullopt;
-    });
-    if (near) return *near;
-  }
+  const auto ask = [](const A& x, const B& y, int e) { return scaled(contact(x, y), e); };
+  if (const auto near = asked_near_one(a, b, ask)) return *near;
   switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
     case Magnitudes::ordinary: return contact_unchecked(a, b);
     case Magnitudes::huge:
@@ -184,43 +182,31 @@ THINWALL_HOT Separation<typename A::Scalar> clear_separation_or(const A& a, cons
   return otherwise();
 }
 
-/// What it says at a size near 1 of what it left for its size alone, or otherwise().
-template <Shape A, Shape B, class Otherwise>
-Separation<typename A::Scalar> scaled_separation_or(const A& a, const B& b, const Otherwise& otherwise) {
-  using S = typename A::Scalar;
-  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    const auto near = asked_near_one(a, b, [](const A& x, const B& y) {
-      bool clear = true;
-      const Separation<S> answer = clear_separation_or(x, y, [&] {
-        clear = false;
-        return Separation<S>{};
-      });
-      return clear ? std::optional(answer) : std::nullopt;
-    });
-    if (near) return *near;
-  }
-  return otherwise();
+/// separation() at a size near 1, or nothing: asked_near_one().
+template <Shape A, Shape B> auto separation_near_one(const A& a, const B& b) {
+  return asked_near_one(a, b, [](const A& x, const B& y, int e) { return scaled(separation(x, y), e); });
 }
 
 /// separation() of valid shapes of ordinary size, as overlaps_unchecked().
 template <Shape A, Shape B> Separation<typename A::Scalar> separation_unchecked(const A& a, const B& b) {
-  return clear_separation_or(a, b,
-                             [&] { return scaled_separation_or(a, b, [&] { return separation_of_cores(a, b); }); });
+  return clear_separation_or(a, b, [&] {
+    const auto near = separation_near_one(a, b);
+    return near ? *near : separation_of_cores(a, b);
+  });
 }
 
 /// The careful rung of separation(): any input, at any scale.
 template <Shape A, Shape B>
 [[gnu::noinline]] Separation<typename A::Scalar> careful_separation(const A& a, const B& b) {
   using S = typename A::Scalar;
-  return scaled_separation_or(a, b, [&]() -> Separation<S> {
-    switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
-      case Magnitudes::ordinary: return separation_of_cores(a, b);
-      case Magnitudes::huge:
-        return scaled(separation_of_cores(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
-      case Magnitudes::invalid: break;
-    }
-    return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
-  });
+  if (const auto near = separation_near_one(a, b)) return *near;
+  switch (magnitudes_of(S(magnitude(a) + magnitude(b)), a, b)) {
+    case Magnitudes::ordinary: return separation_of_cores(a, b);
+    case Magnitudes::huge:
+      return scaled(separation_of_cores(scaled(a, -huge_exponent), scaled(b, -huge_exponent)), huge_exponent);
+    case Magnitudes::invalid: break;
+  }
+  return {nan_vector<S>()[0], nan_vector<S>(), nan_vector<S>(), nan_vector<S>()};
 }
 
 /// Signed distance, normal, and a closest point on each. NaN throughout if a shape is not valid.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <thinwall/discrete/manifold.hpp>
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/swept/methods/centre_ray.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
@@ -401,6 +402,22 @@ TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_s
     const auto far = separation(scaled(a, e), scaled(b, e));
     EXPECT_EQ(far.distance, times_power_of_two(near.distance, e)) << e;
     EXPECT_EQ(far.normal, near.normal) << e;
+  }
+}
+
+TEST(TouchToRounding,
+     boxes_of_the_least_sizes_are_in_contact_where_they_overlap) {  // sizes of which no half is a number
+  const double third = -0x1.4a5294a5294a5p-3, most = 0x1.ef7bdef7bdef8p-1, rest = 0x1.8c6318c6318c6p-3;
+  const Obb<double> a{V(0, 0, 0), V(1, 1, 2),
+                      leaning(V(third, most, rest), V(rest, third, most), V(most, rest, third))};
+  const Aabb<double> b{V(-1, -1, -3), V(2, 3, 2)};
+  for (const int e : {0, -1074}) {
+    const auto tiny_a = scaled(a, e);
+    const auto tiny_b = scaled(b, e);
+    EXPECT_TRUE(overlaps(tiny_a, tiny_b)) << e;
+    EXPECT_TRUE(contact(tiny_a, tiny_b)) << e;
+    EXPECT_FALSE(manifold(tiny_a, tiny_b).empty()) << e;
+    EXPECT_EQ(separation(tiny_a, tiny_b).normal, separation(a, b).normal) << e;
   }
 }
 
