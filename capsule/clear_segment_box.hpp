@@ -64,7 +64,7 @@ struct ClearSegmentBox {
     const PairMask level = dd <= both(0);
     const Pair s = select(level, between, least);
     const PairMask side = (both(0) < s) & (s < both(1)) & (both(0) < dd);
-    const Lanes moved = x + d * all(s), on = max(min(moved, h), back);
+    const Lanes moved = x + d * all(s), on = held_within(moved, h);
     const Pair speed = firsts(of_v) - keep(side, seconds(of_v) * seconds(of_v) / dd);
     return {{on - d * all(s), moved - on, speed, s}, outside, faces, dd, side};
   }
@@ -74,7 +74,7 @@ struct ClearSegmentBox {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
     const Pair along = dot(keep(part.outside, d), x + part.faces);
     const Pair s = select(part.side, (both(0) - along) / part.dd, part.nearest.place);
-    const Lanes moved = x + d * all(s), on = max(min(moved, h), all(0) - h), gap = moved - on;
+    const Lanes moved = x + d * all(s), on = held_within(moved, h), gap = moved - on;
     const Pair slope = dot(gap, d);
     const LanesMask faces = (part.outside & (h < abs(moved)) & (moved * part.faces < all(0)));
     const PairMask beside = part.side & (both(0) < s) & (s < both(1));
@@ -98,7 +98,7 @@ struct ClearSegmentBox {
   THINWALL_HOT static packed::Lanes slope_of(const packed::Lanes& from, const packed::Lanes& along,
                                              const packed::Lanes& half, const packed::Lanes& s) {
     const packed::Lanes at = from + s * along;
-    return along * (at - max(min(at, half), packed::all(0) - half));
+    return along * (at - held_within(at, half));
   }
 
   packed::Vectors<packed::Lanes> D, H;

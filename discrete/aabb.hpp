@@ -164,8 +164,7 @@ THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Aabb<double>& b
   using packed::Lanes, packed::Pair, packed::all, packed::both;
   const Lanes x = packed::lanes(b.center) - packed::lanes(a.center), half_a = packed::lanes(a.half_extents);
   const Lanes half_b = packed::lanes(b.half_extents), h = half_a + half_b, zero = all(0);
-  const Lanes excess = x - max(min(x, h), zero - h), low = max(zero - half_a, x - half_b),
-              high = min(half_a, x + half_b);
+  const Lanes excess = x - held_within(x, h), low = max(zero - half_a, x - half_b), high = min(half_a, x + half_b);
   const Pair square = dot(excess, excess), distance = root(square);
   ClearContact gap = clear_contact(a, b);
   const bool has_square = all_of(both(packed::least_square) <= square) || gap.touching;
@@ -179,7 +178,7 @@ THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Aabb<double>& b
 /// The sphere at x and the box [-h, h], with the place on the box.
 THINWALL_HOT ClearContact clear_contact_in_box(const packed::Lanes& x, const packed::Lanes& h, double radius) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
-  const Lanes zero = all(0), excess = x - max(min(x, h), zero - h);
+  const Lanes zero = all(0), excess = x - held_within(x, h);
   const Pair r = both(radius), rr = r * r, square = dot(excess, excess), distance = root(square);
   const ClearWayOut out(x, h);
   const PairMask inside = both(0) <= out.depth, has_square = inside | (both(packed::least_square) <= square);
@@ -206,10 +205,9 @@ THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Aabb<double
   const Lanes p = packed::lanes(ray.origin) - center;
   const ClearSlabs slabs(p, v, h, all(0), ray.max_t);
   const ClearSlabs::Last last = slabs.last_entered();
-  const Lanes clamped = max(min(p + v * all(slabs.first), h), all(0) - h);
-  return {both(both(all_of(slabs.in_range), last.clear), both(all_of(slabs.in_order()), ray.max_t >= 0)),
-          all_of(slabs.first < slabs.last), slabs.first, center + select(last.axes, against(h, v), clamped),
-          clear_face_normal(last.axes, v)};
+  const Lanes clamped = held_within(p + v * all(slabs.first), h);
+  return {both(both(all_of(slabs.in_range), last.clear), ray.max_t >= 0), last.meets, slabs.first,
+          center + select(last.axis, against(h, v), clamped), clear_face_normal(last.axis, v)};
 }
 
 }  // namespace thinwall

@@ -140,36 +140,49 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 
 // ---- The clear rung (clear/clear_entry.hpp).
 
-/// Two boxes whose centers are `between` apart in the first one's axes; `orthonormal` if all axes are clear.
-THINWALL_HOT ClearOverlap clear_boxes_overlap(const ClearBoxAxes& boxes, const packed::Lanes& between,
+/// Two boxes whose centers are `between` apart in the first one's axes, along which `rows` are the other's numbers; `orthonormal` if all axes
+/// are clear: what two of them span is then the third but for 5 * 2^-48, and no product need be told to more than noise of all sizes. Axes within
+/// 2^-48 of parallel have a product that parts nothing else by as much.
+THINWALL_HOT ClearOverlap clear_boxes_overlap(const packed::Vectors<packed::Lanes>& rows, const packed::Lanes& ha,
+                                              const packed::Lanes& hb, const packed::Lanes& between,
                                               const packed::Lanes& size, const packed::LanesMask& orthonormal) {
   using packed::Lanes, packed::LanesMask, packed::all, packed::both;
-  const ClearOverlaps overlaps(boxes, between);
-  const LanesMask in_range = boxes.in_range() & (all(0) <= min(boxes.a, boxes.b)) & (size <= all(packed::most_length)) &
-                             (all(1 / packed::most_length) <= size);
-  const bool decided = overlaps.within() != overlaps.apart();
-  return {both(all_of(in_range & orthonormal), decided), overlaps.within()};
+  const packed::Vectors<Lanes> wide = abs(rows), A = spread(ha), d = spread(between);
+  const Lanes noise = size * all(0x1p-44), b1 = yzx(hb), b2 = yzx(b1);
+  const auto product = [&](const Lanes& along, const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& ay,
+                           const Lanes& az) {
+    const Lanes next = yzx(x), reach = (ay * z + az * y) + (b1 * yzx(next) + b2 * next);
+    return select(y + z <= all(0x1p-48), noise, reach - abs(along));
+  };
+  const Lanes of_a = (ha + dot(packed::transposed(wide.x, wide.y, wide.z), spread(hb))) - abs(between);
+  const Lanes of_b = (hb + dot(A, wide)) - abs(dot(d, rows));
+  const Lanes x = product(d.z * rows.y - d.y * rows.z, wide.x, wide.y, wide.z, A.y, A.z);
+  const Lanes y = product(d.x * rows.z - d.z * rows.x, wide.y, wide.z, wide.x, A.z, A.x);
+  const Lanes z = product(d.y * rows.x - d.x * rows.y, wide.z, wide.x, wide.y, A.x, A.y);
+  const Lanes least = min(min(of_a, of_b), min(min(x, y), z));
+  const LanesMask in_range =
+      (all(0) <= min(ha, hb)) & (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size);
+  const bool within = all_of(noise <= least), apart = any_of(least < all(0) - noise);
+  return {both(all_of(in_range & orthonormal), within != apart), within};
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
   const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
-  const ClearBoxAxes boxes{
-      {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)}, ha, hb, size * packed::all(0x1p-46)};
-  return clear_boxes_overlap(boxes, of_a.into(between), size, of_a.clear() & of_b.clear());
+  return clear_boxes_overlap(of_b.into(of_a), ha, hb, of_a.into(between), size, of_a.clear() & of_b.clear());
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& b, const Aabb<double>& a) {
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
   const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
   const ClearFrame of_b(b.axes);
-  return clear_boxes_overlap({of_b.rows, ha, hb, size * packed::all(0x1p-46)}, between, size, of_b.clear());
+  return clear_boxes_overlap(of_b.rows, ha, hb, between, size, of_b.clear());
 }
 
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& box, const Sphere<double>& sphere) {
   using packed::Lanes, packed::Pair, packed::all, packed::both;
   const ClearFrame frame(box.axes);
   const Lanes from_box = packed::lanes(sphere.center) - packed::lanes(box.center);
-  const Lanes x = frame.into(from_box), h = packed::lanes(box.half_extents), excess = x - max(min(x, h), all(0) - h);
+  const Lanes x = frame.into(from_box), h = packed::lanes(box.half_extents), excess = x - held_within(x, h);
   const Pair r = both(sphere.radius), distance = root(dot(excess, excess)), size = sum(abs(from_box) + h) + r;
   const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
   const packed::PairMask decided = size * both(0x1p-46) < abs(distance - r);
@@ -200,8 +213,7 @@ THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<dou
 
 THINWALL_HOT ClearTwoBoxes<ClearFrame> clear_two_boxes(const Obb<double>& a, const Obb<double>& b) {
   const ClearFrame of_a(a.axes), of_b(b.axes);
-  return {of_a, ClearBoxPair(of_a, a.half_extents, of_b, b.half_extents,
-                             {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)},
+  return {of_a, ClearBoxPair(of_a, a.half_extents, of_b, b.half_extents, of_b.into(of_a),
                              packed::lanes(b.center) - packed::lanes(a.center))};
 }
 THINWALL_HOT ClearTwoBoxes<ClearUpright> clear_two_boxes(const Aabb<double>& a, const Obb<double>& b) {
@@ -226,35 +238,65 @@ THINWALL_HOT ClearContact clear_gap(const Aabb<double>& a, const Obb<double>& b)
   return clear_boxes_gap<true>(clear_two_boxes(a, b));
 }
 
-THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {
-  using packed::Lanes, packed::all, packed::both;
-  const ClearFrame frame(box.axes);
-  const Lanes center = packed::lanes(box.center), h = packed::lanes(box.half_extents),
-              start = packed::lanes(ray.origin) - center;
-  const Lanes p = frame.into(start), v = frame.into(packed::lanes(ray.direction)), noise = clear_noise(start, h);
-  const Lanes P = against(p, v), W = abs(v), reach = h * frame.squares, near = P - reach, far = P + reach;
-  const packed::LanesMask in_range = (all(1 / packed::most_length) <= noise * all(0x1p48)) & (all(0) <= h) &
-                                     (abs(p) + W + h <= all(packed::most_length));
-  const packed::LanesMask from_afar = noise * all(packed::from_afar) <= min(abs(near), abs(far));
-  const Lanes enter = near / W;
-  const packed::Pair first = largest_of(max(enter, all(0))), last = min(smallest_of(far / W), both(ray.max_t));
-  const packed::Pair almost = both(packed::clearly_earlier), end = both(ClearOrder::most_time);
-  packed::LanesMask axis = all(first * almost) <= enter;
-  unsigned may_be_last = bits(axis);
-  bool misses = all_of(last < min(end, first * almost));
-  bool meets = all_of((both(0) < first) & (first < min(end, last * almost)));
-  const auto is_decided = [&] { return packed::either(misses, both(meets, (may_be_last & (may_be_last - 1)) == 0)); };
-  bool clear = both(all_of(from_afar), is_decided());
-  if (!clear) [[unlikely]] {
-    const Lanes off = noise / W;
-    axis = all(first) <= enter, may_be_last = bits(all(largest_of(enter - off)) <= enter + off);
-    const ClearOrder order(near, far, W, noise, ray.max_t);
-    misses = order.misses, meets = both(both(order.meets, !misses), any_of(noise + noise < abs(p) - h));
-    clear = both(both(is_decided(), ray.max_t >= 0), all_of(both(ClearOrder::least_motion) <= largest_of(W)));
+/// A ray in the axes of the box that it may meet.
+struct ClearTurnedRay {
+  ClearFrame frame;
+  packed::Lanes center, h;
+  packed::Vectors<packed::Lanes> start;
+  packed::Lanes p, v, noise;
+  packed::Lanes P, W, reach, near, far, enter;  ///< as ClearSlabs
+  packed::Pair first;
+
+  THINWALL_HOT ClearTurnedRay(const Ray<double>& ray, const Obb<double>& box)
+      : frame(box.axes),
+        center(packed::lanes(box.center)),
+        h(packed::lanes(box.half_extents)),
+        start(packed::spread(ray.origin) - packed::spread(box.center)),
+        p(dot(frame.rows, start)),
+        v(frame.into(ray.direction)),
+        noise(((abs(start.x) + abs(start.y)) + (abs(start.z) + h)) * packed::all(0x1p-48)),
+        P(against(p, v)),
+        W(abs(v)),
+        reach(h * frame.squares),
+        near(P - reach),
+        far(P + reach),
+        enter(near / W),
+        first(largest_of(max(enter, packed::all(0)))) {}
+  /// What it meets by the one face that `axis` names.
+  THINWALL_HOT ClearRayHit hit(bool clear, bool meets, const packed::LanesMask& axis) const {
+    using packed::all, packed::both;
+    const packed::LanesMask in_range = (all(0x1p-48 / packed::most_length) <= noise) & (all(0) <= h) &
+                                       (max(noise * all(0x1p48), W) <= all(packed::most_length));
+    const packed::Lanes on_box = select(axis, against(h, v), held_within(p + v * all(first), h));
+    return {both(all_of(frame.clear() & in_range), clear), meets, first, center + frame.out_of(on_box),
+            frame.out_of(keep(axis, against(frame.per_length(), v)))};
   }
-  const Lanes on_box = select(axis, against(h, v), max(min(p + v * all(first), h), all(0) - h));
-  return {both(all_of(frame.clear() & in_range), clear), meets, first, center + frame.out_of(on_box),
-          frame.out_of(keep(axis, against(frame.per_length(), v)))};
+};
+
+/// With the noise of turning.
+inline ClearRayHit clear_raycast(const Ray<double>& ray, const Obb<double>& box) {
+  using packed::both;
+  const ClearTurnedRay r(ray, box);
+  const packed::Lanes off = r.noise / r.W;
+  const unsigned may_be_last = bits(all(largest_of(r.enter - off)) <= r.enter + off);
+  const ClearOrder order(r.near, r.far, r.W, r.noise, ray.max_t);
+  const bool meets = both(both(order.meets, !order.misses), any_of(r.noise + r.noise < abs(r.p) - r.h));
+  const bool decided = packed::either(order.misses, both(meets, (may_be_last & (may_be_last - 1)) == 0));
+  const bool in_range = both(ray.max_t >= 0, all_of(both(ClearOrder::least_motion) <= largest_of(r.W)));
+  return r.hit(both(decided, in_range), meets, packed::all(r.first) <= r.enter);
+}
+
+/// What is told from afar (clear_entry.hpp) and need not be asked by clear_raycast(), as nearly always.
+THINWALL_HOT ClearRayHit raycast_from_afar(const Ray<double>& ray, const Obb<double>& box) {
+  using packed::Pair, packed::all, packed::both;
+  const ClearTurnedRay r(ray, box);
+  const packed::LanesMask from_afar = r.noise * all(packed::from_afar) <= min(abs(r.near), abs(r.far));
+  const Pair last = min(smallest_of(r.far / r.W), both(ray.max_t)), in_order = firsts(last, r.first);
+  const Pair later = swapped(in_order) * both(packed::clearly_earlier);
+  const unsigned verdict = bits(in_order < min(both(ClearOrder::most_time), later));  // 1: a miss, 2: it meets
+  const packed::LanesMask axis = all(firsts(later)) <= r.enter;
+  const unsigned decided = verdict & (1U | packed::is_one_axis(bits(axis)) << 1U);
+  return r.hit(both(all_of(from_afar), decided != 0), verdict == 2U, axis);
 }
 
 }  // namespace thinwall

@@ -250,13 +250,28 @@ template <Scalar S, Shape A>
   return std::nullopt;
 }
 
+template <class A>
+concept HasRaycastFromAfar = requires(const Ray<double>& ray, const A& shape) { raycast_from_afar(ray, shape); };
+
+/// What was not told from afar.
+template <Scalar S, Shape A>
+[[gnu::noinline]] std::optional<RayHit<S>> raycast_close_by(const Ray<S>& ray, const A& shape) {
+  const ClearRayHit answer = clear_raycast(ray, shape);
+  return answer.clear ? answer.ray_hit() : careful_raycast(ray, shape);
+}
+
 /// Where the ray first meets the shape; nothing if it does not within max_t, at no t or point that S holds, or if the ray or the
 /// shape is not valid.
 /// Error: forward error of t a few u * kappa * t (docs/closed_forms.md).
 /// Degenerate: a start inside or touching hits at 0 with a zero normal; a ray of no direction hits only there.
 template <Scalar S, Shape A> THINWALL_HOT std::optional<RayHit<S>> raycast(const Ray<S>& ray, const A& shape) {
   static_assert(std::same_as<S, typename A::Scalar>, "the ray and the shape must have the same scalar");
-  if constexpr (HasClearRaycast<A>) {
+  if constexpr (HasRaycastFromAfar<A>) {
+    const ClearRayHit answer = raycast_from_afar(ray, shape);
+    if (answer.clear) [[likely]]
+      return answer.ray_hit();
+    return raycast_close_by(ray, shape);
+  } else if constexpr (HasClearRaycast<A>) {
     const ClearRayHit answer = clear_raycast(ray, shape);
     if (answer.clear) [[likely]]
       return answer.ray_hit();

@@ -35,6 +35,12 @@ struct ClearFrame {
   THINWALL_HOT packed::Lanes per_length() const { return packed::all(1.5) - squares * packed::all(0.5); }
   /// Vectors in the box's own axes, and one of these in the world's.
   THINWALL_HOT packed::Lanes into(const packed::Lanes& v) const { return dot(rows, spread(v)); }
+  THINWALL_HOT packed::Lanes into(const Vec3<double>& v) const { return dot(rows, packed::spread(v)); }
+  /// Of each axis of another box, what this one's have along it.
+  THINWALL_HOT packed::Vectors<packed::Lanes> into(const ClearFrame& other) const {
+    return {dot(rows, packed::spread(other.numbers)), dot(rows, packed::spread(other.numbers + 3)),
+            dot(rows, packed::spread(other.numbers + 6))};
+  }
   THINWALL_HOT packed::Lanes out_of(const packed::Lanes& v) const {
     const packed::Vectors<packed::Lanes> part = spread(v);
     return (x * part.x + y * part.y) + z * part.z;

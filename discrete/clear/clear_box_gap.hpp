@@ -106,7 +106,7 @@ struct ClearCorner {
 
  private:
   THINWALL_HOT void consider(const packed::Lanes& corner, const packed::Lanes& h) {
-    const packed::Lanes to_corner = corner - max(min(corner, h), packed::all(0) - h);
+    const packed::Lanes to_corner = corner - held_within(corner, h);
     const packed::Pair its_square = dot(to_corner, to_corner);
     const packed::LanesMask nearer = all(its_square) < all(square);
     at = select(nearer, corner, at), gap = select(nearer, to_corner, gap);

@@ -116,24 +116,25 @@ struct ClearSlabs {
         last(smallest_of(leave)),
         time(select(last < first, packed::both(ClearEntry::never), first)),
         in_range((extent <= packed::all(packed::most_length)) & (packed::all(0) <= h)) {}
-  /// The axes entered last, where nothing is widened; `clear` if it is a miss, or they are one and no rounding of its time, told for another's,
-  /// is more than that one's own.
+  /// Which of `first` and `last` comes first, as bits: 1 where they pass by each other, 2 where it enters, which then is of a start outside if
+  /// nothing is widened; 0 if that is not clear.
+  THINWALL_HOT unsigned order() const {
+    using packed::both;
+    const packed::Pair ends = firsts(last, first), least = both(packed::least_time);
+    return bits((ends * both(packed::more_than_rounding) + least < swapped(ends)) & (least < firsts(both(1), first)));
+  }
+  /// Whether it enters, and by which axis, where nothing is widened; clear if it does not, or the axis is one and no rounding of its time, told
+  /// for another's, is more than that one's own.
   struct Last {
-    bool clear;
-    packed::LanesMask axes;
+    bool clear, meets;
+    packed::LanesMask axis;
   };
   THINWALL_HOT Last last_entered() const {
     using packed::all, packed::both;
     const packed::LanesMask late = all(first * both(packed::clearly_earlier)) <= enter;
-    const unsigned axes = bits(late), unsure = bits(late & (low < size * all(0x1p-28))),
-                   hit = 0U - static_cast<unsigned>(all_of(first <= last));
-    return {(((axes & (axes - 1U)) | unsure) & hit) == 0U, late};
-  }
-  /// Which of `first` and `last` comes first. Where nothing is widened it then starts outside.
-  THINWALL_HOT packed::PairMask in_order() const {
-    using packed::both;
-    const packed::Pair part = abs(first - last);
-    return (last * both(packed::more_than_rounding - 1) < part) & (both(packed::least_time) < min(time, part));
+    const unsigned axes = bits(late), sure = bits(late & (size * all(0x1p-28) <= low)), verdict = order();
+    const unsigned by_one = packed::is_one_axis(axes) & static_cast<unsigned>(axes == sure);
+    return {(verdict & (1U | by_one << 1U)) != 0U, verdict == 2U, late};
   }
 };
 
@@ -189,8 +190,7 @@ THINWALL_HOT ClearEntry clear_box_entry(const packed::Lanes& p, const packed::La
   if (!clear) [[unlikely]] {
     const ClearOrder order(near, far, slabs.W, noise, ClearEntry::never);
     const Lanes touch = turned ? all(R) + noise + noise : all(R * both(packed::more_than_rounding));
-    clear =
-        both(any_of(touch < abs(p) - h), turned ? packed::either(order.meets, order.misses) : all_of(slabs.in_order()));
+    clear = both(any_of(touch < abs(p) - h), turned ? packed::either(order.meets, order.misses) : slabs.order() != 0U);
   }
   ClearEntry entry{both(clear, all_of(slabs.in_range & is_round)), slabs.time, clear_face_normal(off, v)};
   if ((axes & (axes - 1)) == 0) {

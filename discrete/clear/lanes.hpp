@@ -59,6 +59,7 @@ THINWALL_LANE_BY_LANE(operator/, double, double, x / y)
 // The second, where one of the two is not a number.
 THINWALL_LANE_BY_LANE(min, double, double, least(x, y))
 THINWALL_LANE_BY_LANE(max, double, double, most(x, y))
+THINWALL_LANE_BY_LANE(held_within, double, double, held_within(x, y))
 // False, where one of the two is not a number.
 THINWALL_LANE_BY_LANE(operator<, bool, double, below(x, y))
 THINWALL_LANE_BY_LANE(operator<=, bool, double, at_most(x, y))
@@ -105,7 +106,7 @@ THINWALL_HOT Lanes lanes(const Pair& xy, const Pair& zz) {
   return std::bit_cast<Lanes>(_mm256_set_m128d(std::bit_cast<__m128d>(zz), std::bit_cast<__m128d>(xy)));
 }
 THINWALL_HOT Lanes lanes(const double* x) {
-  return std::bit_cast<Lanes>(_mm256_blend_pd(_mm256_broadcast_sd(x + 2), _mm256_castpd128_pd256(_mm_loadu_pd(x)), 3));
+  return {_mm256_insertf128_pd(_mm256_broadcast_sd(x + 2), _mm_loadu_pd(x), 0)};  // two loads, and nothing else
 }
 THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z, bool fourth) {
   return {Four{all_bits(x), all_bits(y), all_bits(z), all_bits(fourth)}};
@@ -168,6 +169,8 @@ THINWALL_HOT unsigned bits(const LanesMask& m) {
 THINWALL_HOT bool all_of(const PairMask& m) { return bits(m) == 3U; }
 THINWALL_HOT bool all_of(const LanesMask& m) { return bits(m) == 7U; }
 THINWALL_HOT bool any_of(const LanesMask& m) { return bits(m) != 0U; }
+/// 1 if such bits are of one lane alone, else 0.
+THINWALL_HOT unsigned is_one_axis(unsigned axes) { return 0x16U >> axes & 1U; }
 /// Both, and either, without a jump.
 THINWALL_HOT bool both(bool a, bool b) { return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0U; }
 THINWALL_HOT bool either(bool a, bool b) { return (static_cast<unsigned>(a) | static_cast<unsigned>(b)) != 0U; }

@@ -77,6 +77,24 @@ THINWALL_HOT Four root_of(const Four& x) { return _mm256_sqrt_pd(x); }
 THINWALL_HOT Two root_of(const Two& x) { return Two{std::sqrt(x[0]), std::sqrt(x[1])}; }
 #endif
 
+/// x, no farther from 0 than h >= 0: one instruction where the machine has it. Of h = 0, zero, of a sign that may differ.
+THINWALL_HOT Two held_within(const Two& x, const Two& h) {
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+  return _mm_range_pd(x, h, 2);
+#else
+  return most(-h, least(x, h));
+#endif
+}
+#ifdef __AVX__
+THINWALL_HOT Four held_within(const Four& x, const Four& h) {
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+  return _mm256_range_pd(x, h, 2);
+#else
+  return most(-h, least(x, h));
+#endif
+}
+#endif
+
 /// -0, a sign alone, in every lane of such a register.
 THINWALL_HOT Two minus_zero(const Two&) { return Two{-0.0, -0.0}; }
 #ifdef __AVX__

@@ -27,6 +27,7 @@ THINWALL_HOT Vectors<Lanes> spread(const Lanes& v) {
           {__builtin_shufflevector(v.v, v.v, 1, 1, 1, 1)},
           {__builtin_shufflevector(v.v, v.v, 2, 2, 2, 2)}};
 }
+THINWALL_HOT Vectors<Lanes> spread(const double* v) { return {all(v[0]), all(v[1]), all(v[2])}; }
 THINWALL_HOT Vectors<Lanes> transposed(const Lanes& a, const Lanes& b, const Lanes& c) {
   const auto even = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6), odd = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
   const auto next = __builtin_shufflevector(c.v, c.v, 1, 1, 3, 3);
@@ -38,11 +39,13 @@ THINWALL_HOT Vectors<Lanes> transposed(const Lanes& a, const Lanes& b, const Lan
 THINWALL_HOT Vectors<Lanes> spread(const Lanes& v) {
   return {all(firsts(xy_of(v))), all(seconds(xy_of(v))), all(zz_of(v))};
 }
+THINWALL_HOT Vectors<Lanes> spread(const double* v) { return spread(lanes(v)); }
 THINWALL_HOT Vectors<Lanes> transposed(const Lanes& a, const Lanes& b, const Lanes& c) {
   return {lanes(firsts(xy_of(a), xy_of(b)), firsts(xy_of(c))), lanes(seconds(xy_of(a), xy_of(b)), seconds(xy_of(c))),
           lanes(firsts(zz_of(a), zz_of(b)), zz_of(c))};
 }
 #endif
+THINWALL_HOT Vectors<Lanes> spread(const Vec3<double>& v) { return spread(v.data()); }
 /// The one of the lane that is kept.
 THINWALL_HOT Lanes only(const LanesMask& one, const Vectors<Lanes>& of) {
   return lanes(two_sums(keep(one, of.x), keep(one, of.y)), sum(keep(one, of.z)));

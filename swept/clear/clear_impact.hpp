@@ -77,8 +77,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
   const Lanes point = (max(at_a - half_a, at_b - half_b) + min(at_a + half_a, at_b + half_b)) * all(0.5);
   const ClearSlabs::Last last = slabs.last_entered();
   const bool sizes = all_of((zero <= min(half_a, half_b)) & slabs.in_range);
-  const bool ordered = all_of(slabs.in_order() & clear_of_end(slabs.time));
-  return {both(both(sizes, last.clear), both(ordered, gap == 0)), slabs.time, clear_face_normal(last.axes, v), point};
+  return {both(both(sizes, last.clear), both(all_of(clear_of_end(slabs.time)), gap == 0)), slabs.time,
+          clear_face_normal(last.axis, v), point};
 }
 
 /// As against an aligned box, in the box's own axes. A face is met as exactly as they are: what turning rounds of a place counts along one.
@@ -153,7 +153,7 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& b, const Moving<Aa
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& a, const Moving<Obb<double>>& b, double gap) {
   const ClearFrame of_a(a.shape.axes), of_b(b.shape.axes);
-  return clear_boxes_impact(of_a, a, of_b, b, {of_b.into(of_a.x), of_b.into(of_a.y), of_b.into(of_a.z)}, gap);
+  return clear_boxes_impact(of_a, a, of_b, b, of_b.into(of_a), gap);
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& a, const Moving<Capsule<double>>& b, double gap) {
