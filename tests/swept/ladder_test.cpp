@@ -604,8 +604,26 @@ TEST(LadderAtOneInstant, overlaps_agree) {
   for (std::size_t i = 0; i < cases; ++i) {
     const Turned a = drawn(draw, TypeTag<Turned>{}), b = drawn(draw, TypeTag<Turned>{});
     clear += agrees(a, b) + agrees(a, drawn(draw, TypeTag<Box>{}));
+    const auto gap = separation(a, b);  // and as good as touching, parallel or not
+    const double apart = draw.plain() * power<double>(-draw.pick(20, 50));
+    agrees(a, moved<double>(b, V(gap.normal * (apart - gap.distance))));
   }
   EXPECT_GE(clear, cases);
+}
+
+// Two long boxes lie edge on edge, one turned a little across the other: nothing parts them but the product of the edges that are all but
+// parallel, whose length is that of the turn.
+TEST(LadderAtOneInstant, edges_all_but_parallel_part_boxes) {
+  const double c = std::sqrt(0.5), h = 0.25, turn = 0x1p-18;
+  const Mat3<double> on_edge = turn_in_plane<double>(1, 2, c, c);
+  const Turned below{V::Zero(), {1, h, h}, on_edge};
+  for (const double gap : {turn / 2, -turn / 2}) {
+    const Turned above{
+        {0, 0, 2 * h / c + gap}, {1, h, h}, turn_in_plane<double>(0, 1, std::cos(turn), std::sin(turn)) * on_edge};
+    EXPECT_TRUE(clear_overlap(below, above).clear);
+    EXPECT_EQ(overlaps(below, above), gap < 0);
+    EXPECT_EQ(careful_overlaps(below, above), gap < 0);
+  }
 }
 
 /// 1 if the clear rung answers, which must agree with the careful one.
