@@ -127,11 +127,11 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& a, const Capsule<S>& b
 template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Aabb<S>& box) {
   const Vec3<S> start = capsule.a - box.center, core = capsule.b - capsule.a;
   const S s = closest_core_parameter(capsule, box);
-  const Vec3<S> nearest = start + core * s;
+  const Vec3<S> along = core * s, nearest = start + along;
   const Vec3<S> excess = excess_of(nearest, box.half_extents);
   CoreGap<S> gap;
   gap.distance = safe_norm(excess);
-  if (gap.distance <= gap_noise(largest(start, core, box.half_extents))) {
+  if (gap.distance <= gap_noise(largest(start, along, box.half_extents))) {
     return segment_through_box(start, core, box.half_extents);
   }
   gap.normal = -safe_unit(excess);

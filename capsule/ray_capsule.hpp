@@ -28,7 +28,7 @@ Entry<S> rounded_segment_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, cons
   const S along = p.dot(axis), length = sqrt(axis_square);
   bool far_end = along > end / 2;  // the cap to try: the nearer, or the one beyond which the side is met
   if (length > S(0)) {
-    const Entry<S> side = ball_entry<S>(cross(p, axis), cross(v, axis), R * length, [&] {
+    const Entry<S> side = ball_entry<S>(cross(p, axis), accurate_cross<S>(v, axis), R * length, [&] {
       return accurate_edge_discriminant(p, v, axis, R) * (axis_square * axis_square);
     });
     if (side.inside && along >= S(0) && along <= end) {  // touching, but for the rounding of the test above

@@ -20,9 +20,17 @@ struct ClearFlat {
   /// s and u of a corner, and by how much they change along its edge.
   packed::Lanes s, u, by_s, by_u;
 
+  packed::PairMask has_fourth;
+
+  /// How far it reaches along a vector of which these are the products with d and f.
+  THINWALL_HOT packed::Pair reach(const packed::Pair& of_d_f) const {
+    const packed::Pair one = max(max(of_d_f, swapped(of_d_f)), packed::both(0));
+    return max(one, keep(has_fourth, of_d_f + swapped(of_d_f)));
+  }
+
   /// s, u >= 0, s + u <= 1.
   THINWALL_HOT static ClearFlat triangle(const packed::Lanes& d, const packed::Lanes& f) {
-    using packed::Lanes, packed::all, packed::lanes, packed::pair;
+    using packed::Lanes, packed::all, packed::both, packed::lanes, packed::pair;
     const Lanes none = all(0);
     return {d,
             f,
@@ -32,7 +40,8 @@ struct ClearFlat {
             lanes(pair(0, 1), pair(0, 0)),
             lanes(pair(0, 0), pair(1, 1)),
             lanes(pair(1, -1), pair(0, 0)),
-            lanes(pair(0, 1), pair(-1, -1))};
+            lanes(pair(0, 1), pair(-1, -1)),
+            both(1) < both(0)};
   }
   /// s and u in [0, 1].
   THINWALL_HOT static ClearFlat parallelogram(const packed::Lanes& d, const packed::Lanes& f) {
@@ -50,7 +59,8 @@ struct ClearFlat {
             lanes(pair(0, 1), pair(1, 0)),
             lanes(pair(0, 0), pair(1, 1)),
             lanes(pair(1, 0), pair(-1, 0)),
-            lanes(pair(0, 1), pair(0, -1))};
+            lanes(pair(0, 1), pair(0, -1)),
+            both(0) < both(1)};
   }
 };
 
@@ -91,7 +101,9 @@ struct ClearFlatEntry {
     const Pair high = against(firsts(through), seconds(through)), by_edge = smallest_of(earliest);
     const Pair reach_n = R * root(nn), face = (high - reach_n) / rate;
     const Lanes outwards = dot(N, k) * core.ahead, inside = outwards + dot(N, w) * core.ahead * all(face);
-    const PairMask by_face = (both(0) <= face) & (face <= by_edge) & (largest_of(inside) <= both(0));
+    // a face this narrow is in the cylinders, all but its square over 8 R, and its plane is rounding
+    const Pair narrowest = largest_of(RR_d) * both(0x1p-52);
+    const PairMask by_face = (both(0) <= face) & (face <= by_edge) & (largest_of(inside) <= both(0)) & (narrowest < nn);
     time = select(by_face, face, by_edge);
 
     // where, by s and u
@@ -116,14 +128,17 @@ struct ClearFlatEntry {
     const LanesMask ball_clear = strikes | (all(wide) < aside * graze);
     const Lanes beyond = all(1 + 0x1p-30);  // a moment seen from 2^14 R is off by 2^-38 of itself
     const LanesMask outside = (RR * beyond < square) & ((RR_d * beyond < k_k) | (start < zero) | (length < start));
-    // a face this narrow is in the cylinders, all but its square over 8 R
-    const PairMask narrow = nn <= largest_of(RR_d) * both(0x1p-52);
+    const PairMask narrow = nn <= narrowest;
     const PairMask above = narrow | (both(0) < largest_of(outwards)) |
                            (reach_n + size * (firsts(edges) + seconds(edges)) * both(0x1p-48) < high);
     const PairMask plain = narrow | (extents * both(0x1p-40) <= nn);
     const PairMask steep = speed * nn * both(0x1p-16) < rate * rate;
+    // beside what it was told to be of, the gap is as long to its square, and leans over the rest of the core
+    const Pair leans = two_sums(about * core.d, about * core.f), lean = leans * place;
+    const Pair over = core.reach(leans) - (lean + swapped(lean));
     const unsigned hit_clear =
-        bits((abs(unit - both(1)) <= both(0x1p-28)) & (broad | narrow)) & (bits(steep) | ~bits(by_face));
+        bits((abs(unit - both(1)) <= both(0x1p-28)) & (over * R <= squares * both(0x1p-50)) & (broad | narrow)) &
+        (bits(steep) | ~bits(by_face));
     const unsigned all_clear = bits(in_range & above & plain) & (hit_clear | bits(both(1) < time));
     clear = (four_bits(side_clear & ball_clear & outside) | all_clear << 4U) == 63U;
   }

@@ -44,7 +44,7 @@ template <Scalar S> PartEntry<S> edge_entry(const Vec3<S>& p, const Vec3<S>& v, 
   using std::sqrt;
   const Vec3<S> d = times_power_of_two(direction, -binary_exponent(largest(direction)));  // about 1 long
   const S length_square = d.squaredNorm();
-  const Vec3<S> w = cross(v, d);
+  const Vec3<S> w = accurate_cross(v, d);
   if (w == Vec3<S>::Zero()) return {};  // along the edge: the distance to its line does not change
   const auto accurate = [&] { return accurate_edge_discriminant(p, v, d, R) * (length_square * length_square); };
   PartEntry<S> entry = entry_by_chord<S>(chord_through_ball<S>(cross(p, d), w, R * sqrt(length_square), accurate), w);

@@ -243,6 +243,18 @@ const std::vector<Finding> findings = {
             Moving{Sphere<double>{V(-0x1.49b1c31d67e17p+12, -0x1.5a25c6008d314p+19, -0x1.5240e276ebddfp+21), 0},
                    V(0x1.48ce021e6d4edp+13, 0x1.d95ef23762fcep+19, 0x1.738c85026c317p+21)}),
      {{apart}, 1, 0}},
+    {"a sphere that moves along a segment, to rounding, 5e-4 of its radius off",
+     asking(
+         at_rest(Capsule<double>{V(0, 0, 0), V(0x1.741b4fbb6dfb2p-6, -0x1.7d11240db9fb4p-57, 0x1.7c5b4af46e875p-2), 2}),
+         Moving{Sphere<double>{V(0x1.ff4b8ce7f3014p+1, 0, -0x1.f43483efc1b3dp-3), 2},
+                V(0x1.f3f6052f1bd05p-14, 0, 0x1.ff0bab7284b0bp-10)}),
+     {{apart}, 1, 0}},
+    {"a sphere meets a needle by its edge: its plane is rounding, and 1e-7 early",
+     asking(at_rest(Triangle<double>{V(0, 0, 0), V(-0x1.c83179e4de9ecp-5, 0x1.b5e27c9b9445cp-5, 0x1.9e11da81fp-17),
+                                     V(-0x1.73f458faae5f4p-5, 0x1.6506d6a6620b9p-5, 0x1.519bfc110d228p-17)}),
+            Moving{Sphere<double>{V(-0x1.3d1e4ed83e85bp-5, 0x1.37f749ef7b532p-5, -0x1.008a605439f82p+2), 4},
+                   V(0x1.9bc076cf5e19p-28, -0x1.e3f1d7689de26p-17, 0x1.ffffff1b495f6p-5)}),
+     {{hit}, 0x1.15098302c0d53p-3, 1e-14}},
 };
 
 TEST(HardQueries, motions_have_the_answers_of_the_table) {
@@ -266,6 +278,41 @@ TEST(HardQueries, motions_have_the_answers_of_the_table) {
 }
 
 // ---- Other queries, and what more there is to say of a motion.
+
+// So near to another part of the core that its plane or its cylinder is as far, to the square of how far beside: the normal shows it.
+TEST(HardQueries, a_flat_core_is_left_where_it_is_nearest) {
+  const Capsule<double> rod{V(0, 0, 0), V(-0x1.4adb75df6c3cap-1, -0x1.8b8fca140ef8fp-5, -0x1.8b8fca140ef8ep-5),
+                            0x1.be1e1f76f753ep-1};
+  const Capsule<double> other{V(-0x1.13fca8d03d688p-1, 0x1.04c37e2576292p-1, 0x1.1f0d7a6d201a1p+2),
+                              V(-0x1.2598691b4607p-3, -0x1.3c778dd256f24p-2, 0x1.224aad21526b8p+2), 0};
+  const auto crossed =
+      time_of_impact(Moving{rod, V(-0x1.5dffb4a5d04ep-4, -0x1.e88a4acc5fbc8p-6, 0x1.c06281d1a7e4p-5)},
+                     Moving{other, V(0x1.db101286a254p-2, -0x1.7ee62b59e72ecp-3, -0x1.ceac01d4e518ep+2)});
+  EXPECT_NEAR(crossed.normal[0], -0.07633044895, 1e-10);
+  const Triangle<double> needle{V(0, 0, 0), V(0x1.e9c4080f96721p-1, 0x1.e9c4080f9671fp-1, -0x1.e9c4080f9671fp-58),
+                                V(0x1.8efa68011c6ecp-1, 0x1.8efa6801199a8p-1, -0x1.8efa6801199a8p-58)};
+  const Sphere<double> ball{V(0x1.c3c4780484e8bp-8, 0x1.be1c506ae51a9p-8, 0x1.000000000000cp+1), 1};
+  const auto below =
+      time_of_impact(at_rest(needle), Moving{ball, V(-0x1.6a09e667f3bccp-14, 0x1.6a09e667f37cdp-14, -2)});
+  EXPECT_NEAR(below.normal[0], 0, 1e-12);
+  EXPECT_NEAR(below.normal[1], 0, 1e-12);
+}
+
+TEST(HardQueries, a_ray_along_a_capsule_to_rounding_passes_it_by) {  // 5e-4 of its radius off
+  const Capsule<double> rod{V(0, 0, 0), V(0x1.4b3576a8f911fp-2, 0x1.4b36ee9562358p-61, -0x1.f305019693d28p-10), 4};
+  EXPECT_FALSE(raycast(Ray<double>{V(0x1.d263bf211df98p-8, 0, -0x1.0021d260345bfp+2),
+                                   V(-0x1.fffdbae348fa1p-8, 0, 0x1.81b2d8de59e6ep-15)},
+                       rod));
+}
+
+TEST(HardQueries,
+     a_box_is_as_far_from_a_long_segment_as_from_its_near_end) {  // whose other end's roundings are as large
+  Mat3<float> axes;
+  axes << 0, -1, 0, 0, 0, 1, 1, 0, 0;
+  const Obb<float> box{F(-0x1.7e71ep-1F, 0x1.404d9p-1F, -0x1.3fp+2F), F(0x1.df4588p-1F, 1, 0x1.333334p-1F), axes};
+  const Capsule<float> rod{F(0, -0x1.333334p-2F, 0x1.333334p-2F), F(0, 5, 0x1p+22F), 0x1p-12F};
+  EXPECT_NEAR(separation(rod, box).distance, 4.3602263F, 1e-5F);
+}
 
 TEST(HardQueries, parallel_boxes_have_a_normal) {
   Mat3<float> axes;
