@@ -82,7 +82,7 @@ Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& m
   if (moving.axis_b < 0) return turned;  // A's own axis, which this turns back, or neither's
   const Vec3<T> edge_or_normal = b.axes.col(moving.axis_b);
   const Vec3<T> n = moving.axis_a < 0 ? edge_or_normal : accurate_cross<T>(a.axes.col(moving.axis_a), edge_or_normal);
-  if (n == Vec3<T>::Zero()) return turned;  // parallel edges, crossed by rounding alone
+  if (largest(n) <= gap_noise(T(1))) return turned;  // parallel edges, crossed by rounding alone
   return safe_unit(n.dot(turned) < T(0) ? Vec3<T>(-n) : n);
 }
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thinwall/discrete/manifold.hpp>
+#include <thinwall/discrete/boxes/box_manifold.hpp>
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/swept/methods/centre_ray.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
@@ -296,6 +296,21 @@ TEST(HardQueries, a_flat_core_is_left_where_it_is_nearest) {
       time_of_impact(at_rest(needle), Moving{ball, V(-0x1.6a09e667f3bccp-14, 0x1.6a09e667f37cdp-14, -2)});
   EXPECT_NEAR(below.normal[0], 0, 1e-12);
   EXPECT_NEAR(below.normal[1], 0, 1e-12);
+}
+
+// Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.
+TEST(HardQueries, boxes_all_but_parallel_have_one_normal_both_ways) {
+  const double s = 0x1.1ffc3403d8249p-6, r = 0x1.1ffc3403d8209p-6, c = 0x1.ffebc0222be8fp-1;
+  const V down(0x1.1a62633145c07p-54, 0, -1);
+  const Moving a{Obb<double>{V(0, 0, 0), V(0x1.7404130606c45p+0, 1, 1),
+                             leaning(down, V(s, c, 0x1.3daa7f6e1b6bep-60), V(c, -s, 0x1.1a57381ff22dep-54))},
+                 V(0, 0, 0)};
+  const Moving b{Obb<double>{V(-0x1.fbf6f99c83746p+0, 0x1.d8dffad341be8p-1, -0x1.39fca33e33e2ep+1), V(1, 1, 1),
+                             leaning(down, V(r, c, 0x1.3daa7f6e1b677p-60), V(c, -r, 0x1.1a57381ff22dep-54))},
+                 V(0x1.0475d0e125551p-9, 0x1.f6ebde820d27dp-10, -0x1.fffffffffffffp-10)};
+  const V there = time_of_impact(a, b).normal, back = time_of_impact(b, a).normal;
+  EXPECT_NEAR(there[1], s, 1e-10);
+  EXPECT_LE(largest<double>(there + back), 1e-10);
 }
 
 TEST(HardQueries, a_ray_along_a_capsule_to_rounding_passes_it_by) {  // 5e-4 of its radius off
