@@ -24,12 +24,12 @@ template <Scalar S> struct MovingBoxPair {
 
   /// The middle of the points where they touch at entry, or come within `gap` of each other, in A's axes and relative to
   /// its center. Zero if they never do.
-  Vec3<S> touching_point(const Entry<S>& entry, const S& gap) const {
+  Vec3<S> touching_point(const Entry<S>& entry) const {
     if (entry.inside || entry.gave_up || !entry.may_hit()) return Vec3<S>::Zero();
     BoxPair<S> there = pair;
     there.between += motion * entry.time;
-    const BoxPoints<S> points =
-        gap > S(0) ? closest_points(there) : deepest_points(there, axis_a, axis_b, entry.normal);
+    const bool has_axis = axis_a >= 0 || axis_b >= 0;
+    const BoxPoints<S> points = has_axis ? deepest_points(there, axis_a, axis_b, entry.normal) : closest_points(there);
     return (points.on_a + points.on_b) / S(2);
   }
 };
@@ -55,6 +55,12 @@ template <Scalar S> Entry<S> sharp_boxes_entry(MovingBoxPair<S>& moving) {
   }
   entry.graze = shared.close();
   if (!shared.ever() || shared.decided_by < 0) return entry;
+  if (shared.first < S(0)) {  // apart at the start by rounding alone: which shadows came last then says nothing
+    entry.time = S(0);
+    entry.not_after = shared.last;
+    entry.normal = box_gap(pair).normal;
+    return entry;
+  }
   moving.axis_a = shared.decided_by < 3 ? shared.decided_by : shared.decided_by < 6 ? -1 : (shared.decided_by - 6) / 3;
   moving.axis_b = shared.decided_by < 3 ? -1 : shared.decided_by % 3;
   entry.time = shared.time();

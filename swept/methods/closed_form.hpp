@@ -95,7 +95,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   MovingBoxPair<T> moving{box_pair(a.shape, b.shape, path.start), into(a.shape, motion), into(b.shape, path.start),
                           into(b.shape, motion)};
   Entry<T> entry = boxes_entry(moving, gap);
-  const Vec3<T> touching = moving.touching_point(entry, gap);
+  const Vec3<T> touching = moving.touching_point(entry);
   entry.come_later(path.base_time);
   entry.normal = world_normal(a.shape, b.shape, moving, entry);
   return toi_of_turned(method, a, b, entry, [&](const T& time) -> Vec3<T> {
@@ -112,7 +112,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   MovingBoxPair<T> moving{box_pair(b.shape, a.shape, path.start), motion, into(a.shape, path.start),
                           into(a.shape, motion)};
   Entry<T> entry = boxes_entry(moving, gap);
-  const Vec3<T> touching = moving.touching_point(entry, gap);
+  const Vec3<T> touching = moving.touching_point(entry);
   entry.come_later(path.base_time);
   return toi_of_turned(method, a, b, flipped(entry),
                        [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });

@@ -313,6 +313,23 @@ TEST(HardQueries, boxes_all_but_parallel_have_one_normal_both_ways) {
   EXPECT_LE(largest<double>(there + back), 1e-10);
 }
 
+TEST(HardQueries,
+     boxes_that_slide_along_each_other_touch_by_the_faces_that_do) {  // not by those whose shadows came last, long ago
+  const double c = 0x1.ff747ada7ac16p-1, s = 0x1.79e106eef4478p-5;
+  const auto a = at_rest(
+      Obb<double>{V(0, 0, 0), V(0, 1, 1), leaning(V(c, c * 0x1p-36, -s), V(-0x1p-36, 1, 0), V(s, s * 0x1p-36, c))});
+  const Moving b{Obb<double>{V(0x1.2f3c20ddb3c83p-2, 0x1.69691690489d5p-2, 0x1.ffba3d6d3d60bp+0), V(0.25, 0.25, 1),
+                             Mat3<double>::Identity()},
+                 V(0, 0x1.e42b9c97e72bp-3, 0)};
+  const auto there = time_of_impact(a, b), back = time_of_impact(b, a);
+  for (const auto& toi : {there, back}) {
+    EXPECT_NE(toi.status, ToiStatus::apart);
+    EXPECT_EQ(toi.time, 0);
+  }
+  EXPECT_NEAR(there.normal[2], 1, 1e-10);
+  EXPECT_NEAR(back.normal[2], -1, 1e-10);
+}
+
 TEST(HardQueries, a_ray_along_a_capsule_to_rounding_passes_it_by) {  // 5e-4 of its radius off
   const Capsule<double> rod{V(0, 0, 0), V(0x1.4b3576a8f911fp-2, 0x1.4b36ee9562358p-61, -0x1.f305019693d28p-10), 4};
   EXPECT_FALSE(raycast(Ray<double>{V(0x1.d263bf211df98p-8, 0, -0x1.0021d260345bfp+2),
