@@ -20,7 +20,7 @@ struct ClearFlat {
   /// s and u of a corner, and by how much they change along its edge.
   packed::Lanes s, u, by_s, by_u;
 
-  packed::PairMask has_fourth;
+  packed::PairMask has_fourth;  ///< d + f is a corner too
 
   /// How far it reaches along a vector of which these are the products with d and f.
   THINWALL_HOT packed::Pair reach(const packed::Pair& of_d_f) const {
