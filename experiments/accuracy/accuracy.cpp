@@ -31,7 +31,7 @@ struct Row {
   Tally tally{};
 };
 
-constexpr double goal_error = 4, goal_wrong = 1;  // [u kappa t] and [u]; [u]
+constexpr double goal_error = 4, goal_wrong = 1;  // [u kappa t] or [u]; [u]
 
 /// Verdicts that are asked alone have errors only where they were too close for the first oracle.
 bool is_timed(const Row& row) { return row.inquiry != Inquiry::verdicts; }
@@ -40,8 +40,8 @@ bool is_timed(const Row& row) { return row.inquiry != Inquiry::verdicts; }
 bool is_within_goal(const Row& row) {
   const Tally& t = row.tally;
   return row.inquiry == Inquiry::float_kernel ||
-         (t.forward.largest() <= goal_error && t.backward.largest() <= goal_error && t.largest_wrong <= goal_wrong &&
-          t.gave_up == 0);
+         (std::max({t.forward.largest(), t.backward.largest(), t.worst_normal, t.worst_point}) <= goal_error &&
+          t.largest_wrong <= goal_wrong && t.gave_up == 0);
 }
 
 std::string full_name(const Row& row) { return fmt::format("{} {}", row.pair->name, name(row.inquiry)); }
@@ -58,7 +58,8 @@ Table pairs_table(const std::vector<Row>& rows) {
                             value("p99_forward", "u kappa t", "99th percentile of the same.",
                                   [](const Row& r) { return r.tally.forward.quantile(0.99); }),
                             value("max_backward", "u", "Largest separation at the answered time, over its scale.",
-                                  [](const Row& r) { return r.tally.backward.largest(); }))),
+                                  [](const Row& r) { return r.tally.backward.largest(); }),
+                            fields(&Row::tally, {"worst_normal", "worst_point"}))),
       fields(&Row::tally, {"wrong_verdicts", "worst_wrong", "gave_up"}));
   return in_report(table("pairs", "Errors of the closed form against the oracle, by pair and scalar.", columns, rows));
 }
@@ -106,9 +107,9 @@ std::string answer_of(const std::vector<Row>& rows) {
   return fmt::format(
       "Over {} queries through the front door the closed form's time is off by at most {:.2f} u kappa t, its backward error "
       "at most {:.2f} u; {} verdicts at the threshold fall on its other side, where their input would have to change by at "
-      "most {:.2g} u. {}",
+      "most {:.2g} u; its normals part what touches, and its points lie on it, to {:.2g} and {:.2g} u of all sizes. {}",
       grouped_text(all.queries), all.forward.largest(), all.backward.largest(), grouped_text(all.wrong_verdicts),
-      all.largest_wrong,
+      all.largest_wrong, all.worst_normal, all.worst_point,
       over == 0 ? "Every pair meets the goal." : fmt::format("{} rows of the table are over the goal.", over));
 }
 
@@ -118,12 +119,12 @@ Outcome outcome_of(const std::vector<Row>& rows) {
     if (!is_within_goal(row)) over.push_back(full_name(row));
   }
   const std::string verdict =
-      fmt::format("Goal: forward and backward {}, worst wrong verdict {}. {}{}.", goal_error, goal_wrong,
+      fmt::format("Goal: forward, backward, normal and point {}, worst wrong verdict {}. {}{}.", goal_error, goal_wrong,
                   over.empty() ? "Every row through the front door meets it" : "Over it: ", fmt::join(over, ", "));
   const Table pairs = pairs_table(rows);
   return {.answer = answer_of(rows),
           .summary = terminal(pairs, {"pair", "scalar", "queries", "max_forward", "p99_forward", "max_backward",
-                                      "wrong_verdicts", "worst_wrong"}) +
+                                      "worst_normal", "worst_point", "wrong_verdicts", "worst_wrong"}) +
                      wrapped(verdict),
           .tables = {pairs},
           .figures = {errors_figure(rows)},

@@ -47,7 +47,41 @@ double wrongness(const oracle::Problem<R>& problem, const Toi<S>& toi, const ora
   return static_cast<double>(abs(margin) / u);
 }
 
-/// Times and verdict against the oracle at 50 digits.
+/// [length] Every number of a query added up until `time`.
+template <class R> R size_of(const oracle::Problem<R>& problem, const R& time) {
+  R size = problem.reach;
+  for (std::size_t i = 0; i < 3; ++i) size += problem.start_size[i] + time * problem.speed_size[i];
+  return size;
+}
+
+/// [length] By how much shapes a separation `core` apart overlap along the direction that was told. Told from places it is off by u size / R,
+/// where the shapes are round by R, and tilts their cores by that: over their length in R more, `flatness`.
+template <class R, class S>
+R overlap_along(const Vec3<S>& normal, const oracle::Problem<R>& problem, const R& time, const R& core) {
+  const auto n = oracle::lift<R>(normal);
+  const auto at = oracle::combination(R(1), problem.offset, time, problem.motion);
+  return core - (oracle::dot(n, at) - problem.support(n)) / sqrt(oracle::dot(n, n));
+}
+template <class R> R flatness(const oracle::Problem<R>& problem) {
+  R length = 0;
+  for (const auto& edge : oracle::edges_of(problem)) length += 2 * sqrt(oracle::dot(edge, edge));
+  return problem.reach > 0 ? R(length / problem.reach) : R(0);
+}
+
+/// [length] From a point to the surface of a shape on its way.
+template <class R, class A, class S>
+R off_surface(const Moving<A>& a, const Vec3<S>& point, const R& time, const R& tolerance) {
+  const auto problem = oracle::pose<R>(a, Moving<Sphere<S>>{{point, 0}, Vec3<S>::Zero()});
+  return abs(oracle::signed_gap_at(problem, time, tolerance).core - problem.reach);
+}
+
+void note_worst(double& worst, const Digits50& error) {
+  const auto rounded = static_cast<double>(error);
+  worst =
+      std::max(worst, std::isnan(rounded) ? std::numeric_limits<double>::infinity() : rounded);  // no direction at all
+}
+
+/// Time, verdict, normal and point against the oracle at 50 digits.
 template <class A, class B, class S = typename A::Scalar>
 void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, AccuracyTally& tally) {
   const Digits50 tolerance = ldexp(Digits50(1), -140);
@@ -71,6 +105,12 @@ void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, Acc
       there.core > 0 ? static_cast<double>(abs(there.core - problem.reach) / (u * there.scale)) : forward;
   tally.forward.add(forward);
   tally.backward.add(backward);
+  const Digits50 time(toi.time), unit = u * size_of(problem, time);
+  const Digits50 moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
+  const Digits50 off = std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
+  note_worst(tally.worst_normal,
+             overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem))));
+  note_worst(tally.worst_point, off / (unit + moved));
 }
 
 /// The verdict alone, first against the oracle in long double, and at 50 digits where that is too close to call.

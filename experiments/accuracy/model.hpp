@@ -32,7 +32,7 @@ class ErrorHistogram {
 
 struct AccuracyTally {
   std::int64_t queries = 0, hits = 0, overlapping = 0, wrong_verdicts = 0, gave_up = 0;
-  double largest_wrong = 0;
+  double largest_wrong = 0, worst_normal = 0, worst_point = 0;
   ErrorHistogram forward{};   ///< [u kappa t] of the hits
   ErrorHistogram backward{};  ///< [u] of the hits
 
@@ -44,6 +44,10 @@ struct AccuracyTally {
         sum("overlapping", &T::overlapping, "1", "How many touch at the start, by the oracle."),
         sum("wrong_verdicts", &T::wrong_verdicts, "1", "Verdicts that differ from the oracle's."),
         most("worst_wrong", &T::largest_wrong, "u", "The largest change of the input that a wrong verdict would need."),
+        most("worst_normal", &T::worst_normal, "u",
+             "By how much a hit's shapes overlap along its normal, over all sizes."),
+        most("worst_point", &T::worst_point, "u",
+             "How far a hit's point lies off either surface, over all sizes and what time is worth."),
         sum("gave_up", &T::gave_up, "1", "Queries that ran out of rounds."), part(&T::forward), part(&T::backward));
   }
 };

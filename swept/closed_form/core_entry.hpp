@@ -92,8 +92,9 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     answer.time = time;
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
     const S closing = largest(answer.normal.dot(v)), off = 4 * noise / closing;
+    const auto met_at = [&](const S& at) { return closest(p + v * at).id; };
     if (closing * closing * R < 64 * noise * speed * speed)
-      answer.graze = !is_finite(off) || closest(p + v * S(time - off)).id != closest(p + v * S(time + off)).id;
+      answer.graze = !is_finite(off) || met_at(time - off) != met_at(time) || met_at(time) != met_at(time + off);
     return answer;
   };
   const auto miss = [&](const CorePart<S>& nearest) {

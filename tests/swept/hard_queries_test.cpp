@@ -298,6 +298,17 @@ TEST(HardQueries, a_flat_core_is_left_where_it_is_nearest) {
   EXPECT_NEAR(below.normal[1], 0, 1e-12);
 }
 
+// It closes so slowly that another edge's roundings reach it 4e-4 of its time later.
+TEST(HardQueries, a_graze_between_two_edges_is_in_doubt) {
+  const F corner(-0x1.f82c28p-4F, 0x1.0d7e5cp-2F, -0x1.d4967p-5F), end(-0x1.82912p+1F, 0x1.3614ap-3F, -0x1.5ec962p-3F);
+  const F rod = F(-0x1.89488ap+1F, -0x1.3f81e8p-3F, -0x1.346d54p-2F) - end;
+  const F edge1 = F(0x1.68ff46p-3F, -0x1.4f03f8p-1F, 0x1.5fa308p-2F) - corner;
+  const F edge2 = F(0x1.6b655p-5F, -0x1.43e582p-5F, -0x1.1f36cap-2F) - corner;
+  const auto entry = capsule_triangle_entry<float>(end - corner, F(0x1.65cbdp+2F, -0x1.4f0f78p-2F, -0x1.e3ccaap-3F),
+                                                   0x1.7c52acp-6F, rod, edge1, edge2);
+  EXPECT_TRUE(entry.graze || std::abs(entry.time - 0.5480246F) < 1e-6F) << entry.time;
+}
+
 // Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.
 TEST(HardQueries, boxes_all_but_parallel_have_one_normal_both_ways) {
   const double s = 0x1.1ffc3403d8249p-6, r = 0x1.1ffc3403d8209p-6, c = 0x1.ffebc0222be8fp-1;
