@@ -1,5 +1,6 @@
 #pragma once
 /// When a moving point first meets a flat set, decided without rounding: the slow path of flat_entry below.
+/// It is asked in a scalar W that holds the products of seven of the numbers given, however small some of them are beside others.
 ///
 /// Each case comes down to conditions that are linear in the time t alone:
 ///   across the plane:    the height is zero at one t, and there alpha, beta and their limits hold;
@@ -90,8 +91,8 @@ void within_line(ExactStretch<S>& stretch, FlatShape shape, const ExactVec<S>& p
   stretch.not_negative(upper - p[axis], -v[axis]);
 }
 
-/// First time t in [0, latest] at which p + v t is in the set; infinity if there is none. Requires lengths and displacements of about 1: products
-/// have up to seven factors. An end so late that what is multiplied by it leaves the range is none; who asks compares the time with it.
+/// First time t in [0, latest] at which p + v t is in the set; infinity if there is none. Requires that products of seven do not leave the
+/// range. An end so late that what is multiplied by it leaves the range is none; who asks compares the time with it.
 /// Error: the verdict is right; the time is off by a few u of itself.
 template <Scalar S>
 Entry<S> exact_flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
@@ -163,61 +164,83 @@ bool boxes_apart(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3
   return false;
 }
 
-/// The same as flat_entry, for lengths and displacements whose products of four are in range.
-template <Scalar S>
-Entry<S> flat_entry_in_range(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
-                             const S& latest) {
-  const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p);
-  const S farthest = latest * speed * std::max(S(1), S(largest(e1, e2) * largest(e1, e2)));
-  const S last = is_finite(farthest) ? latest : std::numeric_limits<S>::infinity();
-  const Vec3<S> normal = accurate_cross(e1, e2);
-  const Vec3<S> moment = cross(v, p);
-  const S side = v.dot(normal) < S(0) ? S(-1) : S(1);
-  const S climb = side * v.dot(normal), start = side * p.dot(normal), end = start + last * climb;
-  const S alpha = side * moment.dot(e2), beta = -side * moment.dot(e1);
-  const S rest = shape == FlatShape::triangle ? S(climb - alpha - beta) : S(climb - std::max(alpha, beta));
-  const S inner = std::min(std::min(alpha, beta), rest);  // > 0: the line of motion passes through the set
+/// Holds the products of seven numbers of S that are not tiny beside each other.
+template <Scalar S> using Exact = std::conditional_t<std::is_same_v<S, float>, double, S>;
+/// Those of any: long double has fifteen times double's exponents.
+template <Scalar S> using ExactOfAny = Wider<Exact<S>>;
 
-  const S unit = 48 * std::numeric_limits<S>::epsilon();
-  const S climb_noise = unit * area * speed, start_noise = unit * area * reach;
-  const S end_noise = start_noise + last * climb_noise;
-  const S inner_noise = climb_noise + unit * speed * reach * largest(e1, e2);
-  if (start > start_noise) {
-    if (climb > climb_noise || end > end_noise) return {};
-  } else if (end < -end_noise && start < -start_noise) {
-    return {};
-  }
-  if (climb > climb_noise) {
-    if (inner < -inner_noise) return {};
-    if (inner > inner_noise && start < -start_noise && (end > end_noise || !is_finite(last))) {
-      Entry<S> entry;
-      entry.time = std::min(last, S(-start / climb));
-      entry.normal = safe_unit(normal) * -side;
-      return entry;
-    }
-  }
-  if (boxes_apart(shape, p, v, e1, e2, last)) return {};
-  const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(speed);
-  const auto near_one = [&](const Vec3<S>& x) { return times_power_of_two(x, -length); };
-  Entry<S> entry = exact_flat_entry<S>(shape, near_one(p), times_power_of_two(v, -displacement), near_one(e1),
-                                       near_one(e2), times_power_of_two(latest, displacement - length));
-  entry.time = times_power_of_two(entry.time, length - displacement);
+/// Not so small beside `size` that a product of seven would lose its last digit in Exact<S>.
+template <Scalar S> bool has_products_of_seven(const S& x, const S& size) {
+  using Limits = std::numeric_limits<Exact<S>>;
+  constexpr int digits = std::numeric_limits<S>::digits;
+  constexpr int lowest = Limits::min_exponent / 7 - Limits::digits / 7 + digits;
+  return x == S(0) || largest(x) >= size * constant_power_of_two<S, lowest>();
+}
+template <Scalar S> bool has_products_of_seven(const Vec3<S>& v, const S& size) {
+  return has_products_of_seven(v[0], size) && has_products_of_seven(v[1], size) && has_products_of_seven(v[2], size);
+}
+
+/// exact_flat_entry in the scalar W, of lengths and displacements brought near 1.
+template <class W, Scalar S>
+THINWALL_COLD Entry<S> exact_flat_entry_by(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1,
+                                           const Vec3<S>& e2, const S& latest) {
+  const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(largest(v));
+  const auto near_one = [](const Vec3<S>& x, int e) { return times_power_of_two<W>(x.template cast<W>(), -e); };
+  const Entry<W> found =
+      exact_flat_entry<W>(shape, near_one(p, length), near_one(v, displacement), near_one(e1, length),
+                          near_one(e2, length), times_power_of_two(W(latest), displacement - length));
+  Entry<S> entry;
+  entry.inside = found.inside;
+  entry.time = static_cast<S>(times_power_of_two(found.time, length - displacement));
+  entry.normal = found.normal.template cast<S>();
   return entry;
 }
 
-/// First time t in [0, last] at which p + v t is in the set, touching included; infinity if there is none. `last` [1] >= 0
+/// First time t in [0, latest] at which p + v t is in the set, touching included; infinity if there is none. `latest` [1] >= 0
 /// may be infinite.
-/// Error: the verdict is that of the given p, v, e1 and e2 exactly, unless a product underflows.
+/// Error: the verdict is that of the given p, v, e1 and e2 exactly.
 /// Degenerate: e1 and e2 may be parallel or zero, v may lie in the plane or be zero.
 template <Scalar S>
 Entry<S> flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
-                    const S& last) {
-  const SafeScale<S> scale(largest(p, e1, e2), largest(v));
-  if (scale.is_one()) return flat_entry_in_range(shape, p, v, e1, e2, last);
-  Entry<S> entry = flat_entry_in_range<S>(shape, scale.length(p), scale.displacement(v), scale.length(e1),
-                                          scale.length(e2), scale.time(last));
-  entry.time = scale.time_back(entry.time);
-  return entry;
+                    const S& latest) {
+  const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p), size = largest(p, e1, e2);
+  const S farthest = latest * speed * std::max(S(1), S(largest(e1, e2) * largest(e1, e2)));
+  const S last = is_finite(farthest) ? latest : std::numeric_limits<S>::infinity();
+  if (products_in_range(size) && products_in_range(speed)) {
+    const Vec3<S> normal = accurate_cross(e1, e2);
+    const Vec3<S> moment = cross(v, p);
+    const S side = v.dot(normal) < S(0) ? S(-1) : S(1);
+    const S climb = side * v.dot(normal), start = side * p.dot(normal), end = start + last * climb;
+    const S alpha = side * moment.dot(e2), beta = -side * moment.dot(e1);
+    const S rest = shape == FlatShape::triangle ? S(climb - alpha - beta) : S(climb - std::max(alpha, beta));
+    const S inner = std::min(std::min(alpha, beta), rest);  // > 0: the line of motion passes through the set
+
+    const S unit = 48 * std::numeric_limits<S>::epsilon();
+    const S vanished = constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 4 * 3>();
+    const S climb_noise = unit * area * speed + vanished, start_noise = unit * area * reach + vanished;
+    const S end_noise = start_noise + last * climb_noise;
+    const S inner_noise = climb_noise + unit * speed * reach * largest(e1, e2);
+    if (start > start_noise) {
+      if (climb > climb_noise || end > end_noise) return {};
+    } else if (end < -end_noise && start < -start_noise) {
+      return {};
+    }
+    if (climb > climb_noise) {
+      if (inner < -inner_noise) return {};
+      if (inner > inner_noise && start < -start_noise && (end > end_noise || !is_finite(last))) {
+        Entry<S> entry;
+        entry.time = std::min(last, S(-start / climb));
+        entry.normal = safe_unit(normal) * -side;
+        return entry;
+      }
+    }
+  }
+  if (boxes_apart(shape, p, v, e1, e2, last)) return {};
+  const bool is_held = has_products_of_seven(p, size) && has_products_of_seven(e1, size) &&
+                       has_products_of_seven(e2, size) && has_products_of_seven(v, speed) &&
+                       has_products_of_seven(S(latest * speed), size);
+  const auto exact_entry = is_held ? &exact_flat_entry_by<Exact<S>, S> : &exact_flat_entry_by<ExactOfAny<S>, S>;
+  return exact_entry(shape, p, v, e1, e2, latest);
 }
 
 /// True if the point p is in the set.

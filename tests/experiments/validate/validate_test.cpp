@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 #include <sys/stat.h>
 
@@ -449,6 +450,47 @@ TEST_P(Touches, are_hits_for_the_kernel_at_every_scalar) {
   EXPECT_EQ(kernel_misses<float>(GetParam()), 0);
   EXPECT_EQ(kernel_misses<long double>(GetParam()), 0);
   EXPECT_EQ(kernel_misses<testing::Wide>(GetParam()), 0);
+}
+
+/// Small integers times powers of two from one end of the scalar's range to the other, or all of them near 1.
+template <class S> class FarApart {
+ public:
+  int pick(int low, int high) { return std::uniform_int_distribution(low, high)(generator_); }
+  S number(bool near) {
+    using Limits = std::numeric_limits<S>;
+    const int exponent = near ? 0 : pick(Limits::min_exponent - Limits::digits, Limits::max_exponent - 8);
+    return std::ldexp(S(pick(-3, 3)), pick(0, 2) == 0 ? 0 : exponent);
+  }
+  Vec3<S> vector(bool near) { return {number(near), number(near), number(near)}; }
+
+ private:
+  std::mt19937 generator_{7};
+};
+
+template <class S> void judge_far_apart(FlatSet set) {
+  const FlatShape shape = set == FlatSet::triangle ? FlatShape::triangle : FlatShape::parallelogram;
+  FarApart<S> draw;
+  int hits = 0, wrong = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const bool near = i % 4 == 0;
+    const Vec3<S> v = draw.vector(near), e1 = draw.vector(near);
+    const Vec3<S> e2 = i % 3 == 0 ? times_power_of_two<S>(e1, draw.pick(-100, 100)) : draw.vector(near);
+    const Vec3<S> p = i % 2 == 0 ? Vec3<S>(e1 / S(2) - v / S(2)) : draw.vector(near);
+    if (!is_finite(e2)) continue;
+    const auto exactly = first_contact({set, exact(p.template cast<double>()), exact(v.template cast<double>()),
+                                        exact(e1.template cast<double>()), exact(e2.template cast<double>())});
+    const auto entry = flat_entry<S>(shape, p, v, e1, e2, S(1));
+    hits += exactly.has_value();
+    wrong +=
+        exactly.has_value() != (entry.inside || entry.time <= S(1)) || (exactly && entry.inside != (*exactly == 0));
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(hits, 500);
+}
+
+TEST_P(Touches, of_numbers_however_far_apart_are_what_exact_arithmetic_says) {
+  judge_far_apart<double>(GetParam());
+  judge_far_apart<float>(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(, Touches, ::testing::Values(FlatSet::triangle, FlatSet::parallelogram),
