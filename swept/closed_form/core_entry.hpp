@@ -91,6 +91,8 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
   const auto hit = [&](const S& time, const Vec3<S>& normal) {
     answer.time = time;
     answer.normal = normal == Vec3<S>::Zero() ? Vec3<S>(-safe_unit(v)) : normal;
+    if (R <= noise && answer.normal.dot(v) > speed_noise)
+      answer.normal = -normal;  // the side it is seen from is rounding
     const S closing = largest(answer.normal.dot(v)), off = 4 * noise / closing;
     const auto met_at = [&](const S& at) { return closest(p + v * at).id; };
     if (closing * closing * R < 64 * noise * speed * speed)
