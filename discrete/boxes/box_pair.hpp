@@ -365,9 +365,12 @@ template <Scalar S> Vec3<S> straightened(const BoxPair<S>& pair, const BoxPoints
   const S noise = box_noise(pair);
   const Vec3<S> on_b = pair.axes.transpose() * (points.on_b - pair.between);
   Vec3<S> best = n, next = n;
-  for (int round = 0; round < 2; ++round) {
-    next = -(pair.axes * leaning_outwards<S>(-(pair.axes.transpose() * next), on_b, pair.half_b, noise));
-    next = safe_unit(leaning_outwards(next, points.on_a, pair.half_a, noise));
+  const auto out_of_b = [&](const Vec3<S>& way) {
+    return leaning_outwards<S>(-(pair.axes.transpose() * way), on_b, pair.half_b, noise);
+  };
+  for (int turn = 0; turn < 4; ++turn) {  // each box has its say twice
+    next = safe_unit(turn % 2 == 0 ? Vec3<S>(-(pair.axes * out_of_b(next)))
+                                   : leaning_outwards(next, points.on_a, pair.half_a, noise));
     if (next != Vec3<S>::Zero() && pair.overlap(next) < pair.overlap(best)) best = next;
   }
   return best;

@@ -40,6 +40,9 @@ THINWALL_OF_REGISTERS(bits_of_both, _mm_and_pd(x, y), _mm256_and_pd(x, y))
 THINWALL_OF_REGISTERS(bits_of_either, _mm_or_pd(x, y), _mm256_or_pd(x, y))
 THINWALL_OF_REGISTERS(bits_of_one, _mm_xor_pd(x, y), _mm256_xor_pd(x, y))
 THINWALL_OF_REGISTERS(bits_without, _mm_andnot_pd(y, x), _mm256_andnot_pd(y, x))
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+THINWALL_OF_REGISTERS(held_within, _mm_range_pd(x, y, 2), _mm256_range_pd(x, y, 2))  // as below, in one instruction
+#endif
 #undef THINWALL_OF_REGISTERS
 #else
 using Bits [[gnu::vector_size(16)]] = std::int64_t;
@@ -77,28 +80,14 @@ THINWALL_HOT Four root_of(const Four& x) { return _mm256_sqrt_pd(x); }
 THINWALL_HOT Two root_of(const Two& x) { return Two{std::sqrt(x[0]), std::sqrt(x[1])}; }
 #endif
 
-/// x, no farther from 0 than h >= 0: one instruction where the machine has it. Of h = 0, zero, of a sign that may differ.
-THINWALL_HOT Two held_within(const Two& x, const Two& h) {
-#if defined(__AVX512DQ__) && defined(__AVX512VL__)
-  return _mm_range_pd(x, h, 2);
-#else
+#if !defined(__AVX512DQ__) || !defined(__AVX512VL__)
+/// x, no farther from 0 than h >= 0. Of h = 0, zero, of a sign that may differ.
+template <class Register> THINWALL_HOT Register held_within(const Register& x, const Register& h) {
   return most(-h, least(x, h));
-#endif
-}
-#ifdef __AVX__
-THINWALL_HOT Four held_within(const Four& x, const Four& h) {
-#if defined(__AVX512DQ__) && defined(__AVX512VL__)
-  return _mm256_range_pd(x, h, 2);
-#else
-  return most(-h, least(x, h));
-#endif
 }
 #endif
 
 /// -0, a sign alone, in every lane of such a register.
-THINWALL_HOT Two minus_zero(const Two&) { return Two{-0.0, -0.0}; }
-#ifdef __AVX__
-THINWALL_HOT Four minus_zero(const Four&) { return Four{-0.0, -0.0, -0.0, -0.0}; }
-#endif
+template <class Register> THINWALL_HOT Register minus_zero(const Register&) { return -Register{}; }
 
 }  // namespace thinwall::packed

@@ -321,6 +321,22 @@ TEST(HardQueries, a_hardly_rounded_triangle_is_met_against_the_motion) {
   EXPECT_NEAR(toi.normal.dot(along) / along.norm(), -0.887, 1e-3);
 }
 
+// A rod of 2700 gap widths slides by: what its normal leaned along it by rounding, its length took off the gap.
+TEST(HardQueries, a_long_box_within_a_gap_is_met_along_a_normal_that_does_not_lean) {
+  const Moving small{Obb<double>{V(0x1.8bb7302ab81d2p+0, -1, -1.5),
+                                 V(0x1.d715b08607b37p-36, 0x1.1714dd882e6b6p-11, 0x1.bfa79137327bap-10),
+                                 leaning(V(-1, 0, 0), V(0, 1, 0), V(0, 0, -1))},
+                     V(0x1.64807532db27dp+10, 0x1.b20b8329c5134p+1, 0x1.75cd72334cf98p+2)};
+  const V x(0x1.ffffffffffff2p-1, 0x1.e478d3e3c495cp-25, -0x1.97f3b5ae3bd57p-29),
+      y(-0x1.e478d3df14156p-25, 0x1.ffffffffffff1p-1, 0x1.78ac18b04852p-27),
+      z(0x1.97f3bb3fea22fp-29, -0x1.78ac184fc7276p-27, 0x1.fffffffffffffp-1);
+  const Moving rod{Obb<double>{V(0, 0x1.9d5f7ade2a778p+0, 2),
+                               V(0x1.56516239fe9cap+10, 0x1.4a20f87fcfe36p-8, 0x1.d420cda2a8017p-13), leaning(x, y, z)},
+                   V(0, -1, -0x1.4c9dbecc8ed8cp-5)};
+  const auto toi = time_of_impact(ClosedForm<double>{0x1.4b0d3962c7ebdp-7}, small, rod);
+  EXPECT_NEAR(toi.time, 0.59323096091163507, 1e-15);
+}
+
 // Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.
 TEST(HardQueries, boxes_all_but_parallel_have_one_normal_both_ways) {
   const double s = 0x1.1ffc3403d8249p-6, r = 0x1.1ffc3403d8209p-6, c = 0x1.ffebc0222be8fp-1;
