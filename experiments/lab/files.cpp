@@ -97,7 +97,7 @@ void remove_leftovers(const fs::path& folder) {
 }
 
 Workshop::Workshop(const fs::path& folder) : path_(folder / temporary_name()) {
-  if (::mkdir(path_.c_str(), 0700) != 0) fail(path_, errno);  // also if anything is there, be it a link
+  if (::mkdir(path_.c_str(), 0700) != 0) fail(folder, errno);  // also if anything is there, be it a link
 }
 
 Workshop::~Workshop() {

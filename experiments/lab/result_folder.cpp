@@ -158,7 +158,8 @@ ResultFolder::ResultFolder(fs::path path, const RunIdentity& identity) : path_(s
     remove_leftovers(path_);
   } catch (const std::system_error& error) {
     const std::string why = "cannot be written: " + error.code().message();
-    if (error.code() != std::errc::no_space_on_device && error.code().value() != EDQUOT) refuse(why);
+    if (error.code() != std::errc::no_space_on_device && error.code().value() != EDQUOT)
+      refuse(why + "; name another folder");
     // No fault of the user's words.
     throw std::runtime_error(fmt::format("--out {}: {}", one_line(path_.string()), why));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <exception>
 #include <map>
@@ -147,7 +148,11 @@ std::vector<const Unit*> samples_of(const std::vector<Unit>& units, const Parts&
     if (!parts.whole_keys.contains(unit.key)) cut.push_back(&unit);
   }
   const std::size_t count = std::min(most, cut.size());
-  for (std::size_t k = 0; k < count; ++k) some.push_back(cut[k * cut.size() / count]);
+  constexpr double golden = 0.6180339887498949;  // out of step with any order that comes round
+  for (std::size_t k = 0; k < count; ++k) {
+    const double place = static_cast<double>(k) + std::fmod(golden * static_cast<double>(k), 1);
+    some.push_back(cut[static_cast<std::size_t>(place * static_cast<double>(cut.size()) / static_cast<double>(count))]);
+  }
   return some;
 }
 

@@ -192,8 +192,8 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const std::vector<S
   const Abscissa obstacle = {"obstacle", "diameter of the balls hit [widths]", Axis::log, &Sweep::obstacle};
   const Sweep turned_view = turned(view, rows);
   const std::string motion = fmt::format("{:g} degrees from x and turned by {:g}", view.angle_deg, view.turn_deg);
-  const std::string balls = fmt::format("among balls of {:g} widths", view.obstacle);
-  const std::string moves = fmt::format("a path of {:.3g} widths", path_in_widths(view));
+  const std::string balls = fmt::format("among balls {:g} times as wide", view.obstacle);
+  const std::string moves = fmt::format("a path {:.3g} times the width", path_in_widths(view));
   std::vector<Figure> figures = {
       {"false_hits", "False hits against the path: points counted, lines by Steiner's formula",
        fmt::format("{}Motion {}, {}.", how, motion, balls), panels(rows, bounds, path, view)},

@@ -400,7 +400,8 @@ TEST_F(BadInputTest, experiments_and_their_files) {
 
 TEST_F(BadInputTest, folders) {
   write_text(folder / "file", "");
-  expect_refused({"run", "thin_wall", "--out", "file/below"}, {"--out file/below: cannot be written: Not a directory"});
+  expect_refused({"run", "thin_wall", "--out", "file/below"},
+                 {"--out file/below: cannot be written: Not a directory; name another folder"});
   expect_refused({"run", "thin_wall", "--out", "/proc/thinwall"}, {"--out /proc/thinwall: cannot be written: "});
   expect_refused({"run", "thin_wall", "--out", ""}, {"--out: '' is not allowed"});
 }

@@ -379,7 +379,8 @@ struct FullDiskTest : RealRunTest {
     EXPECT_TRUE(last_line("1").starts_with("failed: disk/out/" + where)) << last_line("1");
     EXPECT_TRUE(holds(last_line("1"), ": No space left on device; what was finished is kept"));
     EXPECT_TRUE(holds(last_line("2"), ": No space left on device"));
-    EXPECT_EQ(read_text(folder / "read_only"), "--out disk/out: cannot be written: Read-only file system\n");
+    EXPECT_EQ(read_text(folder / "read_only"),
+              "--out disk/out: cannot be written: Read-only file system; name another folder\n");
     const std::string journal = read_text(folder / "kept");
     const bool publishing = journal.find("\n\t") != journal.npos;          // a row without a key
     const auto rows = std::ranges::count(journal, '\n') - 1 - publishing;  // a torn one has no end
