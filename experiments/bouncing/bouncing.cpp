@@ -168,8 +168,8 @@ Table timings_table(const std::vector<WorkRow>& work) {
                           measured("nanoseconds", "ns", "A bounce; median over the rounds.", &WorkRow::nanoseconds),
                           value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
                                 [](const WorkRow& w) { return w.nanoseconds.value * delta(w.cell) / 2; }));
-  return timing(in_report(
-      table("timings", "Time a bounce, from apex to apex, on this machine with every core at work.", columns, work)));
+  return timing(in_report(table(
+      "timings", "Time a bounce, from apex to apex, on this machine, the threads of the run at work.", columns, work)));
 }
 
 // What the pictures show.

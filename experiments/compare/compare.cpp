@@ -132,9 +132,9 @@ std::string answer_text(const Comparison& comparison, const Trial& exact, const 
   for (const Contest& c : contests) {
     if (c.contender.policy != TimePolicy::discrete || c.contender.dt != contests.back().contender.dt) continue;
     text += fmt::format(
-        "Looking only at the end of steps of {} ms lets {} through each other unseen and pushes {} through; {} of the "
-        "exact run's never meet. ",
-        rounded_text(1e3 * c.contender.dt, 4), plural_text(c.trial.tunneled, "pair"),
+        "Looking only at the end of steps of {} ms leaves {} unseen and pushes {} through; {} of the exact run's "
+        "pairs never meet. ",
+        rounded_text(1e3 * c.contender.dt, 4), plural_text(c.trial.tunneled, "contact"),
         grouped_text(c.trial.counts.pushed_through), grouped_text(c.unmet));
   }
   const Contest* const all_met = cheapest_clean(contests, true);
@@ -206,15 +206,15 @@ Table drawn_table(const Comparison& comparison, const std::vector<Contest>& cont
   return table("drawn", "", columns, contests);
 }
 
-/// Pairs that went through and time error against the step, one series a policy.
+/// Contacts that went unseen or through and time error against the step, one series a policy.
 Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& contests) {
   Plot by_step = plot(drawn_table(comparison, contests)).x("step", Axis::log, "step [ms]").by("policy");
-  const Panel through = by_step.y("went_through", Axis::linear, "pairs that went through [1]");
+  const Panel through = by_step.y("went_through", Axis::linear, "contacts unseen or pushed through [1]");
   return {
       .name = "compare",
       .title = "Discrete or swept, on this scene",
       .caption =
-          "Above: pairs that went through each other, unseen or pushed out the way they were going. Below: the median "
+          "Above: contacts that went unseen, or ended in a push the way they were going. Below: the median "
           "over pairs of how far their first meeting is from the exact run's; errors below a rounding of the duration "
           "are drawn at that.",
       .panels = {through, by_step.y("error", Axis::log, "error of first meetings [s]")}};

@@ -47,11 +47,10 @@ struct Trial {
 
   static constexpr auto fields() {
     using T = Trial;
-    return record(
-        kept("meetings", &T::meetings),
-        kept("tunneled", &T::tunneled, "1", "Pairs that went through each other unseen, counted step by step."),
-        part(&T::counts), kept("energy", &T::energy), kept("energy_end", &T::energy_end), kept("hash", &T::hash),
-        kept("seconds", &T::seconds));
+    return record(kept("meetings", &T::meetings),
+                  kept("tunneled", &T::tunneled, "1", "Contacts that went unseen, counted step by step."),
+                  part(&T::counts), kept("energy", &T::energy), kept("energy_end", &T::energy_end),
+                  kept("hash", &T::hash), kept("seconds", &T::seconds));
   }
   std::optional<double> met(std::uint32_t first, std::uint32_t second) const;  ///< [s] when these met first
 

@@ -139,7 +139,8 @@ Table rule_timings_table(const std::vector<Total>& totals) {
       columns_of<Total>(text("rule", "How a hit is found.", &Total::rule),
                         value("nanoseconds_per_shot", "ns", "Drawing and the exact motion included.",
                               [](const Total& t) { return 1e9 * t.seconds / static_cast<double>(t.tally.shots); }));
-  return timing(table("timings", "Time an encounter, on this machine, with every core at work.", columns, totals));
+  return timing(
+      table("timings", "Time an encounter, on this machine, the threads of the run at work.", columns, totals));
 }
 
 Table counts_test_table(const std::vector<SelfTest>& tests) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/method_looks.hpp>
@@ -27,16 +28,22 @@ double round_step(double step) {
   return 10 * power;
 }
 
-/// 1, 2 and 5 in each decade, as a list.
-std::string one_two_five(const DrawnAxis& axis) {
-  std::string list;
+/// 1, 2 and 5 in each decade, as a list; of a logarithmic axis so short that it holds less than two of them, places evenly apart.
+std::string short_log_tics(const DrawnAxis& axis) {
+  std::vector<std::string> places;
   for (int power = static_cast<int>(std::floor(std::log10(axis.lower))); std::pow(10, power) <= axis.upper; ++power) {
     for (const int factor : {1, 2, 5}) {
       const double at = factor * std::pow(10, power);
-      if (at >= axis.lower && at <= axis.upper) list += (list.empty() ? "" : ", ") + rounded_text(at, 2);
+      if (at >= axis.lower && at <= axis.upper) places.push_back(rounded_text(at, 2));
     }
   }
-  return "(" + list + ")";
+  if (places.size() < 2) {
+    places.clear();
+    const double step = round_step((axis.upper - axis.lower) / 5);
+    for (double k = std::ceil(axis.lower / step); k * step <= axis.upper; ++k)
+      places.push_back(rounded_text(k * step, axis_digits));
+  }
+  return fmt::format("({})", fmt::join(places, ", "));
 }
 
 // Where the parts of a figure stand on its page, in pixels from the top left.
@@ -66,7 +73,8 @@ constexpr double reserved_letter = 10.5;         // what gnuplot sets apart for 
 constexpr double panel_height = 360;             // of a panel of height 1
 constexpr double shared_gap = 16, own_gap = 74;  // between panels that share their x axis, and others
 constexpr double bottom_margin = 66;
-constexpr double named_x = 26, group_row = 20;  // more below a panel with named tics, above one with named groups
+constexpr double named_x = 26, group_row = 20;  // more below a panel with short named tics, above one with named groups
+constexpr double upright_letter = 6;            // of a name below a panel
 constexpr double panel_width = 780;             // of a panel with names beside it
 
 /// Of whatever has a label.
@@ -101,8 +109,12 @@ PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& sty
     out.right = room + panel_width;
     out.width = out.right + 24;
   }
-  const bool named = std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.x_tics.empty(); });
-  if (named) out.below += named_x;
+  double named = 0;
+  for (const Panel& panel : figure.panels) {
+    if (!panel.x_tics.empty())
+      named = std::max({named, named_x, upright_letter * letters_of_longest(panel.x_tics) - 18});
+  }
+  out.below += named;
   out.legend_x = out.left;
   double top = out.legend_y;
   const bool beside = styles.size() > most_above;
@@ -120,9 +132,9 @@ PlotLayout plot_layout(const Figure& figure, const std::vector<SeriesStyle>& sty
     if (!panel.x_groups.empty()) top += group_row;
     const double bottom = top + panel_height * panel.height;
     out.panels.push_back({top, bottom});
-    top = bottom + (out.shared_x ? shared_gap : own_gap + (named ? named_x : 0));
+    top = bottom + (out.shared_x ? shared_gap : own_gap + named);
   }
-  out.height = out.panels.back().bottom + bottom_margin + (named ? named_x : 0);
+  out.height = out.panels.back().bottom + bottom_margin + named;
   if (beside) out.height = std::max(out.height, out.legend_y + legend_row * static_cast<double>(out.legend_rows) + 16);
   return out;
 }
@@ -361,7 +373,7 @@ std::string tics(const DrawnAxis& axis, double pixels, double spacing) {
   const double most = std::max(2.0, pixels / spacing);
   if (!axis.log) return rounded_text(round_step((axis.upper - axis.lower) / most), 3);
   const double decades = std::log10(axis.upper / axis.lower);
-  if (decades < 2) return one_two_five(axis);
+  if (decades < 2) return short_log_tics(axis);
   // Powers of ten. Without a start gnuplot counts from the end of the axis, and labels 4, 40 and 400.
   const int first = static_cast<int>(std::floor(std::log10(axis.lower)));
   return fmt::format("1e{}, 1e{}", first, std::max(1, static_cast<int>(std::ceil(decades / most))));

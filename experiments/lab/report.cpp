@@ -201,8 +201,8 @@ std::string provenance(const RunRecord& run) {
               fmt::format("{}, {} hardware threads, {}", run.machine.cpu, run.machine.cores, run.machine.system)) +
          fact("Run", fmt::format("{} to {}, {}", utc_text(run.started), utc_text(run.finished),
                                  plural_text(run.threads, "thread"))) +
-         fact("Size", fmt::format("{} units, {} trials", grouped_text(static_cast<std::int64_t>(run.units)),
-                                  grouped_text(run.total_trials))) +
+         fact("Size", fmt::format("{}, {}", plural_text(static_cast<std::int64_t>(run.units), "unit"),
+                                  plural_text(run.total_trials, "trial"))) +
          fact("Seed", std::to_string(run.seed)) + fact("Run id", run_id(run)) + fact("Command", shell_line(run.argv)) +
          "</dl>\n";
 }
@@ -216,8 +216,8 @@ std::string file_links(const std::vector<std::string>& files) {
 std::string reproduction(const RunRecord& run) {
   const char* where = run.default_config ? "" : "<p>From inside this folder:</p>\n";
   return fmt::format(
-      "{}<pre><code>{}</code></pre>\n<p>The same program gives the same counts and times of impact to the bit, for any "
-      "number of threads. Timings differ from run to run.</p>\n",
+      "{}<pre><code>{}</code></pre>\n<p>The same program gives the same results to the bit, for any number of threads. "
+      "Timings differ from run to run.</p>\n",
       where, html_escaped(reproduce_line(run)));
 }
 

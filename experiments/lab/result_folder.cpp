@@ -449,7 +449,7 @@ std::string shard_in(const fs::path& folder) {
   return seal ? to_text(seal->shard) : "";
 }
 
-KeptResult read_result(const fs::path& folder) try {
+void require_result(const fs::path& folder) {
   if (!fs::exists(folder)) refuse_place(folder, "there is no such folder; name the folder of a result");
   if (!fs::is_directory(folder)) refuse_place(folder, "is not a folder; name the folder of a result");
   const fs::path file = folder / manifest_name;
@@ -463,7 +463,11 @@ KeptResult read_result(const fs::path& folder) try {
                      : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
   }
   if (!fs::is_regular_file(file)) refuse_place(folder, "its manifest.json is not a file");
-  return kept_result(folder, file.string());
+}
+
+KeptResult read_result(const fs::path& folder) try {
+  require_result(folder);
+  return kept_result(folder, (folder / manifest_name).string());
 } catch (const fs::filesystem_error& error) {
   refuse_place(error.path1(), "cannot be read: " + error.code().message());
 }

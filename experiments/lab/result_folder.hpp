@@ -127,6 +127,7 @@ KeptResult kept_result(const std::filesystem::path& folder, const std::string& f
 std::string shard_in(const std::filesystem::path& folder);
 
 /// Throws UsageError if `folder` holds no complete result.
+void require_result(const std::filesystem::path& folder);
 KeptResult read_result(const std::filesystem::path& folder);
 
 // ---- Turns the outcome of a run into the files of its result folder. Nothing else in the project writes one.

@@ -143,6 +143,9 @@ struct Settings::Impl {
   template <class Allowed, class Read> auto one(std::string_view key, const Allowed& allowed, Read read) const {
     const toml::node& node = *entry(key).node;
     const auto value = read(node);
+    const auto* const list = node.as_array();
+    if (list && list->size() == 1 && read(*list->get(0)))
+      complain(key, node, shown(node) + " is a list", "leave the brackets out");
     if (!value) refuse(key, node, words_of(allowed, node));
     return *value;
   }

@@ -43,7 +43,7 @@ struct Way {
         kept("sweeps", &W::sweeps, "1", "Pairs asked over all steps."),
         kept("gated", &W::gated, "1", "Of these not swept, but looked at where the step starts."),
         kept("hits", &W::hits, "1", "Contacts over all steps."),
-        kept("tunneled", &W::tunneled, "1", "Pairs that went through each other unseen; of the plan and the gate."),
+        kept("tunneled", &W::tunneled, "1", "Contacts that went unseen; of the plan and the gate."),
         kept("bytes", &W::bytes, "B", "Held for stepping at most, without the memory of the broad phase itself."),
         kept("milliseconds", &W::milliseconds));
   }

@@ -250,10 +250,7 @@ Rerun prepare(const ReproduceText& text) try {
   Rerun out;
   out.result = fs::path(text.target).lexically_normal();
   if (!out.result.has_filename()) out.result = out.result.parent_path();  // `results/mine/`
-  if (!fs::is_directory(out.result)) refuse_place(out.result, "there is no such folder; name the folder of a result");
-  if (!fs::exists(out.result / "manifest.json")) {
-    refuse_place(out.result, "holds no manifest.json; name the folder of a complete result");
-  }
+  require_result(out.result);
   out.recorded = manifest_in(out.result);
   out.changed = files_changed_since(out.result, out.recorded);
   out.out = parse_folder(text.out);

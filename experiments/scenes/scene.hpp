@@ -84,7 +84,7 @@ struct StepRow {
                   kept("time", &R::time, "s", "Time at its end."), part(&R::counts),
                   sum("begins", &R::begins, "1", "Contacts that began."),
                   sum("ends", &R::ends, "1", "Contacts that ended."),
-                  sum("tunneled", &R::tunneled, "1", "Pairs that went through each other unseen."),
+                  sum("tunneled", &R::tunneled, "1", "Contacts that went unseen."),
                   kept("energy", &R::energy, "J", "Kinetic, and of height, at its end."));
   }
 };

@@ -115,9 +115,8 @@ Table events_table(const Playback& playback) {
 
 Table missed_table(const Playback& playback) {
   const auto columns = columns_of<Meeting>(fields(std::identity(), {"time"}), pair_columns<Meeting>(playback));
-  return in_report_if_short(table("tunneled",
-                                  "Who went through whom unseen, and when they first touched; the first 10 000.",
-                                  columns, playback.missed));
+  return in_report_if_short(
+      table("tunneled", "Who touched whom unseen, and when; the first 10 000.", columns, playback.missed));
 }
 
 /// Of records that say all of it.
@@ -285,8 +284,8 @@ Figure course_figure(const Playback& playback) {
           .title = "Energy and contacts over time",
           .caption =
               "Above: kinetic energy and energy of height at the end of each step. Below: contacts that have begun, "
-              "and pairs that have gone through each other unseen" +
-              std::string(ahead > 0 ? ", or pushed out ahead." : "."),
+              "and those that went unseen" +
+              std::string(ahead > 0 ? ", or pushed a body on through." : "."),
           .panels = {{.x_label = time, .y_label = "energy [J]", .series = {energy}},
                      {.x_label = time, .y_label = "counted so far [1]", .series = std::move(counted)}}};
 }
@@ -295,13 +294,12 @@ Outcome scene_outcome(const Scene& scene, const Plan& plan, const Playback& play
   const StepRow sums = playback.sums();
   Outcome out;
   out.answer = fmt::format(
-      "In {} s, stepped {} at a time under {}, {} began and {} ended; {} {} through each other "
-      "unseen{}. Energy went from {} J to {} J. State hash {:016x}.",
+      "In {} s, stepped {} at a time under {}, {} began and {} ended; {} more went unseen{}. "
+      "Energy went from {} J to {} J. State hash {:016x}.",
       rounded_text(scene.duration(), 6), rounded_text(scene.dt, 4) + " s", policy_text(scene),
       plural_text(sums.begins, "contact"), grouped_text(sums.ends), grouped_text(playback.all_missed),
-      playback.all_missed == 1 ? "pair went" : "pairs went",
       sums.counts.pushed_through > 0
-          ? fmt::format(", {} by being pushed out ahead", grouped_text(sums.counts.pushed_through))
+          ? fmt::format(", and {} pushed a body on through", grouped_text(sums.counts.pushed_through))
           : "",
       rounded_text(playback.energy, 6), rounded_text(playback.rows.back().energy, 6), playback.hash);
   out.summary = summary_text(scene, plan, playback);

@@ -557,8 +557,8 @@ std::string answer_of(const std::vector<TimedWay>& all) {
   text += ".";
   if (slower.any()) {
     text += fmt::format(
-        " The other libraries' casts take {:.1f} to {:.0f} times as long, at errors from {:.0e} m on, and give {} "
-        "wrong verdicts over all pairs.",
+        " The other libraries' casts take {:.1f} to {:.0f} times as long as the front door does in their own program, at "
+        "errors from {:.0e} m on, and give {} wrong verdicts over all pairs.",
         slower.least, slower.most, best_of_peers, grouped_text(static_cast<std::int64_t>(wrong)));
   } else {
     text += " No other library took part.";

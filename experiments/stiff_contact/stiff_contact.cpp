@@ -153,7 +153,7 @@ Table times_table(const std::vector<Row>& racers) {
       value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
             [](const Row& r) { return time_of(r).interval.lower; }),
       value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_of(r).interval.upper; }));
-  return timing(table("timings", "Time a bounce, on this machine, with every core at work: medians over rounds.",
+  return timing(table("timings", "Time a bounce, on this machine, the threads of the run at work: medians over rounds.",
                       columns, racers));
 }
 

@@ -116,7 +116,7 @@ Table timings_table(const Rows& rows) {
       columns_of<Row>(cell_columns(), fields(&Row::tally, {"shots"}),
                       value("nanoseconds_per_shot", "ns", "Wall-clock time over shots, drawing the shot included.",
                             [](const Row& r) { return 1e9 * r.seconds / static_cast<double>(r.tally.shots); }));
-  return timing(table("timings", "Time a shot, on this machine, with every core at work.", columns, rows));
+  return timing(table("timings", "Time a shot, on this machine, the threads of the run at work.", columns, rows));
 }
 
 /// [1] With 97.5 % confidence the chance is below this, where none tunneled.

@@ -3,7 +3,7 @@
 ///
 /// Between two steps a body that nothing touched moved straight, from where it was to where it is, and turned at the rate that it still
 /// has. Of two such bodies, apart at both ends, the closed form says whether they touched on the way, or where one turns its sweep. If they did and
-/// the step told no contact of theirs, one went through the other: it tunneled. Bodies that were in any contact in the step are not judged against
+/// the step told no contact of theirs, it went unseen: one tunneled through the other or, of what turns, dipped in and out. Bodies that were in any contact in the step are not judged against
 /// others, for their way may have a corner. Under substeps gravity bends the way, by g dt^2 / 8 at most: a contact less deep than that may be judged
 /// wrong.
 

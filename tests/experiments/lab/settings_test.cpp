@@ -61,7 +61,7 @@ TEST(Settings, are_refused_by_name_in_one_line) {
       {"radius = nan", "my.toml:1: key 'radius': nan is not allowed; a number >= 0 [m]"},
       {"radius = \"big\"", "my.toml:1: key 'radius': 'big' is not allowed; a number >= 0 [m]"},
       {"radius = [inf, 0]", "my.toml:1: key 'radius': [inf,0] is not allowed; a number >= 0 [m]"},
-      {"radius = [1]", "my.toml:1: key 'radius': [1] is not allowed; a number >= 0 [m]"},
+      {"radius = [1]", "my.toml:1: key 'radius': [1] is a list; leave the brackets out"},
       {"radius = 1979-05-27", "my.toml:1: key 'radius': a date or time is not allowed; a number >= 0 [m]"},
       {"speed = [\n 1,\n 0]", "my.toml:3: key 'speed': 0 is not allowed; a list of numbers > 0 [m/s]"},
       {"speed = [inf]", "my.toml:1: key 'speed': inf is not allowed; a list of numbers > 0 [m/s]"},

@@ -513,6 +513,8 @@ TEST(PlotAxis, has_round_tics) {
   EXPECT_EQ(tics({true, 0.04, 1000}, 640, 80), "1e-2, 1e1") << "from a power of ten on";
   EXPECT_EQ(tics({true, 1e-12, 1}, 640, 80), "1e-12, 1e2");
   EXPECT_EQ(tics({true, 9, 60}, 360, 44), "(10, 20, 50)");
+  EXPECT_EQ(tics({true, 657, 1858}, 360, 44), "(1000, 1500)") << "not 1000 alone";
+  EXPECT_EQ(tics({true, 21, 22.5}, 360, 44), "(21, 21.5, 22, 22.5)");
 }
 
 TEST(InlineSvg, has_ids_of_its_own) {
