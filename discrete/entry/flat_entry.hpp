@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include <thinwall/discrete/entry/ball_entry.hpp>
 #include <thinwall/discrete/numbers/exact_number.hpp>
@@ -196,6 +197,41 @@ THINWALL_COLD Entry<S> exact_flat_entry_by(FlatShape shape, const Vec3<S>& p, co
   return entry;
 }
 
+/// What plain arithmetic decides: the entry, or none; nothing where it does not. Requires lengths and displacements whose products of four are
+/// in range.
+template <Scalar S>
+std::optional<Entry<S>> plain_flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1,
+                                         const Vec3<S>& e2, const S& latest) {
+  const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p), span = largest(e1, e2);
+  const S last =
+      is_finite(S(latest * speed * std::max(S(1), S(span * span)))) ? latest : std::numeric_limits<S>::infinity();
+  const Vec3<S> normal = accurate_cross(e1, e2);
+  const Vec3<S> moment = cross(v, p);
+  const S side = v.dot(normal) < S(0) ? S(-1) : S(1);
+  const S climb = side * v.dot(normal), start = side * p.dot(normal), end = start + last * climb;
+  const S alpha = side * moment.dot(e2), beta = -side * moment.dot(e1);
+  const S rest = shape == FlatShape::triangle ? S(climb - alpha - beta) : S(climb - std::max(alpha, beta));
+  const S inner = std::min(std::min(alpha, beta), rest);  // > 0: the line of motion passes through the set
+
+  const S unit = 48 * std::numeric_limits<S>::epsilon();
+  const S vanished = constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 4 * 3>();
+  const S climb_noise = unit * area * speed + vanished, start_noise = unit * area * reach + vanished;
+  const S end_noise = start_noise + last * climb_noise;
+  const S inner_noise = climb_noise + unit * speed * reach * span;
+  if (start > start_noise) {
+    if (climb > climb_noise || end > end_noise) return Entry<S>{};
+  } else if (end < -end_noise && start < -start_noise) {
+    return Entry<S>{};
+  }
+  if (!(climb > climb_noise)) return std::nullopt;
+  if (inner < -inner_noise) return Entry<S>{};
+  if (!(inner > inner_noise && start < -start_noise && (end > end_noise || !is_finite(last)))) return std::nullopt;
+  Entry<S> entry;
+  entry.time = std::min(last, S(-start / climb));
+  entry.normal = safe_unit(normal) * -side;
+  return entry;
+}
+
 /// First time t in [0, latest] at which p + v t is in the set, touching included; infinity if there is none. `latest` [1] >= 0
 /// may be infinite.
 /// Error: the verdict is that of the given p, v, e1 and e2 exactly.
@@ -203,39 +239,17 @@ THINWALL_COLD Entry<S> exact_flat_entry_by(FlatShape shape, const Vec3<S>& p, co
 template <Scalar S>
 Entry<S> flat_entry(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1, const Vec3<S>& e2,
                     const S& latest) {
-  const S area = largest(e1) * largest(e2), speed = largest(v), reach = largest(p), size = largest(p, e1, e2);
-  const S farthest = latest * speed * std::max(S(1), S(largest(e1, e2) * largest(e1, e2)));
-  const S last = is_finite(farthest) ? latest : std::numeric_limits<S>::infinity();
-  if (products_in_range(size) && products_in_range(speed)) {
-    const Vec3<S> normal = accurate_cross(e1, e2);
-    const Vec3<S> moment = cross(v, p);
-    const S side = v.dot(normal) < S(0) ? S(-1) : S(1);
-    const S climb = side * v.dot(normal), start = side * p.dot(normal), end = start + last * climb;
-    const S alpha = side * moment.dot(e2), beta = -side * moment.dot(e1);
-    const S rest = shape == FlatShape::triangle ? S(climb - alpha - beta) : S(climb - std::max(alpha, beta));
-    const S inner = std::min(std::min(alpha, beta), rest);  // > 0: the line of motion passes through the set
-
-    const S unit = 48 * std::numeric_limits<S>::epsilon();
-    const S vanished = constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 4 * 3>();
-    const S climb_noise = unit * area * speed + vanished, start_noise = unit * area * reach + vanished;
-    const S end_noise = start_noise + last * climb_noise;
-    const S inner_noise = climb_noise + unit * speed * reach * largest(e1, e2);
-    if (start > start_noise) {
-      if (climb > climb_noise || end > end_noise) return {};
-    } else if (end < -end_noise && start < -start_noise) {
-      return {};
-    }
-    if (climb > climb_noise) {
-      if (inner < -inner_noise) return {};
-      if (inner > inner_noise && start < -start_noise && (end > end_noise || !is_finite(last))) {
-        Entry<S> entry;
-        entry.time = std::min(last, S(-start / climb));
-        entry.normal = safe_unit(normal) * -side;
-        return entry;
-      }
-    }
-  }
-  if (boxes_apart(shape, p, v, e1, e2, last)) return {};
+  const S size = largest(p, e1, e2), speed = largest(v);
+  const SafeScale<S> scale(size, speed);
+  const auto plain_at_scale = [&] {
+    auto entry = plain_flat_entry<S>(shape, scale.length(p), scale.displacement(v), scale.length(e1), scale.length(e2),
+                                     scale.time(latest));
+    if (entry) entry->time = scale.time_back(entry->time);
+    return entry;
+  };
+  const auto plain = scale.is_one() ? plain_flat_entry(shape, p, v, e1, e2, latest) : plain_at_scale();
+  if (plain) return *plain;
+  if (boxes_apart(shape, p, v, e1, e2, latest)) return {};
   const bool is_held = has_products_of_seven(p, size) && has_products_of_seven(e1, size) &&
                        has_products_of_seven(e2, size) && has_products_of_seven(v, speed) &&
                        has_products_of_seven(S(latest * speed), size);

@@ -197,8 +197,9 @@ Series theory_curves(const std::vector<Row>& rows, const Quantity& quantity) {
   return series;
 }
 
-/// Rows of one speed and offset.
-Panel panel(const std::vector<Row>& rows, std::string y_label, const Quantity& quantity) {
+/// Rows of one speed and offset. Of one ratio the marks are the same in every figure.
+Panel panel(std::vector<Row> rows, std::string y_label, const Quantity& quantity) {
+  std::ranges::stable_sort(rows, {}, [](const Row& r) { return r.cell.ratio; });
   const auto columns = columns_of<Row>(value("angle", "", "", [](const Row& r) { return r.cell.angle_deg; }),
                                        text("ratio", "",
                                             [](const Row& r) {

@@ -255,6 +255,11 @@ const std::vector<Finding> findings = {
             Moving{Sphere<double>{V(-0x1.3d1e4ed83e85bp-5, 0x1.37f749ef7b532p-5, -0x1.008a605439f82p+2), 4},
                    V(0x1.9bc076cf5e19p-28, -0x1.e3f1d7689de26p-17, 0x1.ffffff1b495f6p-5)}),
      {{hit}, 0x1.15098302c0d53p-3, 1e-14}},
+    {"a segment without a radius is asked alike at every size",
+     asking(Moving{Capsule<double>{V(2, 0.6, 2.8), V(-8, -0.8, -2), 0}, V(2, -7, 2)},
+            at_rest(Triangle<double>{V(0, -2.5, 0), V(0, 0, 0),
+                                     V(0x1.3333333333333p+0, -0x1.6666666666667p-1, 0x1.3333333333333p+2)})),
+     {{hit}, 0x1.94a8e6a76437ep-4, 1e-16}},
 };
 
 TEST(HardQueries, motions_have_the_answers_of_the_table) {
