@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include <thinwall/discrete/entry/flat_entry.hpp>
+#include <thinwall/discrete/entry/exact_flat_entry.hpp>
 
 namespace thinwall {
 
