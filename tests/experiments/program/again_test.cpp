@@ -134,8 +134,7 @@ struct SceneProgram : ToyProgram {
 };
 
 TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
-  expect_reply(call({"run", file, "--out", out, "--trace", "--threads", "1"}), 0,
-               {"1 more went unseen"});
+  expect_reply(call({"run", file, "--out", out, "--trace", "--threads", "1"}), 0, {"1 more went unseen"});
   for (const char* name :
        {"manifest.json", "report.html", "resolved.toml", "trace.jsonl", "data/steps.csv", "data/plan.csv",
         "data/events.csv", "data/tunneled.csv", "data/timings.csv", "plots/tracks.gp"}) {
