@@ -52,7 +52,7 @@ std::optional<Entry<S>> plain_flat_entry(FlatShape shape, const Vec3<S>& p, cons
   const S inner = std::min(std::min(alpha, beta), rest);  // > 0: the line of motion passes through the set
 
   const S unit = 48 * std::numeric_limits<S>::epsilon();
-  const S vanished = constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 4 * 3>();
+  const S& vanished = constant_power_of_two<S, std::numeric_limits<S>::min_exponent / 4 * 3>();
   const S climb_noise = unit * area * speed + vanished, start_noise = unit * area * reach + vanished;
   const S end_noise = start_noise + last * climb_noise;
   const S inner_noise = climb_noise + unit * speed * reach * span;

@@ -77,8 +77,8 @@ R off_surface(const Moving<A>& a, const Vec3<S>& point, const R& time, const R& 
 
 void note_worst(double& worst, const Digits50& error) {
   const auto rounded = static_cast<double>(error);
-  worst =
-      std::max(worst, std::isnan(rounded) ? std::numeric_limits<double>::infinity() : rounded);  // no direction at all
+  worst = std::max(worst, rounded);
+  if (std::isnan(rounded)) worst = std::numeric_limits<double>::infinity();  // no direction at all
 }
 
 /// Time, verdict, normal and point against the oracle at 50 digits.
