@@ -41,8 +41,12 @@ struct ClearSide {
     return (both(packed::least_square) <= min(min(length, RR), speed)) & (largest() <= both(packed::most_square)) &
            (max(length * both(0x1p8), square) <= RR * both(0x1p28)) & (square * both(packed::short_path) < speed);
   }
-  /// Else w is rounding, or the time more uncertain than what the end of a step is clear by.
-  THINWALL_HOT packed::PairMask aslant() const { return largest() * length * packed::both(0x1p-60) <= w_w; }
+  /// Else w is rounding, or the time more uncertain than what the end of a step is clear by; or the path is all but along the segment, and
+  /// what rounding leans w along it counts by the way to its end.
+  THINWALL_HOT packed::PairMask aslant() const {
+    using packed::both;
+    return max(largest() * both(0x1p-50), speed) * length * both(0x1p-10) <= w_w;
+  }
   THINWALL_HOT packed::Pair largest() const { return max(max(length, square), speed); }
 };
 

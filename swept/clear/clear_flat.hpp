@@ -123,8 +123,9 @@ struct ClearFlatEntry {
     const PairMask in_range = (size * both(0x1p-14) <= R) & (squares * both(0x1p-54) <= speed) &
                               (both(packed::least_square) <= min(min(rr, speed), smallest_of(length))) &
                               (size <= both(packed::most_length));
-    const LanesMask side_clear =
-        ((pierces | (reach < off * graze)) & (all(squares * both(0x1p-60)) * length <= w_w)) | (w_w <= zero);
+    // all but along an edge, what rounding leans w along it counts by the way to its corner
+    const Lanes aslant = all(max(squares * both(0x1p-50), speed) * both(0x1p-10));
+    const LanesMask side_clear = ((pierces | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);
     const LanesMask ball_clear = strikes | (all(wide) < aside * graze);
     const Lanes beyond = all(1 + 0x1p-30);  // a moment seen from 2^14 R is off by 2^-38 of itself
     const LanesMask outside = (RR * beyond < square) & ((RR_d * beyond < k_k) | (start < zero) | (length < start));

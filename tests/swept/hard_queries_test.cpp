@@ -342,6 +342,17 @@ TEST(HardQueries, a_long_box_within_a_gap_is_met_along_a_normal_that_does_not_le
   EXPECT_NEAR(toi.time, 0.59323096091163507, 1e-15);
 }
 
+// All but along an edge, 2000 long, from beside one end of it: what rounding leans the path across it along it, the other end multiplies.
+TEST(HardQueries, a_path_along_an_edge_is_as_exact_as_from_its_near_end) {
+  const Moving triangle{
+      Triangle<double>{V(1, 1.5, 0), V(-0x1.e1e2eddd8f344p+1, 0x1.cc6e94031330dp+3, -0x1.da44819e727b5p+2),
+                       V(0x1.2d4834152976dp+10, 0x1.2c4e1bceb3cfcp+10, 0x1.f160cb3880c93p+9)},
+      V(-0x1.390a8e54af9ep+9, -0x1.38cd4a9911109p+9, -0x1.026b1ab2a7953p+9)};
+  const Moving ball{Sphere<double>{V(2, -0x1.49360b3f3048p-6, 0.5), 0x1.b89ae44eb60eap-2},
+                    V(-0.5, 0x1.94bcf89514dacp-1, 0)};
+  EXPECT_NEAR(time_of_impact(triangle, ball).time, 0.61681880432348168, 2e-13);
+}
+
 // Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.
 TEST(HardQueries, boxes_all_but_parallel_have_one_normal_both_ways) {
   const double s = 0x1.1ffc3403d8249p-6, r = 0x1.1ffc3403d8209p-6, c = 0x1.ffebc0222be8fp-1;

@@ -272,8 +272,9 @@ TEST(LadderFilters, a_graze_of_a_plate_is_careful) {  // of an edge, of a corner
   EXPECT_TRUE(is_sure({0, -4.75, 3}, down));
   EXPECT_FALSE(is_sure({-4.6, -4.8, 3}, down));
   EXPECT_TRUE(is_sure({-4.7, -4.8, 3}, down));
-  EXPECT_FALSE(is_sure({-3, 0, 1.001}, {4, 0, -0.01}));
-  EXPECT_TRUE(is_sure({-3, 0, 1.001}, {4, 0, -0.1}));
+  EXPECT_FALSE(is_sure({-3, 0, 1.001}, {3, 2, -0.01}));
+  EXPECT_TRUE(is_sure({-3, 0, 1.001}, {3, 2, -0.1}));
+  EXPECT_FALSE(is_sure({-3, 0, 1.001}, {4, 0, -0.1})) << "all but along an edge";
   EXPECT_FALSE(is_sure({0, 0, 1 + 0x1p-46}, down)) << "in touch, as far as roundings tell";
   EXPECT_FALSE(is_sure({0, 0, 0.5}, down));
 }
