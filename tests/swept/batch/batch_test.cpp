@@ -42,10 +42,11 @@ template <class Box, class S> void spoil_size(Moving<Box>& box, const S& size) {
 
 template <class A, class B> struct BatchRows {
   using S = typename A::Scalar;
-  RowTable<Moving<A>> a;
-  RowTable<Moving<B>> b;
-  std::vector<Toi<double>> truth;  ///< by the scalar code, in double
+  RowTable<Moving<A>> a{};
+  RowTable<Moving<B>> b{};
+  std::vector<Toi<double>> truth{};  ///< by the scalar code, in double
 
+  BatchRows() = default;
   BatchRows(std::size_t count, unsigned seed) {
     Shaker<S> draw(seed);
     for (std::size_t i = 0; i < count; ++i) {
@@ -55,14 +56,17 @@ template <class A, class B> struct BatchRows {
       if (bad == 1) spoil_size(motion.b, -std::numeric_limits<S>::denorm_min());
       if (bad == 2) spoil_size(motion.b, std::numeric_limits<S>::quiet_NaN());
       if (bad == 3) spoil_size(motion.a, std::numeric_limits<S>::infinity());
-      a.push_back(motion.a);
-      b.push_back(motion.b);
-      const Toi<S> toi = time_of_impact(motion.a, motion.b);
-      const Toi<double> fine = toi.status == ToiStatus::hit
-                                   ? time_of_impact(widened<double>(motion.a), widened<double>(motion.b))
-                                   : Toi<double>{};
-      truth.push_back({toi.status, 0, fine.time, fine.normal, fine.point});
+      push_back(motion);
     }
+  }
+  void push_back(const Motion<A, B>& motion) {
+    a.push_back(motion.a);
+    b.push_back(motion.b);
+    const Toi<S> toi = time_of_impact(motion.a, motion.b);
+    const Toi<double> fine = toi.status == ToiStatus::hit
+                                 ? time_of_impact(widened<double>(motion.a), widened<double>(motion.b))
+                                 : Toi<double>{};
+    truth.push_back({toi.status, 0, fine.time, fine.normal, fine.point});
   }
 
   bool has_every_status() const {
@@ -364,12 +368,11 @@ template <class S> struct Faults {
   }
 };
 
-/// Judges every width on `count` rows of one pair.
-template <class A, class B> void judge_rows(const char* name, std::size_t count) {
+/// Judges every width on rows of one pair.
+template <class A, class B> void judge_rows(const char* name, const BatchRows<A, B>& rows) {
   using S = typename A::Scalar;
   SCOPED_TRACE(name);
-  const BatchRows<A, B> rows(count, 7);
-  ASSERT_TRUE(rows.has_every_status());
+  const std::size_t count = rows.truth.size();
   for_each_target([&](const std::string& target) {
     Answers<S> answers(count);
     const BatchReport report = time_of_impact(rows.a.rows(), rows.b.rows(), answers.rows());
@@ -379,6 +382,12 @@ template <class A, class B> void judge_rows(const char* name, std::size_t count)
     }
     faults.report(name, target, count, report.asked_again);
   });
+}
+
+template <class A, class B> void judge_rows(const char* name, std::size_t count) {
+  const BatchRows<A, B> rows(count, 7);
+  ASSERT_TRUE(rows.has_every_status());
+  judge_rows(name, rows);
 }
 
 /// The same of one against many, of which the first is its own row: there a first look may tell it apart.
@@ -443,6 +452,29 @@ template <class S> void judge_every_pair() {
 
 TEST(BatchVerdicts, are_the_scalar_codes_own_in_double) { judge_every_pair<double>(); }
 TEST(BatchVerdicts, are_the_scalar_codes_own_in_float) { judge_every_pair<float>(); }
+
+/// A ball from afar, all but along a capsule, which it meets beside its axis.
+template <class S> Motion<Capsule<S>, Sphere<S>> motion_along_axis(Shaker<S>& draw) {
+  const Mat3<S> axes = draw.plain_axes();
+  const Vec3<S> along = axes.col(0), out = axes.col(1), aside = axes.col(2);
+  const S half = power<S>(-draw.pick(0, 6)), radius = power<S>(-draw.pick(3, 9)), lean = S(2) * draw.plain();
+  const S tilt = power<S>(-draw.pick(0, 8)), skew = power<S>(-draw.pick(0, 8)), speed = power<S>(draw.pick(0, 5));
+  const Vec3<S> path = (along + aside * skew - out * tilt) * speed;
+  const Vec3<S> place = along * S(half * draw.plain()) + safe_unit<S>(out + aside * lean) * S(2 * radius);
+  const S time = S(draw.pick(1, 63)) / S(64);
+  return {at_rest(Capsule<S>{-along * half, along * half, radius}), {{place - path * time, radius}, path}};
+}
+
+template <class S> void judge_paths_along_an_axis() {
+  Shaker<S> draw(23);
+  BatchRows<Capsule<S>, Sphere<S>> rows;
+  for (std::size_t i = thorough(20'000); i > 0; --i) rows.push_back(motion_along_axis(draw));
+  judge_rows("along an axis", rows);
+}
+
+// Where path and axis span a sliver, what rounding leans it along the axis counts by all of the way.
+TEST(BatchVerdicts, of_paths_along_an_axis_have_times_to_rounding_in_double) { judge_paths_along_an_axis<double>(); }
+TEST(BatchVerdicts, of_paths_along_an_axis_have_times_to_rounding_in_float) { judge_paths_along_an_axis<float>(); }
 
 // ---- A table of spheres, certified: every row is proven, at every width of vector, on the worst motions.
 
