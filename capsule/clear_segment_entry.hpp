@@ -47,6 +47,11 @@ struct ClearSide {
     using packed::both;
     return max(largest() * both(0x1p-50), speed) * length * both(0x1p-10) <= w_w;
   }
+  /// Pierced, and what rounding leans w along the segment moves where by little more than what it moves the start: of the normal's share
+  /// along w, sqrt(off / reach), over the sine of the path and the segment, 8 at most counts.
+  THINWALL_HOT packed::PairMask is_steady() const {
+    return pierces() & (off * (speed * length) * packed::both(0x1p-6) <= reach * w_w);
+  }
   THINWALL_HOT packed::Pair largest() const { return max(max(length, square), speed); }
 };
 
@@ -77,7 +82,7 @@ THINWALL_HOT ClearSegmentEntry clear_segment_entry(const ClearSide& line, const 
   const Pair time = min(firsts(earliest), seconds(earliest));
   const Pair on = min(max((from + by * time) * seconds(quotients), zero), both(1));
 
-  const PairMask side_clear = ((line.pierces() | line.passes()) & line.aslant()) | (line.w_w <= zero);
+  const PairMask side_clear = ((line.is_steady() | line.passes()) & line.aslant()) | (line.w_w <= zero);
   const PairMask outside =
       (line.RR * both(packed::more_than_rounding) < line.square) &
       ((line.RR_d * both(packed::more_than_rounding) < line.k_k) | (from < zero) | (length < from));

@@ -125,7 +125,8 @@ struct ClearFlatEntry {
                               (size <= both(packed::most_length));
     // all but along an edge, what rounding leans w along it counts by the way to its corner
     const Lanes aslant = all(max(squares * both(0x1p-50), speed) * both(0x1p-10));
-    const LanesMask side_clear = ((pierces | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);
+    const LanesMask steady = pierces & (off * (all(speed * both(0x1p-6)) * length) <= reach * w_w);
+    const LanesMask side_clear = ((steady | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);
     const LanesMask ball_clear = strikes | (all(wide) < aside * graze);
     const Lanes beyond = all(1 + 0x1p-30);  // a moment seen from 2^14 R is off by 2^-38 of itself
     const LanesMask outside = (RR * beyond < square) & ((RR_d * beyond < k_k) | (start < zero) | (length < start));
