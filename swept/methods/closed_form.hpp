@@ -74,14 +74,21 @@ template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap)
   return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
 }
 
-/// The normal of an entry that is in A's axes, in the world's: from the axes of contact as given, where there are any,
-/// because a face's normal that is turned twice tilts the face.
+/// The normal of an entry that is in A's axes, in the world's: from the edges of contact as given, where there are any,
+/// because a face's normal that is turned twice tilts the face, and so does an axis not quite at right angles to it.
 template <Scalar T>
 Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& moving, const Entry<T>& entry) {
   const Vec3<T> turned = normal_out_of(a, entry.normal);
-  if (moving.axis_b < 0) return turned;  // A's own axis, which this turns back, or neither's
-  const Vec3<T> edge_or_normal = b.axes.col(moving.axis_b);
-  const Vec3<T> n = moving.axis_a < 0 ? edge_or_normal : accurate_cross<T>(a.axes.col(moving.axis_a), edge_or_normal);
+  int i = moving.axis_a, j = moving.axis_b;
+  if (i < 0 && j < 0) {  // within a gap: maybe a face's, to rounding
+    const BoxFace face = face_along(moving.pair, entry.normal, gap_noise(T(1)));
+    (face.of_b ? j : i) = face.axis;
+  }
+  if (i < 0 && j < 0) return turned;
+  const auto edge = [](const Obb<T>& box, int k) -> Vec3<T> { return box.axes.col(k % 3); };
+  const Vec3<T> n = j < 0   ? accurate_cross(edge(a, i + 1), edge(a, i + 2))
+                    : i < 0 ? accurate_cross(edge(b, j + 1), edge(b, j + 2))
+                            : accurate_cross(edge(a, i), edge(b, j));
   if (largest(n) <= gap_noise(T(1))) return turned;  // parallel edges, crossed by rounding alone
   return safe_unit(n.dot(turned) < T(0) ? Vec3<T>(-n) : n);
 }

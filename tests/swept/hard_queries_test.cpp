@@ -353,6 +353,30 @@ TEST(HardQueries, a_path_along_an_edge_is_as_exact_as_from_its_near_end) {
   EXPECT_NEAR(time_of_impact(triangle, ball).time, 0.61681880432348168, 2e-13);
 }
 
+TEST(HardQueries, a_path_all_but_along_a_capsule_is_as_exact_from_afar) {
+  const V end(-0x1.012e93d07d97p-2, 0x1.5b8132e226082p-2, 0x1.fc23dc7c7eff1p-4);
+  const Moving ball{
+      Sphere<double>{V(0x1.8f1d85f029048p+3, -0x1.f2e39bfb3248dp+3, -0x1.8736ab8e906aep+2), 0x1.fe2cbd1ba3735p-4},
+      V(-0x1.1e43ab7bda3aap+4, 0x1.68b68f6c31f25p+4, 0x1.1f24bcf8188bap+3)};
+  const auto toi = time_of_impact(ball, at_rest(Capsule<double>{-end, end, 0x1.a1d60ba99cb64p-8}));
+  EXPECT_NEAR(toi.time, 0.7036581263548225, 1.2e-13);
+}
+
+// The plate is 1e5 times as wide as it is thick, and upright but for 2^-49: a normal turned into the other box's axes and back tilts it by
+// more than what its gap is known to.
+TEST(HardQueries, a_plate_within_a_gap_is_met_along_its_own_normal) {
+  const Moving chip{Obb<double>{V(0x1.b459aa4d227a4p-6, 0x1.1b4631dcddaf8p-6, -0x1.d68639e18b07ep-1),
+                                V(0x1.71fea3ad5c0b9p-16, 0x1.885dcf5aea50cp-7, 0x1.ef240121f0ad5p-7),
+                                leaning(V(-0x1.22c84449ea0eep-1, -0x1.a1b36176ee6cfp-1, 0x1.be8da51f09f2cp-4),
+                                        V(-0x1.86bb45cd561e3p-1, 0x1.24a39a02b1b34p-1, 0x1.34c5f99e2cc07p-2),
+                                        V(-0x1.3bb649f101c4bp-2, 0x1.68aa69383daebp-4, -0x1.e4f78c5f8b06ep-1))},
+                    V(-0x1.134dbd58257eap-6, -0x1.66135d5976d54p-7, 0x1.08becc333f487p+1)};
+  const Obb<double> plate{V::Zero(), V(0x1.63c9dee668e09p-16, 0x1.cb205bf358838p-3, 0x1.ce68adc74dec5p-1),
+                          leaning(V(1, 0x1.028030ceae54p-49, 0), V(-0x1.028030ceae54p-49, 1, 0), V(0, 0, 1))};
+  const auto toi = time_of_impact(ClosedForm<double>{0x1.37c5c26152b47p-9}, chip, at_rest(plate));
+  EXPECT_NEAR(toi.time, 0.62033409617016189, 1e-15);
+}
+
 // Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.
 TEST(HardQueries, boxes_all_but_parallel_have_one_normal_both_ways) {
   const double s = 0x1.1ffc3403d8249p-6, r = 0x1.1ffc3403d8209p-6, c = 0x1.ffebc0222be8fp-1;
