@@ -49,8 +49,10 @@ std::string full_name(const Row& row) { return fmt::format("{} {}", row.pair->na
 Table pairs_table(const std::vector<Row>& rows) {
   const auto columns = columns_of<Row>(
       text("pair", "The two shapes.", [](const Row& r) { return r.pair->name; }),
-      text("scalar", "float and double through the front door; the kernel in float; verdicts alone, in double.",
-           [](const Row& r) { return name(r.inquiry); }),
+      text(
+          "scalar",
+          "float and double through the front door; the kernel in float; verdicts alone, and paths along edges, in double.",
+          [](const Row& r) { return name(r.inquiry); }),
       fields(&Row::tally, {"queries", "hits", "overlapping"}),
       where(is_timed,
             columns_of<Row>(value("max_forward", "u kappa t", "Largest error of the time of a hit.",

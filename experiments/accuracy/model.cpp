@@ -83,9 +83,11 @@ void note_worst(double& worst, const Digits50& error) {
 
 /// Time, verdict, normal and point against the oracle at 50 digits.
 template <class A, class B, class S = typename A::Scalar>
-void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, AccuracyTally& tally) {
+void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, AccuracyTally& tally,
+                  S min_separation = 0) {
   const Digits50 tolerance = ldexp(Digits50(1), -140);
-  const auto problem = oracle::pose<Digits50>(a, b);
+  auto problem = oracle::pose<Digits50>(a, b);
+  problem.reach += Digits50(min_separation);
   const bool timed = toi.status == ToiStatus::hit;
   const auto truth = oracle::first_contact(problem, guess_from<Digits50>(toi), tolerance);
   ++tally.queries;
@@ -107,7 +109,9 @@ void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, Acc
   tally.backward.add(backward);
   const Digits50 time(toi.time), unit = u * size_of(problem, time);
   const Digits50 moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
-  const Digits50 off = std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
+  const Digits50 farther =
+      std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
+  const Digits50 off = std::max(Digits50(farther - Digits50(min_separation)), Digits50(0));
   note_worst(tally.worst_normal,
              overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem))));
   note_worst(tally.worst_point, off / (unit + moved));
@@ -132,17 +136,19 @@ template <class A, class B> void judge_verdict(const Moving<A>& a, const Moving<
 template <template <class> class A, template <class> class B>
 AccuracyTally ask_pair(Inquiry inquiry, std::uint64_t seed, std::int64_t first, std::int64_t count) {
   const bool in_float = inquiry == Inquiry::in_float || inquiry == Inquiry::float_kernel;
-  const std::array<double, 3> factors{double{A<double>::rank}, double{B<double>::rank},
-                                      inquiry == Inquiry::verdicts ? 1.0 : 0.0};
+  const double set = inquiry == Inquiry::along_edges ? 2 : inquiry == Inquiry::verdicts ? 1 : 0;
+  const std::array<double, 3> factors{double{A<double>::rank}, double{B<double>::rank}, set};
   const RandomStream stream{seed, stream_of(factors)};
   AccuracyTally tally;
   for (std::int64_t i = first; i < first + count; ++i) {
     QueryNumbers numbers(stream, static_cast<std::uint64_t>(i));
-    const auto query = draw_query<A<double>, B<double>>(numbers, in_float ? 3 : 8);
+    const auto query = inquiry == Inquiry::along_edges ? draw_query_along_edge<A<double>, B<double>>(numbers)
+                                                       : draw_query<A<double>, B<double>>(numbers, in_float ? 3 : 8);
+    const ClosedForm<double> front_door{query.min_separation};
     if (inquiry == Inquiry::verdicts) {
       judge_verdict(query.a, query.b, tally);
-    } else if (inquiry == Inquiry::in_double) {
-      judge_answer(query.a, query.b, time_of_impact(query.a, query.b), tally);
+    } else if (!in_float) {
+      judge_answer(query.a, query.b, time_of_impact(front_door, query.a, query.b), tally, query.min_separation);
     } else {
       const auto a = cast<float>(query.a);
       const auto b = cast<float>(query.b);

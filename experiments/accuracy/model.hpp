@@ -52,12 +52,12 @@ struct AccuracyTally {
   }
 };
 
-enum class Inquiry { in_double, in_float, float_kernel, verdicts };
+enum class Inquiry { in_double, in_float, float_kernel, verdicts, along_edges };
 inline constexpr std::array all_inquiries{Inquiry::in_double, Inquiry::in_float, Inquiry::float_kernel,
-                                          Inquiry::verdicts};
+                                          Inquiry::verdicts, Inquiry::along_edges};
 
 constexpr std::string_view name(Inquiry inquiry) {
-  constexpr std::array<std::string_view, 4> names{"double", "float", "float kernel", "verdicts"};
+  constexpr std::array<std::string_view, 5> names{"double", "float", "float kernel", "verdicts", "along edges"};
   return names[static_cast<std::size_t>(inquiry)];
 }
 

@@ -130,6 +130,7 @@ template <class A, class B> struct StraightPass {
 template <class A, class B> struct MovingPair {
   Moving<A> a;
   Moving<B> b;
+  double min_separation = 0;  ///< [length]
 };
 
 /// One query. `digits` [1] is how many decades of distance and offset the scalar can take: 8 for double, 3 for float.
@@ -171,6 +172,43 @@ template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double 
     query.b.shape = moved(query.b.shape, origin);
   }
   return query;
+}
+
+/// [1] The direction of one of its edges; of a ball any.
+template <class A> Vec3<double> draw_edge(QueryNumbers& u, const A& shape) {
+  const auto any = static_cast<int>(u.between(0, 3));
+  if constexpr (std::is_same_v<A, Capsule<double>> || std::is_same_v<A, Triangle<double>>) {
+    return safe_unit(Vec3<double>(shape.b - shape.a));
+  } else if constexpr (std::is_same_v<A, Obb<double>>) {
+    return shape.axes.col(any);
+  } else if constexpr (std::is_same_v<A, Aabb<double>>) {
+    return Vec3<double>::Unit(any);
+  } else {
+    return u.direction();
+  }
+}
+
+/// A query of which random directions draw none: a path all but along an edge, to a place beside it where the two touch; one
+/// in three within a `min_separation`.
+template <class A, class B> MovingPair<A, B> draw_query_along_edge(QueryNumbers& u) {
+  const double size = u.decades(-2, 1);
+  const A a = draw_shape<A>(u, size);
+  const B b = draw_shape<B>(u, 1.0);
+  const double reach = safe_norm(half_widths(a)) + safe_norm(half_widths(b));
+  const bool along_a = std::is_same_v<B, Sphere<double>> || (!std::is_same_v<A, Sphere<double>> && u.one_in(2));
+  const Vec3<double> edge = along_a ? draw_edge(u, a) : draw_edge(u, b);
+  const Vec3<double> out = safe_unit(cross<double>(edge, u.direction())), aside = cross<double>(edge, out);
+  const double min_separation = u.one_in(3) ? reach * u.decades(-6, 0) : 0;
+  const Vec3<double> beside = edge * (u.between(-1, 1) * reach);
+  const auto touches = [&](double height) {
+    return time_of_impact(at_rest(moved(a, Vec3<double>(beside + out * height))), at_rest(b)).status ==
+           ToiStatus::overlapping;
+  };
+  const Vec3<double> place = beside + out * (last_that_touches(touches, 2 * reach, 50) + min_separation);
+  const double tilt = u.decades(-5, 0), skew = u.decades(-5, 0), side = u.between(-1, 1);
+  const double speed = reach * u.decades(-1, 3);
+  const Vec3<double> path = (edge + aside * (skew * side) - out * tilt) * speed;
+  return {{moved(a, Vec3<double>(place - path * u())), path}, at_rest(b), min_separation};
 }
 
 /// A method's kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
