@@ -33,9 +33,9 @@ std::string tics(const DrawnAxis& axis, double pixels, double spacing);
 /// The look of all series that share a label.
 struct SeriesStyle {
   std::string label;
-  std::string color;   ///< #rrggbb
-  int point_type = 7;  ///< gnuplot's number
-  int dash_type = 1;   ///< gnuplot's number
+  std::string color = {};  ///< #rrggbb
+  int point_type = 7;      ///< gnuplot's number
+  int dash_type = 1;       ///< gnuplot's number
   bool has_points = false, has_line = false, has_cells = false;
 };
 

@@ -381,8 +381,11 @@ std::string tics(const DrawnAxis& axis, double pixels, double spacing) {
 
 std::vector<SeriesStyle> series_styles(const Figure& figure) {
   std::vector<SeriesStyle> styles;
+  for (const std::string& label : figure.roster) styles.push_back({.label = label, .has_points = true});
+  std::vector<std::string> drawn;
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
+      drawn.push_back(series.label);
       auto style = std::ranges::find(styles, series.label, &SeriesStyle::label);
       if (style == styles.end())
         style = styles.insert(styles.end(), SeriesStyle{.label = series.label, .color = series.color});
@@ -393,6 +396,7 @@ std::vector<SeriesStyle> series_styles(const Figure& figure) {
     }
   }
   set_look(styles);
+  std::erase_if(styles, [&](const SeriesStyle& s) { return std::ranges::find(drawn, s.label) == drawn.end(); });
   return styles;
 }
 

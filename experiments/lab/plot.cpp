@@ -99,8 +99,11 @@ Plot& Plot::through(std::string_view column, const std::string& label) {
   Plot lines = Plot(table_).x(x_).y(column).by(by_).mark(Mark::line);
   const auto at = [x = place_of(table_, x_)](const auto& row) { return finite_number(row[x]); };
   std::ranges::stable_sort(lines.table_.rows, {}, at);
-  for (Series& series : Panel(lines).series) {
+  const std::vector<Series> drawn = Panel(lines).series;
+  const bool is_seen = std::ranges::any_of(drawn, [](const Series& series) { return series.x.size() > 1; });
+  for (Series series : drawn) {
     series.label = label;
+    if (!is_seen) series.mark = Mark::points;  // a line of one point
     panel_.series.push_back(std::move(series));
   }
   return *this;

@@ -468,6 +468,7 @@ std::vector<Figure> figures_of(const std::vector<TimedWay>& all) {
         verdict_figure(drawn),
         race_figure("error_against_time_by_pair", "Error against run time, pair by pair", drawn,
                     panels_by_pair(drawn))};
+    for (Figure& figure : figures) figure.roster = distinct(drawn, &TimedWay::name);
   }
   figures.push_back(batch_figure(all));
   std::erase_if(figures, [](const Figure& f) { return f.panels.empty(); });

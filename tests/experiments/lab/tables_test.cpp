@@ -195,6 +195,9 @@ TEST(Plot, leads_lines_through_another_column_and_leaves_out_panels_of_nothing) 
   EXPECT_EQ(series[3].mark, Mark::line);
   EXPECT_EQ(series[3].x, (std::vector<double>{10, 20}));
   EXPECT_EQ(series[3].y, (std::vector{0.25, 0.5}));
+  const Panel single =
+      plot(table("cells", "", columns(), {out_of_order[0]})).x("speed").y("probability").through("theory", "by theory");
+  EXPECT_EQ(single.series[1].mark, Mark::points) << "a line of one point is not seen";
 }
 
 TEST(Plot, has_a_gap_between_curves_of_one_label_and_bars_along_either_axis) {
@@ -490,6 +493,24 @@ TEST(PlotStyle, is_one_look_a_label) {
   }
   EXPECT_EQ(colors.size(), 6u);
   EXPECT_EQ(points.size(), 5u) << "told apart without color too";
+}
+
+TEST(PlotStyle, of_a_roster_is_alike_whoever_is_drawn) {
+  const std::vector<std::string> roster = {"ours", "theirs", "others"};
+  const auto of_two = [&](const char* first, const char* second) {
+    Figure figure = two_panels();
+    figure.panels.resize(1);
+    figure.panels[0].series = {{.label = first}, {.label = second}};
+    figure.roster = roster;
+    return series_styles(figure);
+  };
+  const auto here = of_two("ours", "others"), there = of_two("others", "theirs");
+  ASSERT_EQ(here.size(), 2U);
+  ASSERT_EQ(there.size(), 2U);
+  EXPECT_EQ(here[1].label, there[1].label);
+  EXPECT_EQ(here[1].color, there[1].color);
+  EXPECT_EQ(here[1].point_type, there[1].point_type);
+  EXPECT_NE(here[0].color, here[1].color);
 }
 
 TEST(PlotAxis, shows_every_value_and_skips_what_it_cannot_show) {
