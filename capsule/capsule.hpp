@@ -208,12 +208,12 @@ THINWALL_HOT ClearContact clear_core_contact(const Core& core, const ClearNeares
                                              double r, double s) {
   using packed::Pair, packed::both, packed::all;
   const packed::Lanes& n = nearest.gap;
-  const Pair size = sum(abs(x)) + core.size + both(r + s), length = root(dot(n, n)), between = both(r + s) - length;
+  const Pair size = sum(abs(x) + core.sizes) + both(r + s), length = root(dot(n, n)), between = both(r + s) - length;
   const packed::PairMask in_range =
       (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size) & (both(0) <= packed::pair(r, s));
   const packed::PairMask wide = size * both(0x1p-20) <= length, decided = size * both(0x1p-46) < abs(between);
-  const packed::PairMask behind = core.reach(n) - dot(n, nearest.at) <= size * length * both(0x1p-40);
-  return {both(nearest.one, all_of(in_range & wide & decided & behind)),
+  const packed::PairMask behind = core.beyond(n, nearest) <= size * length * both(0x1p-40);
+  return {all_of(in_range & wide & decided & behind),
           all_of(both(0) < between),
           packed::Lanes{},
           packed::Lanes{},
@@ -235,12 +235,12 @@ THINWALL_HOT ClearContact clear_contact(const Capsule<double>& capsule, const Sp
 THINWALL_HOT ClearContact clear_contact(const Capsule<double>& first, const Capsule<double>& second) {
   using packed::all, packed::lanes, packed::both;
   const packed::Lanes a = lanes(first.a), b = lanes(second.a), x = b - a;
-  const ClearSegments core(lanes(first.b) - a, lanes(second.b) - b);
+  const ClearSegments core(lanes(first.b) - a, b - lanes(second.b));
   const ClearNearest nearest = core.nearest(x);
   ClearContact contact = clear_core_contact(core, nearest, x, first.radius, second.radius);
-  const packed::Lanes on_a = core.d * all(nearest.place), on_b = on_a - nearest.at;  // from their starts
+  const packed::Lanes on_a = core.d * all(firsts(nearest.place)), on_b = on_a - nearest.at;  // from their starts
   contact.local_a = (on_a - core.d * all(0.5)) + contact.normal * all(first.radius);
-  contact.local_b = (on_b - core.e * all(0.5)) - contact.normal * all(second.radius);
+  contact.local_b = (on_b + core.e * all(0.5)) - contact.normal * all(second.radius);
   return contact;
 }
 

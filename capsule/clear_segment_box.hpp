@@ -10,15 +10,14 @@ namespace thinwall {
 /// Of the points of contact it says the box's. The squared distance from the box along the segment is convex, and a parabola between
 /// the places where the segment crosses the planes of the faces: its slope at those shows in which of them it is least.
 struct ClearSegmentBox {
-  packed::Lanes d, h, v, per_d;
-  packed::Pair size;
+  packed::Lanes d, h, v, per_d, sizes;
 
   THINWALL_HOT ClearSegmentBox(const packed::Lanes& core, const packed::Lanes& half, const packed::Lanes& motion)
       : d(core),
         h(half),
         v(motion),
         per_d(packed::all(1) / core),
-        size(sum(abs(core) + half)),
+        sizes(abs(core) + half),
         D(spread(core)),
         H(spread(half)) {}
 
@@ -27,6 +26,10 @@ struct ClearSegmentBox {
   THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
     const packed::Pair both = two_sums(abs(n) * h, n * d);
     return firsts(both) - min(seconds(both), packed::both(0));
+  }
+
+  THINWALL_HOT packed::Pair beyond(const packed::Lanes& n, const ClearNearest& nearest) const {
+    return reach(n) - dot(n, nearest.at);
   }
 
   /// The slabs across each of the box's axes and the segment: where an edge is met, or passed.

@@ -1,17 +1,22 @@
 #pragma once
 /// The clear cases of segment.hpp: the nearest points of two segments, without a jump.
 
+#include <limits>
+
 #include <thinwall/discrete/clear/clear_nearest.hpp>
 
 namespace thinwall {
 
 /// The segment s d, s in [0, 1], at rest beside a point; the place that is told is s.
 struct ClearSegment {
-  packed::Lanes d;
-  packed::Pair size;
+  packed::Lanes d, sizes;
 
-  THINWALL_HOT explicit ClearSegment(const packed::Lanes& core) : d(core), size(sum(abs(core))) {}
-  THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const { return max(dot(n, d), packed::both(0)); }
+  THINWALL_HOT explicit ClearSegment(const packed::Lanes& core) : d(core), sizes(abs(core)) {}
+  /// How far it reaches along n, times its length, beyond the nearest place.
+  THINWALL_HOT packed::Pair beyond(const packed::Lanes& n, const ClearNearest& nearest) const {
+    const packed::Pair along = dot(n, d);
+    return max(along, packed::both(0)) - along * nearest.place;
+  }
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
     const packed::Pair along = two_sums(x * d, d * d), s = clear_clamp(firsts(along) / seconds(along));
     const packed::Lanes at = d * all(s);
@@ -19,41 +24,36 @@ struct ClearSegment {
   }
 };
 
-/// The parallelogram { s d - u e }, s and u in [0, 1]: where the start of the second segment may not be, seen from that of the first.
-/// The place that is told is s.
+/// The parallelogram { s d + u e }, s and u in [0, 1]: where the start of the second segment, which e leads back to, may not be, seen from
+/// that of the first. The place that is told is (s, u).
 /// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.9; but s by the normal of both, which does not cancel.
 struct ClearSegments {
-  packed::Lanes d, e;
-  packed::Pair size;
-  packed::Pair per_dd, per_ee, per_nn;  ///< 1 / d.d, 1 / e.e and 1 / n.n, of n = d x e
-  packed::Pair d_on_e, e_on_d;          ///< d.e / e.e and d.e / d.d
-  packed::Lanes to_s;        ///< x.to_s / n.n is the place on the first's line that is nearest to the second's
-  packed::PairMask crossed;  ///< far enough from parallel for that
+  packed::Lanes d, e, sizes;
+  packed::Pair per, on;  ///< 1 / d.d and 1 / e.e; d.e over d.d and e.e
+  packed::Lanes n;       ///< d x e, as turned_cross() has it
+  packed::Pair nn;       ///< n.n
 
   THINWALL_HOT ClearSegments(const packed::Lanes& first, const packed::Lanes& second)
-      : d(first), e(second), size(sum(abs(first) + abs(second))) {
-    using packed::Lanes, packed::Pair, packed::both;
-    const Lanes normal = cross(d, e);
-    const Pair lengths = two_sums(d * d, e * e), per = both(1) / lengths, others = two_sums(d * e, normal * normal);
-    per_dd = firsts(per), per_ee = seconds(per), per_nn = both(1) / seconds(others);
-    d_on_e = firsts(others) * per_ee, e_on_d = firsts(others) * per_dd;
-    to_s = cross(e, normal);
-    crossed = both(0x1p-20) * (firsts(lengths) * seconds(lengths)) < seconds(others);
+      : d(first), e(second), sizes(abs(first) + abs(second)), n(turned_cross(first, second)) {
+    using packed::Pair, packed::both;
+    const Pair lengths = two_sums(d * d, e * e), others = two_sums(n * n, d * e);
+    per = both(1) / lengths, nn = firsts(others), on = seconds(others) * per;
   }
 
-  THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
-    const packed::Pair along = two_sums(n * d, n * e), none = packed::both(0);
-    return max(firsts(along), none) - min(seconds(along), none);
+  /// As ClearSegment; nearly parallel ones are beyond any place, as rounding says which is the nearest.
+  THINWALL_HOT packed::Pair beyond(const packed::Lanes& along, const ClearNearest& nearest) const {
+    using packed::Pair, packed::both;
+    const Pair of = two_sums(along * d, along * e), over = max(of, both(0)) - of * nearest.place;
+    const packed::PairMask crossed = on * swapped(on) < both(1 - 0x1p-20);  // the square of their cosine
+    return select(crossed, over + swapped(over), both(std::numeric_limits<double>::infinity()));
   }
 
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
-    using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both;
-    const Pair zero = both(0), one = both(1), of_x = two_sums(x * to_s, x * e);
-    const Pair across = clear_clamp(firsts(of_x) * per_nn), u = clear_clamp(across * d_on_e - seconds(of_x) * per_ee);
-    const PairMask end_u = (u <= zero) | (one <= u);
-    const Pair s = select(end_u, clear_clamp(dot(x, d) * per_dd + u * e_on_d), across);
-    const Lanes at = d * all(s) - e * all(u);
-    return {at, x - at, zero, s, all_of(crossed)};
+    using packed::Lanes, packed::Pair, packed::all, packed::both;
+    const Pair of_x = two_sums(x * d, x * e) * per, across = clear_clamp(dot(turned_cross(x, e), n) / nn);
+    const Pair u = clear_clamp(seconds(of_x) - across * seconds(on)), s = clear_clamp(firsts(of_x) - u * firsts(on));
+    const Lanes on_first = d * all(s), on_second = e * all(u);
+    return {on_first + on_second, (x - on_second) - on_first, both(0), firsts(s, u)};
   }
 };
 

@@ -11,8 +11,7 @@ struct ClearNearest {
   packed::Lanes gap;  ///< from there to the place
   packed::Pair
       speed;  ///< the square of what of the motion is at right angles to the part (corner, edge, face) that it is of
-  packed::Pair place;  ///< [1] where on the segment, of a core that is made of one
-  bool one = true;     ///< no other point is as near, and which it is no rounding decides
+  packed::Pair place;  ///< [1] where on the segment, of a core that is made of one; or on each of two
 };
 
 /// When a path may be near a core: within all slabs that have been asked.

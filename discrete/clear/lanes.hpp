@@ -190,7 +190,9 @@ THINWALL_HOT Pair two_sums(const Lanes& a, const Lanes& b) {
 }
 THINWALL_HOT Pair sum(const Lanes& a) { return (xy_of(a) + swapped(xy_of(a))) + zz_of(a); }
 THINWALL_HOT Pair dot(const Lanes& a, const Lanes& b) { return sum(a * b); }
-THINWALL_HOT Lanes cross(const Lanes& a, const Lanes& b) { return yzx(a * yzx(b) - yzx(a) * b); }
+/// Of a x b z, x and y: of two so turned the product is that of the two.
+THINWALL_HOT Lanes turned_cross(const Lanes& a, const Lanes& b) { return a * yzx(b) - yzx(a) * b; }
+THINWALL_HOT Lanes cross(const Lanes& a, const Lanes& b) { return yzx(turned_cross(a, b)); }
 THINWALL_HOT Lanes unit(const Lanes& a) { return a / all(root(dot(a, a))); }
 /// Of a length L near 1, and its square: unit but for 3/2 (L - 1)^2. Newton's step, which takes no root.
 THINWALL_HOT Lanes nearer_unit(const Lanes& a, const Pair& square) { return a * all(both(1.5) - square * both(0.5)); }

@@ -30,7 +30,7 @@ THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, cons
                                   const packed::Pair& R) {
   using packed::Lanes, packed::Pair, packed::both, packed::all;
   constexpr int most_rounds = 8;
-  const Pair until = both(1 + 0x1p-9), RR = R * R, speed = dot(v, v), size = sum(abs(p) + abs(v)) + core.size;
+  const Pair until = both(1 + 0x1p-9), RR = R * R, speed = dot(v, v), size = sum((abs(p) + abs(v)) + core.sizes);
   const Pair touch = R * (R * both(0x1p-48) + size * both(0x1p-51));
   ClearWalk walk;
   walk.noise = size * both(0x1p-46);
@@ -65,7 +65,7 @@ THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, cons
     if (all_of(abs(square - RR) <= touch)) {
       const packed::PairMask steep = closes & (speed * square * both(0x1p-16) < along * along);
       const packed::PairMask behind = reach - seconds(of_p) <= size * length * both(0x1p-34);
-      walk.clear = both(nearest.one, all_of((both(0) < free) & steep & behind));
+      walk.clear = all_of((both(0) < free) & steep & behind);
       walk.time = max((firsts(of_p) - (seconds(of_p) + R * length)) / (both(0) - along), both(0));
       walk.normal = n / all(length);
       walk.closing = (both(0) - along) / length;

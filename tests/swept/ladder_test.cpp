@@ -412,8 +412,7 @@ TEST(LadderFilters, a_size_below_zero_is_invalid_however_small_beside_the_rest) 
 struct SaidCore {
   packed::Lanes at = packed::all(0),
                 off = packed::all(0);  ///< what it says is nearest; what it adds to the gap from there
-  bool one = true;
-  packed::Pair size = packed::both(1);
+  packed::Lanes sizes = packed::lanes(V(1, 0, 0));
 
   packed::Lanes low() const { return packed::all(-1); }
   packed::Lanes high() const { return packed::all(1); }
@@ -422,7 +421,7 @@ struct SaidCore {
   struct Part {
     ClearNearest nearest;
   };
-  Part part(const packed::Lanes& x) const { return {{at, x - at, packed::both(4), packed::both(0), one}}; }
+  Part part(const packed::Lanes& x) const { return {{at, x - at, packed::both(4), packed::both(0)}}; }
   static bool is_still(const packed::Lanes&, const Part&) { return false; }
   ClearWalk walk(const V& from, const V& by, double R) const {
     return clear_walk(*this, packed::lanes(from), packed::lanes(by), packed::both(R));
@@ -433,9 +432,17 @@ TEST(LadderFilters, a_walk_proves_what_its_core_says) {
   const V left(-4, 0, 0), right(4, 0, 0), by(4, 0, 0);
   EXPECT_TRUE(SaidCore{}.walk(left, by, 1).clear);
   EXPECT_EQ(value(SaidCore{}.walk(left, by, 1).time), 0.75);
-  EXPECT_FALSE(SaidCore{.one = false}.walk(left, by, 1).clear);
   EXPECT_FALSE(SaidCore{}.walk(right, -by, 1).clear) << "it reaches farther to the right than the point";
   EXPECT_TRUE(SaidCore{.at = packed::lanes(V(0.5, 0, 0))}.walk(right, -by, 1).clear);
+}
+
+TEST(LadderFilters, which_places_of_nearly_parallel_segments_are_nearest_is_in_doubt) {
+  const auto is_clear = [](double lean) {
+    return clear_contact(Rod{{-1, 0, 0}, {1, 0, 0}, 0.3}, Rod{{-1, -lean, 0.5}, {1, lean, 0.5}, 0.3}).clear;
+  };
+  EXPECT_TRUE(is_clear(0x1p-8));
+  EXPECT_FALSE(is_clear(0x1p-11));
+  EXPECT_FALSE(is_clear(0));
 }
 
 TEST(LadderFilters, what_underflows_parts_nothing) {
