@@ -78,8 +78,7 @@ inline constexpr std::int64_t most_engine_shots = std::int64_t(1) << 20;  ///< o
 
 /// Over the shots of one cell in one mode; the real numbers are of the turned.
 struct EngineTally {
-  std::int64_t shots = 0, tunneled = 0, unseen = 0, stuck = 0, lost = 0, turned = 0;
-  std::int64_t unanswered = 0;                            ///< shots besides, of an engine that died or hung
+  std::int64_t shots = 0, tunneled = 0, unseen = 0, stuck = 0, lost = 0, turned = 0, unanswered = 0;
   RealSum lateness, energy;                               ///< [steps], [1] at most 1024 each
   double latest = no_most, earliest = no_least;           ///< [steps]
   double least_energy = no_least, most_energy = no_most;  ///< [1]
@@ -110,9 +109,8 @@ struct EngineTally {
 
 /// Over the shots of one stage in one mode.
 struct StageTally {
-  std::int64_t shots = 0, passed = 0, lost = 0, disturbed = 0;
-  std::int64_t unanswered = 0;  ///< shots besides, of an engine that died or hung
-  RealSum error;                ///< [1] at most 1024 each
+  std::int64_t shots = 0, passed = 0, lost = 0, disturbed = 0, unanswered = 0;
+  RealSum error;  ///< [1] at most 1024 each
   double most_error = no_most;
   double seconds = 0;  ///< of stepping, in one volley
 
