@@ -35,9 +35,10 @@ struct ClearSegmentBox {
   /// The slabs across each of the box's axes and the segment: where an edge is met, or passed.
   THINWALL_HOT void narrow(ClearStretch& stretch, const packed::Lanes& p, const packed::Pair& R,
                            const packed::Pair& noise) const {
-    const packed::Lanes y = yzx(abs(d)), z = yzx(y), h1 = yzx(h), squares = y * y + z * z;
-    const packed::Lanes length = root(squares + packed::all(ClearStretch::least_square));
-    stretch.narrow(cross(p, d), cross(v, d), (h1 * z + yzx(h1) * y) + length * all(R), (y + z) * all(noise));
+    const packed::Lanes a = abs(d), b = yzx(a);  // in the order of turned_cross()
+    const packed::Lanes length = root(a * a + b * b + packed::all(ClearStretch::least_square));
+    stretch.narrow(turned_cross(p, d), turned_cross(v, d), (h * b + yzx(h) * a) + length * packed::all(R),
+                   (a + b) * packed::all(noise));
   }
 
   /// Which part it is of: the faces it is outside of, turned towards the box, and whether it is on the segment's side.

@@ -47,8 +47,8 @@ struct ClearSide {
     using packed::both;
     return max(largest() * both(0x1p-50), speed) * length * both(0x1p-10) <= w_w;
   }
-  /// Pierced, and what rounding leans w along the segment moves where by little more than what it moves the start: of the normal's share
-  /// along w, sqrt(off / reach), over the sine of the path and the segment, 8 at most counts.
+  /// Pierced, and at a time that roundings of w hardly move. They lean it along the segment, which moves the line by u |p| over the sine of
+  /// the path and the segment; of that counts the normal's share along w, sqrt(off / reach). That share is at most 8 times the sine.
   THINWALL_HOT packed::PairMask is_steady() const {
     return pierces() & (off * (speed * length) * packed::both(0x1p-6) <= reach * w_w);
   }

@@ -47,8 +47,7 @@ struct CapsuleSphere {
     const auto roundings =
         hn::Mul(hn::Mul(hn::Set(d, Limits::end_of_blur * Limits::length / 8), whole), hn::Mul(path, dd));
     const auto end = hn::MulAdd(hn::Set(d, Limits::end), hn::Add(square, hn::Abs(denominator)), roundings);
-    // What rounding leans w along the axis moves where by little more than what it moves the start, as in clear_segment_entry.hpp; of what
-    // passes this asks no more than that.
+    // Met at a time that roundings of w hardly move: clear_segment_entry.hpp's is_steady(), which asks less of what passes.
     const auto leans = hn::Mul(hn::Sub(reach, hn::Abs(discriminant)), hn::Mul(vv, dd));
     const auto steady = hn::MulSub(hn::Mul(hn::Set(d, S(64)), reach), ww, leans);
     const auto sure = hn::Min(hn::Min(hn::Sub(hn::Abs(discriminant), noise), steady), hn::Sub(hn::Abs(late), end));

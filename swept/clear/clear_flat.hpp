@@ -123,7 +123,7 @@ struct ClearFlatEntry {
     const PairMask in_range = (size * both(0x1p-14) <= R) & (squares * both(0x1p-54) <= speed) &
                               (both(packed::least_square) <= min(min(rr, speed), smallest_of(length))) &
                               (size <= both(packed::most_length));
-    // all but along an edge, what rounding leans w along it counts by the way to its corner
+    // all but along an edge, what rounding leans w along it counts by the way to its corner: ClearSide's aslant() and is_steady()
     const Lanes aslant = all(max(squares * both(0x1p-50), speed) * both(0x1p-10));
     const LanesMask steady = pierces & (off * (all(speed * both(0x1p-6)) * length) <= reach * w_w);
     const LanesMask side_clear = ((steady | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);

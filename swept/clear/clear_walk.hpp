@@ -24,7 +24,7 @@ struct ClearWalk {
 
 /// The point p + v t within a step and a core rounded by R. The core has bounds, low() and high(), and more slabs, narrow(); the part(x) that is
 /// nearest, of which is_still(x) tells whether that is of another place too; how far it reaches along a vector, reach(n), times its length;
-/// and `size`, no less than the sum of what its numbers come of.
+/// and `sizes`, whose sum is no less than that of what its numbers come of.
 template <class Core>
 THINWALL_HOT ClearWalk clear_walk(const Core& core, const packed::Lanes& p, const packed::Lanes& v,
                                   const packed::Pair& R) {
