@@ -190,7 +190,7 @@ THINWALL_HOT Pair two_sums(const Lanes& a, const Lanes& b) {
 }
 THINWALL_HOT Pair sum(const Lanes& a) { return (xy_of(a) + swapped(xy_of(a))) + zz_of(a); }
 THINWALL_HOT Pair dot(const Lanes& a, const Lanes& b) { return sum(a * b); }
-/// Of a x b z, x and y: of two so turned the product is that of the two.
+/// a x b in the order z, x, y: the dot product of two vectors so turned is that of the vectors.
 THINWALL_HOT Lanes turned_cross(const Lanes& a, const Lanes& b) { return a * yzx(b) - yzx(a) * b; }
 THINWALL_HOT Lanes cross(const Lanes& a, const Lanes& b) { return yzx(turned_cross(a, b)); }
 THINWALL_HOT Lanes unit(const Lanes& a) { return a / all(root(dot(a, a))); }

@@ -111,7 +111,7 @@ void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, Acc
   const Digits50 moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
   const Digits50 farther =
       std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
-  const Digits50 off = std::max(Digits50(farther - Digits50(min_separation)), Digits50(0));
+  const Digits50 off = abs(Digits50(farther - Digits50(min_separation) / 2));  // the middle of the gap
   note_worst(tally.worst_normal,
              overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem))));
   note_worst(tally.worst_point, off / (unit + moved));

@@ -107,6 +107,7 @@ Figure parse_figure(const std::string& text, const std::string& file) {
   out.name = in.text("name");
   out.title = in.text("title");
   for (const JsonReader& panel : in.objects("panels")) out.panels.push_back(panel_of(panel));
+  if (in.has("roster")) out.roster = in.texts("roster");
   return out;
 }
 
@@ -181,6 +182,7 @@ std::string prepare(const fs::path& folder, const std::string& name, const fs::p
 std::string figure_json(const Figure& figure) {
   ordered_json out = {{"name", figure.name}, {"title", figure.title}, {"panels", ordered_json::array()}};
   for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
+  if (!figure.roster.empty()) out["roster"] = figure.roster;
   return json_line(out);
 }
 

@@ -39,7 +39,7 @@ struct SeriesStyle {
   bool has_points = false, has_line = false, has_cells = false;
 };
 
-/// One style for each label of the figure, in the order in which they first appear.
+/// One style for each label that is drawn: those of the roster first, the others in the order in which they appear.
 std::vector<SeriesStyle> series_styles(const Figure& figure);
 
 // ---- The script and the data.

@@ -47,7 +47,8 @@ struct CapsuleSphere {
     const auto roundings =
         hn::Mul(hn::Mul(hn::Set(d, Limits::end_of_blur * Limits::length / 8), whole), hn::Mul(path, dd));
     const auto end = hn::MulAdd(hn::Set(d, Limits::end), hn::Add(square, hn::Abs(denominator)), roundings);
-    // Met at a time that roundings of w hardly move: clear_segment_entry.hpp's is_steady(), which asks less of what passes.
+    // Rounding leans w along the axis, which counts by the way to its end. A hit is clear if the normal's share along w is at most 8 times the
+    // sine between path and axis; of what passes less is asked.
     const auto leans = hn::Mul(hn::Sub(reach, hn::Abs(discriminant)), hn::Mul(vv, dd));
     const auto steady = hn::MulSub(hn::Mul(hn::Set(d, S(64)), reach), ww, leans);
     const auto sure = hn::Min(hn::Min(hn::Sub(hn::Abs(discriminant), noise), steady), hn::Sub(hn::Abs(late), end));

@@ -80,9 +80,12 @@ template <Scalar T>
 Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& moving, const Entry<T>& entry) {
   const Vec3<T> turned = normal_out_of(a, entry.normal);
   int i = moving.axis_a, j = moving.axis_b;
-  if (i < 0 && j < 0) {  // within a gap: maybe a face's, to rounding
-    const BoxFace face = face_along(moving.pair, entry.normal, gap_noise(T(1)));
-    (face.of_b ? j : i) = face.axis;
+  if (i < 0 && j < 0 && entry.may_hit()) {  // maybe a face's, to rounding: of two so near the nearer
+    const Vec3<T> on_b = moving.pair.axes.transpose() * entry.normal;
+    i = axis_along(entry.normal, gap_noise(T(1)));
+    j = axis_along(on_b, gap_noise(T(1)));
+    const auto sine = [](const Vec3<T>& n, int k) { return largest(n[(k + 1) % 3], n[(k + 2) % 3]); };
+    if (i >= 0 && j >= 0) (sine(on_b, j) < sine(entry.normal, i) ? i : j) = -1;
   }
   if (i < 0 && j < 0) return turned;
   const auto edge = [](const Obb<T>& box, int k) -> Vec3<T> { return box.axes.col(k % 3); };

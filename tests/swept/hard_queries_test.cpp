@@ -362,7 +362,7 @@ TEST(HardQueries, a_path_all_but_along_a_capsule_is_as_exact_from_afar) {
   EXPECT_NEAR(toi.time, 0.7036581263548225, 1.2e-13);
 }
 
-// The plate is 1e5 times as wide as it is thick, and upright but for 2^-49: a normal turned into the other box's axes and back tilts it by
+// The plate is 4e4 times as wide as it is thick, and upright but for 2^-49: a normal turned into the other box's axes and back tilts it by
 // more than what its gap is known to.
 TEST(HardQueries, a_plate_within_a_gap_is_met_along_its_own_normal) {
   const Moving chip{Obb<double>{V(0x1.b459aa4d227a4p-6, 0x1.1b4631dcddaf8p-6, -0x1.d68639e18b07ep-1),
@@ -375,6 +375,19 @@ TEST(HardQueries, a_plate_within_a_gap_is_met_along_its_own_normal) {
                           leaning(V(1, 0x1.028030ceae54p-49, 0), V(-0x1.028030ceae54p-49, 1, 0), V(0, 0, 1))};
   const auto toi = time_of_impact(ClosedForm<double>{0x1.37c5c26152b47p-9}, chip, at_rest(plate));
   EXPECT_NEAR(toi.time, 0.62033409617016189, 1e-15);
+}
+
+// The chip's own face is 2^-54 from the plate's: along that the plate would be met where it leans to.
+TEST(HardQueries, a_chip_within_a_gap_is_met_along_the_plates_normal_and_not_its_own) {
+  const double r = 0x1.9bbb75b826ed5p-56, s = 0x1.a19adc6608707p-54;
+  const Moving chip{
+      Obb<double>{V(0x1.002p-5, -0x1.76e8964a54a1dp-7, -0x1.82cd0c38800b8p-4),
+                  V(0x1p-16, 0x1.301062152a906p-3, 0x1.ace4a26f15636p-3), leaning(V(1, 0, 0), V(0, 1, r), V(0, -r, 1))},
+      V(-0x1p-4, 0x1.44613d13bebf6p-7, -0x1.a0c70e7722527p-9)};
+  const Obb<double> plate{V::Zero(), V(0x1.c15e79281c1ffp-20, 0x1.d88396e5710dbp-2, 0x1.5a310d688f84bp-1),
+                          leaning(V(1, s, 0), V(-s, 1, 0), V(0, 0, 1))};
+  const auto toi = time_of_impact(ClosedForm<double>{0x1.eaa2cbec8b764p-15}, chip, at_rest(plate));
+  EXPECT_NEAR(toi.time, 0.49903740175911931, 1.2e-16);
 }
 
 // Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.

@@ -502,6 +502,7 @@ TEST(PlotStyle, of_a_roster_is_alike_whoever_is_drawn) {
     figure.panels.resize(1);
     figure.panels[0].series = {{.label = first}, {.label = second}};
     figure.roster = roster;
+    EXPECT_NE(figure_json(figure).find(R"("roster":["ours","theirs","others"])"), std::string::npos);
     return series_styles(figure);
   };
   const auto here = of_two("ours", "others"), there = of_two("others", "theirs");
