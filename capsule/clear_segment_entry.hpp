@@ -13,7 +13,7 @@ namespace thinwall {
 /// p from the segment's start, and from its end; v and d stand twice, as all numbers do but `square`, `approach` and `along`.
 struct ClearSide {
   packed::Pair length, speed, square, approach;  ///< d.d, v.v, and of each end p.p and p.v
-  packed::Pair along, per_length;                ///< p.d, from the start, and v.d; 1 / d.d
+  packed::Pair along;                            ///< p.d, from the start, and v.d
   packed::Pair k_k, w_w, k_w, R, RR, RR_d;       ///< of k = p x d and w = v x d; R, R^2 and R^2 d.d
   packed::Pair off, reach;                       ///< (p.w)^2, which is below w.w R^2 where the line pierces the side
 
@@ -29,11 +29,8 @@ struct ClearSide {
     using Vectors = packed::Vectors<packed::Pair>;
     const Vectors pv = {firsts(ends.x, v.x), firsts(ends.y, v.y), firsts(ends.z, v.z)}, across = cross(pv, d);
     const Vectors w = {seconds(across.x), seconds(across.y), seconds(across.z)};
-    const packed::Pair squares = dot(across, across);
+    const packed::Pair squares = dot(across, across), beside = dot(ends, w);
     along = dot(pv, d), k_w = firsts(dot(across, w)), k_k = firsts(squares), w_w = seconds(squares);
-    per_length = packed::both(1) / length;
-    // what rounding leans w along d counts by the way to the end: taken out
-    const packed::Pair beside = firsts(dot(pv, w)) - firsts(along) * (dot(w, d) * per_length);
     off = beside * beside, reach = w_w * RR;
   }
   THINWALL_HOT packed::PairMask pierces() const { return off < reach * packed::both(packed::beside_graze); }
@@ -45,10 +42,15 @@ struct ClearSide {
            (max(length * both(0x1p8), square) <= RR * both(0x1p28)) & (square * both(packed::short_path) < speed);
   }
   /// Else w is rounding, or the time more uncertain than what the end of a step is clear by; or the path is all but along the segment, and
-  /// rounding leans w too far for that to be taken out.
+  /// what rounding leans w along it counts by the way to its end.
   THINWALL_HOT packed::PairMask aslant() const {
     using packed::both;
     return max(largest() * both(0x1p-50), speed) * length * both(0x1p-10) <= w_w;
+  }
+  /// Pierced, and at a time that roundings of w hardly move. They lean it along the segment, which moves the line by u |p| over the sine of
+  /// the path and the segment; of that counts the normal's share along w, sqrt(off / reach). That share is at most 8 times the sine.
+  THINWALL_HOT packed::PairMask is_steady() const {
+    return pierces() & (off * (speed * length) * packed::both(0x1p-6) <= reach * w_w);
   }
   THINWALL_HOT packed::Pair largest() const { return max(max(length, square), speed); }
 };
@@ -65,8 +67,8 @@ THINWALL_HOT ClearSegmentEntry clear_segment_entry(const ClearSide& line, const 
   using packed::Pair, packed::PairMask, packed::both;
   const Pair zero = both(0), length = line.length;
   const Pair half_side = root(max((line.reach - line.off) * length, zero));
-  const Pair side = (line.k_k - line.RR_d) / (half_side - line.k_w);
-  const Pair from = firsts(line.along), by = seconds(line.along), at = from + by * side;
+  const Pair quotients = firsts(line.k_k - line.RR_d, both(1)) / firsts(half_side - line.k_w, length);
+  const Pair side = firsts(quotients), from = firsts(line.along), by = seconds(line.along), at = from + by * side;
   const PairMask side_meets = line.pierces() & (line.k_w < zero) & (zero <= side) & (zero <= at) & (at <= length);
 
   // the balls around the start and the end
@@ -78,9 +80,9 @@ THINWALL_HOT ClearSegmentEntry clear_segment_entry(const ClearSide& line, const 
   const Pair by_ball = select(pierces & (line.approach < zero) & (zero <= ball), ball, both(ClearEntry::never));
   const Pair earliest = min(by_ball, select(side_meets, side, both(ClearEntry::never)));
   const Pair time = min(firsts(earliest), seconds(earliest));
-  const Pair on = min(max((from + by * time) * line.per_length, zero), both(1));
+  const Pair on = min(max((from + by * time) * seconds(quotients), zero), both(1));
 
-  const PairMask side_clear = ((line.pierces() | line.passes()) & line.aslant()) | (line.w_w <= zero);
+  const PairMask side_clear = ((line.is_steady() | line.passes()) & line.aslant()) | (line.w_w <= zero);
   const PairMask outside =
       (line.RR * both(packed::more_than_rounding) < line.square) &
       ((line.RR_d * both(packed::more_than_rounding) < line.k_k) | (from < zero) | (length < from));

@@ -83,11 +83,8 @@ struct ClearFlatEntry {
     const Vectors<Lanes>& D = core.edge;
 
     const Vectors<Lanes> k = cross(P, D), w = cross(V, D);
-    const Lanes length = dot(D, D), k_k = dot(k, k), w_w = dot(w, w), k_w = dot(k, w);
-    const Lanes along = dot(P, D), start = along * core.ahead, by = dot(V, D) * core.ahead,
-                per_length = all(1) / length;
-    // what rounding leans w along its edge counts by the way to its corner: taken out
-    const Lanes beside = dot(P, w) - along * (dot(w, D) * per_length);
+    const Lanes length = dot(D, D), k_k = dot(k, k), w_w = dot(w, w), k_w = dot(k, w), beside = dot(P, w);
+    const Lanes start = dot(P, D) * core.ahead, by = dot(V, D) * core.ahead;
     const Lanes RR_d = RR * length, reach = w_w * RR, off = beside * beside;
     const Lanes side = (k_k - RR_d) / (root(max((reach - off) * length, zero)) - k_w), at = start + by * side;
     const LanesMask pierces = off < reach * graze;
@@ -111,7 +108,7 @@ struct ClearFlatEntry {
 
     // where, by s and u
     const LanesMask met = lowest_of_four(earliest <= all(time));
-    const Lanes on = max(min((start + by * all(time)) * per_length, all(1)), zero);
+    const Lanes on = max(min((start + by * all(time)) / length, all(1)), zero);
     const Lanes at_s = keep(met, core.s + core.by_s * on), at_u = keep(met, core.u + core.by_u * on);
     const Pair of_s = xy_of(at_s) + zz_of(at_s), of_u = xy_of(at_u) + zz_of(at_u);
     const Pair of_face = (both(0) - firsts(swapped(zz_of(inside)), xy_of(inside))) / nn;
@@ -126,9 +123,10 @@ struct ClearFlatEntry {
     const PairMask in_range = (size * both(0x1p-14) <= R) & (squares * both(0x1p-54) <= speed) &
                               (both(packed::least_square) <= min(min(rr, speed), smallest_of(length))) &
                               (size <= both(packed::most_length));
-    // all but along an edge, rounding leans w too far for that
+    // all but along an edge, what rounding leans w along it counts by the way to its corner: ClearSide's aslant() and is_steady()
     const Lanes aslant = all(max(squares * both(0x1p-50), speed) * both(0x1p-10));
-    const LanesMask side_clear = ((pierces | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);
+    const LanesMask steady = pierces & (off * (all(speed * both(0x1p-6)) * length) <= reach * w_w);
+    const LanesMask side_clear = ((steady | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);
     const LanesMask ball_clear = strikes | (all(wide) < aside * graze);
     const Lanes beyond = all(1 + 0x1p-30);  // a moment seen from 2^14 R is off by 2^-38 of itself
     const LanesMask outside = (RR * beyond < square) & ((RR_d * beyond < k_k) | (start < zero) | (length < start));
