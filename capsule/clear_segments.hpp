@@ -26,7 +26,8 @@ struct ClearSegment {
 
 /// The parallelogram { s d + u e }, s and u in [0, 1]: where the start of the second segment, which e leads back to, may not be, seen from
 /// that of the first. The place that is told is (s, u).
-/// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.9; but s by the normal of both, which does not cancel.
+/// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.9; but u by the place on the
+/// first's line that is nearest to the second's, which their normal tells without cancelling.
 struct ClearSegments {
   packed::Lanes d, e, sizes;
   packed::Pair per, on;  ///< 1 / d.d and 1 / e.e; d.e over d.d and e.e

@@ -44,13 +44,12 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name;                ///< the files are plots/<name>.svg, .gp, .dat
-  std::string title;               ///< what is seen, a short phrase
-  std::string caption;             ///< what it means, a sentence or two
-  std::vector<Panel> panels = {};  ///< stacked from top to bottom
-  bool is_timing = false;          ///< differs from run to run: left out of the manifest's hashes
-  std::vector<std::string> roster =
-      {};  ///< labels of points that get their looks first, drawn or not: alike in all figures
+  std::string name;                      ///< the files are plots/<name>.svg, .gp, .dat
+  std::string title;                     ///< what is seen, a short phrase
+  std::string caption;                   ///< what it means, a sentence or two
+  std::vector<Panel> panels = {};        ///< stacked from top to bottom
+  bool is_timing = false;                ///< differs from run to run: left out of the manifest's hashes
+  std::vector<std::string> roster = {};  ///< labels of points that get their looks first, drawn or not
 };
 
 }  // namespace thinwall
