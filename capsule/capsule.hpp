@@ -253,7 +253,7 @@ THINWALL_HOT ClearContact clear_box_capsule(const Frame& frame, const Vec3<doubl
   const packed::Lanes a = lanes(capsule.a), d = lanes(capsule.b) - a, h = lanes(half);
   const packed::Lanes x = frame.into(a - lanes(center));
   const ClearSegmentBox core(frame.into(d), h, all(0));
-  const ClearNearest nearest = core.part(x).nearest;
+  const ClearNearest nearest = core.nearest(x);
   ClearContact contact = clear_core_contact(core, nearest, x, 0, capsule.radius);
   const packed::Lanes gap = abs(nearest.gap), out = keep(all(largest_of(gap)) < gap * all(0x1p20), core.d);
   const bool leans = all_of(dot(d, d) * both(0x1p-40) <= dot(out, out));

@@ -20,7 +20,7 @@ struct ClearSegment {
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
     const packed::Pair along = two_sums(x * d, d * d), s = clear_clamp(firsts(along) / seconds(along));
     const packed::Lanes at = d * all(s);
-    return {at, x - at, packed::both(0), s};
+    return {at, x - at, s};
   }
 };
 
@@ -54,7 +54,7 @@ struct ClearSegments {
     const Pair of_x = two_sums(x * d, x * e) * per, across = clear_clamp(dot(turned_cross(x, e), n) / nn);
     const Pair u = clear_clamp(seconds(of_x) - across * seconds(on)), s = clear_clamp(firsts(of_x) - u * firsts(on));
     const Lanes on_first = d * all(s), on_second = e * all(u);
-    return {on_first + on_second, (x - on_second) - on_first, both(0), firsts(s, u)};
+    return {on_first + on_second, (x - on_second) - on_first, firsts(s, u)};
   }
 };
 

@@ -7,10 +7,8 @@ namespace thinwall {
 
 /// The point of a core that is nearest to a place, which moves.
 struct ClearNearest {
-  packed::Lanes at;   ///< the point
-  packed::Lanes gap;  ///< from there to the place
-  packed::Pair
-      speed;  ///< the square of what of the motion is at right angles to the part (corner, edge, face) that it is of
+  packed::Lanes at;    ///< the point
+  packed::Lanes gap;   ///< from there to the place
   packed::Pair place;  ///< [1] where on the segment, of a core that is made of one; or on each of two
 };
 
@@ -20,19 +18,19 @@ struct ClearStretch {
   static constexpr double least_square = 0x1p-960;
 
   packed::Pair free, last;  ///< [1] before and after these there is no contact
-  packed::Pair first;       ///< [1] where `free` would be if nothing were rounded
 
-  THINWALL_HOT explicit ClearStretch(const packed::Pair& until)
-      : free(packed::both(0)), last(until), first(packed::both(0)) {}
+  THINWALL_HOT explicit ClearStretch(const packed::Pair& until) : free(packed::both(0)), last(until) {}
 
   /// To when places p + v t, each a number, are within `reach`, or within `noise` of it. One that is, and does not move, tells nothing.
-  THINWALL_HOT void narrow(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& reach,
-                           const packed::Lanes& noise) {
+  /// Returns when each enters.
+  THINWALL_HOT packed::Lanes narrow(const packed::Lanes& p, const packed::Lanes& v, const packed::Lanes& reach,
+                                    const packed::Lanes& noise) {
     using packed::Lanes, packed::all;
-    const Lanes P = against(p, v), per_v = all(1) / abs(v), zero = all(0), enter = P - reach;
-    first = max(first, largest_of(max(enter * per_v, zero)));
-    free = max(free, largest_of(max((enter - noise) * per_v, zero)));
-    last = min(last, smallest_of(min((P + reach + noise) * per_v, all(last))));
+    const Lanes P = against(p, v), per_v = all(1) / abs(v), wide = reach + noise;
+    const Lanes entered = max((P - wide) * per_v, all(0));
+    free = max(free, largest_of(entered));
+    last = min(last, smallest_of(min((P + wide) * per_v, all(last))));
+    return entered;
   }
 };
 

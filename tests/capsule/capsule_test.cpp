@@ -377,37 +377,38 @@ TYPED_TEST(BadShapes, meet_nothing) {
 
 using packed::value;
 
-TEST(ClearSegmentBox, a_part_that_is_still_nearest_is_as_near_as_what_is_found_afresh) {
+TEST(ClearSegmentBox, an_aim_at_what_stays_nearest_meets_or_passes_it) {
   PortableDraw draw(7);
-  int asked = 0, still = 0;
+  const auto distance = [](const packed::Lanes& gap) { return std::sqrt(value(dot(gap, gap))); };
+  int aimed = 0, nearest = 0, met = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const Vec3<double> half = draw.vector(0.1, 2);
-    const ClearSegmentBox core(packed::lanes(draw.vector(-2, 2)), packed::lanes(half),
+    const ClearSegmentBox core(packed::lanes(draw.vector(-2, 2)), packed::lanes(draw.vector(0.1, 2)),
                                packed::lanes(draw.vector(-1, 1)));
-    const Vec3<double> from = draw.vector(-5, 5);
-    const double most = draw.one_in(2) ? 0.5 : 3;
-    const Vec3<double> to = from + draw.vector(-most, most);
-    ClearSegmentBox::Part part = core.part(packed::lanes(from));
-    const packed::Lanes gap = core.part(packed::lanes(to)).nearest.gap;
-    const double distance = std::sqrt(value(dot(gap, gap)));
-    if (distance < 1e-3) continue;
-    ++asked;
-    if (!core.is_still(packed::lanes(to), part)) continue;
-    ++still;
-    EXPECT_NEAR(std::sqrt(value(dot(part.nearest.gap, part.nearest.gap))), distance, 1e-14) << "draw " << i;
+    const double R = draw.between(0.1, 0.5);
+    const packed::Lanes from = packed::lanes(draw.vector(-5, 5));
+    if (distance(core.nearest(from).gap) < R) continue;
+    const ClearSegmentBox::Aim aim = core.aim(from, core.place(from), packed::both(R * R));
+    if (!(value(aim.time) > 0 && value(aim.time) < 20)) continue;
+    ++aimed;
+    const packed::Lanes there = from + core.v * all(aim.time);
+    const ClearNearest at = core.nearest_to(there, aim.s);
+    const double afresh = distance(core.nearest(there).gap);
+    EXPECT_GE(distance(at.gap), afresh - 1e-13) << "draw " << i;
+    if (!core.is_nearest(at, packed::both(1e-14))) continue;
+    ++nearest;
+    EXPECT_NEAR(distance(at.gap), afresh, 1e-13) << "draw " << i;
+    EXPECT_GE(afresh, R - 1e-12) << "draw " << i;
+    if (afresh < R + 1e-12) ++met;
   }
-  EXPECT_GT(still, asked / 3);
-  EXPECT_LT(still, asked);
+  EXPECT_GT(nearest, aimed / 2);
+  EXPECT_LT(nearest, aimed);
+  EXPECT_GT(met, nearest / 4);
 }
 
-TEST(ClearSegmentBox, of_a_stretch_that_is_all_as_near_the_middle_is_asked_for_afresh) {
-  const ClearSegmentBox core(packed::lanes(Vec3<double>(1, 0, 0)), packed::all(1),
-                             packed::lanes(Vec3<double>(0, -1, 0)));
-  ClearSegmentBox::Part part = core.part(packed::lanes(Vec3<double>(-3, 2, 0)));  // its end is nearest
-  EXPECT_EQ(value(part.nearest.place), 1);
-  EXPECT_TRUE(core.is_still(packed::lanes(Vec3<double>(-2.5, 2, 0)), part));
-  EXPECT_FALSE(core.is_still(packed::lanes(Vec3<double>(-1.5, 2, 0)), part));  // half of it is above the face
-  EXPECT_EQ(value(core.part(packed::lanes(Vec3<double>(-1.5, 2, 0))).nearest.place), 0.75);
+TEST(ClearSegmentBox, of_a_stretch_that_is_all_as_near_the_middle_is_told) {
+  const ClearSegmentBox core(packed::lanes(Vec3<double>(1, 0, 0)), packed::all(1), packed::all(0));
+  EXPECT_EQ(value(core.place(packed::lanes(Vec3<double>(-3, 2, 0)))), 1) << "its end is nearest";
+  EXPECT_EQ(value(core.place(packed::lanes(Vec3<double>(-1.5, 2, 0)))), 0.75) << "half of it is above the face";
 }
 
 }  // namespace

@@ -408,32 +408,19 @@ TEST(LadderFilters, a_size_below_zero_is_invalid_however_small_beside_the_rest) 
   EXPECT_EQ(time_of_impact(ClosedForm<double>{-0x1p-606}, a, a).status, ToiStatus::invalid);
 }
 
-/// A core that is a point, and a walk past it that takes it at its word.
-struct SaidCore {
-  packed::Lanes at = packed::all(0),
-                off = packed::all(0);  ///< what it says is nearest; what it adds to the gap from there
-  packed::Lanes sizes = packed::lanes(V(1, 0, 0));
-
-  packed::Lanes low() const { return packed::all(-1); }
-  packed::Lanes high() const { return packed::all(1); }
-  void narrow(ClearStretch&, const packed::Lanes&, const packed::Pair&, const packed::Pair&) const {}
-  packed::Pair reach(const packed::Lanes& n) const { return max(dot(n, packed::lanes(V(0.5, 0, 0))), packed::both(0)); }
-  struct Part {
-    ClearNearest nearest;
+TEST(LadderFilters, a_segment_that_meets_a_face_level_touches_in_more_than_one_place) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const auto at = [&](double z, double rise) {
+    const Toi<double> toi =
+        time_of_impact(Moving<Rod>{{{-4, 0, z}, {-4 + rise, 0, z + 1}, 0.5}, {4, 0, 0}}, at_rest(box));
+    EXPECT_EQ(toi.status, ToiStatus::hit);
+    return toi;
   };
-  Part part(const packed::Lanes& x) const { return {{at, x - at, packed::both(4), packed::both(0)}}; }
-  static bool is_still(const packed::Lanes&, const Part&) { return false; }
-  ClearWalk walk(const V& from, const V& by, double R) const {
-    return clear_walk(*this, packed::lanes(from), packed::lanes(by), packed::both(R));
-  }
-};
-
-TEST(LadderFilters, a_walk_proves_what_its_core_says) {
-  const V left(-4, 0, 0), right(4, 0, 0), by(4, 0, 0);
-  EXPECT_TRUE(SaidCore{}.walk(left, by, 1).clear);
-  EXPECT_EQ(value(SaidCore{}.walk(left, by, 1).time), 0.75);
-  EXPECT_FALSE(SaidCore{}.walk(right, -by, 1).clear) << "it reaches farther to the right than the point";
-  EXPECT_TRUE(SaidCore{.at = packed::lanes(V(0.5, 0, 0))}.walk(right, -by, 1).clear);
+  EXPECT_EQ(at(-0.5, 0).time, 0.625);
+  EXPECT_EQ(at(-0.5, 0).point.z(), 0) << "the middle of the segment";
+  EXPECT_EQ(at(0.5, 0).point.z(), 0.75) << "the middle of what of it is over the face";
+  EXPECT_EQ(at(-0.5, 0x1p-3).point.z(), 0.5) << "the end that comes first";
+  EXPECT_EQ(at(-0.5, -0x1p-3).point.z(), -0.5);
 }
 
 TEST(LadderFilters, which_places_of_nearly_parallel_segments_are_nearest_is_in_doubt) {
