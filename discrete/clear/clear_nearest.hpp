@@ -14,8 +14,8 @@ struct ClearNearest {
 
 /// When a path may be near a core: within all slabs that have been asked.
 struct ClearStretch {
-  /// What the square of an axis's length is taken to be more: where it would be lost the slab is too wide, not too narrow.
-  static constexpr double least_square = 0x1p-960;
+  /// What an axis's length is taken to be more: where products of it would be lost the slab is too wide, not too narrow.
+  static constexpr double least_length = 0x1p-480;
 
   packed::Pair free, last;  ///< [1] before and after these there is no contact
 

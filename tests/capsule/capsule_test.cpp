@@ -377,7 +377,7 @@ TYPED_TEST(BadShapes, meet_nothing) {
 
 using packed::value;
 
-TEST(ClearSegmentBox, an_aim_at_what_stays_nearest_meets_or_passes_it) {
+TEST(ClearSegmentBox, an_aim_is_met_where_its_part_is_nearest_still) {
   PortableDraw draw(7);
   const auto distance = [](const packed::Lanes& gap) { return std::sqrt(value(dot(gap, gap))); };
   int aimed = 0, nearest = 0, met = 0;
@@ -397,12 +397,11 @@ TEST(ClearSegmentBox, an_aim_at_what_stays_nearest_meets_or_passes_it) {
     if (!core.is_nearest(at, packed::both(1e-14))) continue;
     ++nearest;
     EXPECT_NEAR(distance(at.gap), afresh, 1e-13) << "draw " << i;
-    EXPECT_GE(afresh, R - 1e-12) << "draw " << i;
-    if (afresh < R + 1e-12) ++met;
+    if (std::abs(afresh - R) < 1e-12) ++met;
   }
   EXPECT_GT(nearest, aimed / 2);
   EXPECT_LT(nearest, aimed);
-  EXPECT_GT(met, nearest / 4);
+  EXPECT_GT(met, nearest / 20);
 }
 
 TEST(ClearSegmentBox, of_a_stretch_that_is_all_as_near_the_middle_is_told) {
