@@ -188,8 +188,9 @@ THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, 
   const Lanes a = lanes(capsule.shape.a), d = lanes(capsule.shape.b) - a;
   const Lanes p = a - center, v = lanes(capsule.displacement) - path, h = lanes(box.shape.half_extents);
   const ClearSegmentBox core(frame.into(d), h, frame.into(v));
-  const ClearWalk walk = clear_walk(core, frame.into(p), both(r + gap));
-  const Lanes on = walk.nearest.at + core.d * all(walk.nearest.place);
+  const Lanes start = frame.into(p);
+  const ClearWalk walk = clear_walk(core, start, both(r + gap));
+  const Lanes on = held_within((start + core.v * all(walk.time)) + core.d * all(walk.nearest.place), h);
   Lanes normal = walk.normal;
   Pair time = walk.time, closing = walk.closing;
   if constexpr (Frame::is_turned) {

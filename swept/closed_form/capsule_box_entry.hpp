@@ -9,39 +9,45 @@
 
 namespace thinwall {
 
-/// When the shadows of the segment p + v t + s * d, s in [0, 1], rounded by R, and of the box [-h, h] overlap on the three
-/// axes of the box and their products with d: all there are where R is zero.
+/// When the shadows of the segment p + v t + s * d, s in [0, 1], rounded by R, and of a box around 0 overlap on the three axes of the box and
+/// their products with d: all there are where R is zero.
 template <Scalar S>
-SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h,
-                                    const S& R) {
-  using std::sqrt;
+SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h, const S& R,
+                                    const Mat3<S>& axes) {
   const Vec3<S> middle = p + d / S(2);
   SharedTime<S> shared(p.cwiseAbs().sum() + d.cwiseAbs().sum() + h.sum() + R);
-  for (int i = 0; i < 3; ++i) shared.narrow(i, middle[i], v[i], h[i] + largest(d[i]) / S(2) + R);
+  const auto narrow = [&](int number, const Vec3<S>& n, const S& reach_of_segment) {
+    const S reach = h.dot(Vec3<S>(axes.transpose() * n).cwiseAbs()) + reach_of_segment;
+    shared.narrow(number, middle.dot(n), v.dot(n), reach, n.cwiseAbs().sum());
+  };
+  for (int i = 0; i < 3; ++i) narrow(i, axes.col(i), largest(S(d.dot(axes.col(i)))) / S(2) + R);
   if (!shared.ever()) return shared;
   for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const int e = safe_exponent(largest(d[j], d[k]));  // along an axis, but for so little that its square would be lost
-    const S n_j = times_power_of_two(S(-d[k]), -e), n_k = times_power_of_two(d[j], -e);
-    const S length = sqrt(n_j * n_j + n_k * n_k);
-    shared.narrow(3 + i, middle[j] * n_j + middle[k] * n_k, v[j] * n_j + v[k] * n_k,
-                  h[j] * largest(n_j) + h[k] * largest(n_k) + R * length, largest(n_j) + largest(n_k));
+    const Vec3<S> n = accurate_cross<S>(axes.col(i), d);
+    const int e = safe_exponent(largest(n));  // along an axis, but for so little that its square would be lost
+    const Vec3<S> scaled = times_power_of_two(n, -e);
+    narrow(3 + i, scaled, R * scaled.norm());
   }
   return shared;
 }
 
-/// When a segment without a radius meets the box: the shadows on six axes are all there is.
+/// When a segment without a radius meets a box around 0 of any axes: the shadows on six axes are all there is. Nothing is turned into the box's
+/// own axes, where a long core would be off by its length's rounding on them all.
 template <Scalar S>
-Entry<S> sharp_segment_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h) {
-  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(0));
+Entry<S> sharp_segment_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h,
+                                 const Mat3<S>& axes) {
   Entry<S> entry;
+  const CorePart<S> part = closest_on_swept_box<S>(Vec3<S>(axes.transpose() * p), Vec3<S>(axes.transpose() * d), h);
+  entry.inside = part.contains_point() || part.gap == Vec3<S>::Zero();
+  if (entry.inside) return entry;
+  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(0), axes);
   entry.graze = shared.close();
   if (!shared.ever() || shared.decided_by < 0) return entry;
   entry.time = shared.time();
   entry.not_before = shared.second;
   entry.not_after = shared.last;
-  const int i = shared.decided_by % 3;
-  const Vec3<S> axis = Vec3<S>::Unit(i), n = shared.decided_by < 3 ? axis : safe_unit(cross(axis, d));
+  const Vec3<S> axis = axes.col(shared.decided_by % 3);
+  const Vec3<S> n = safe_unit(shared.decided_by < 3 ? axis : accurate_cross(axis, d));
   entry.normal = v.dot(n) > S(0) ? Vec3<S>(-n) : n;
   return entry;
 }
@@ -51,14 +57,9 @@ template <Scalar S>
 Entry<S> capsule_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S& R, const Vec3<S>& d,
                                     const Vec3<S>& h) {
   const S size = largest(p, R, d, h), noise = gap_noise(largest(p, d, S(h.sum() + R)));
-  if (R == S(0)) {
-    const CorePart<S> part = closest_on_swept_box(p, d, h);
-    if (!part.contains_point() && part.gap != Vec3<S>::Zero()) return sharp_segment_box_entry(p, v, d, h);
-    Entry<S> entry;
-    entry.inside = true;
-    return entry;
-  }
-  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(R + noise));  // no contact lies outside
+  if (R == S(0)) return sharp_segment_box_entry<S>(p, v, d, h, Mat3<S>::Identity());
+  const SharedTime<S> shared =
+      segment_and_box_share<S>(p, v, d, h, S(R + noise), Mat3<S>::Identity());  // no contact lies outside
   if (!shared.ever()) return {};
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(

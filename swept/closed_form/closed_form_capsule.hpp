@@ -70,13 +70,22 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const T gap(method.min_separation), reach = capsule.shape.radius + gap;
   const Vec3<T>& h = box.shape.half_extents;
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
-  const Vec3<T> core = into<T>(box.shape, shape.b - shape.a), motion = relative_displacement(capsule, box);
+  const Vec3<T> edge = shape.b - shape.a, core = into(box.shape, edge), motion = relative_displacement(capsule, box);
   const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
   const Vec3<T> start = into(box.shape, path.start), own_motion = into(box.shape, motion);
-  const Entry<T> own = capsule_box_entry<T>(start, own_motion, reach, core, h);
+  const auto sharp = [&box](const Vec3<T>& p, const Vec3<T>& v, const T&, const Vec3<T>& d, const Vec3<T>& half) {
+    return sharp_segment_box_entry(p, v, d, half, box.shape.axes);
+  };
+  const Entry<T> own = reach > T(0) ? capsule_box_entry<T>(start, own_motion, reach, core, h)
+                                    : entry_at_safe_scale<T>(sharp, path.start, motion, reach, edge, h);
   Entry<T> entry = own;
   entry.come_later(path.base_time);
-  entry.normal = -normal_out_of(box.shape, own.normal);
+  if (reach > T(0)) {  // across an edge of the box, maybe, and the core: the longer one has the last word
+    const Vec3<T> n = normal_out_of(box.shape, own.normal);
+    entry.normal = largest(edge) < 2 * largest(h) ? freed_of_leans<T>(freed_of_lean(n, edge), box.shape)
+                                                  : freed_of_lean<T>(freed_of_leans(n, box.shape), edge);
+  }
+  entry.normal = -entry.normal;
   return toi_of_turned(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            out_of<T>(box.shape, point_on_box<T>(start + own_motion * own.time, core, h) + own.normal * (gap / 2));

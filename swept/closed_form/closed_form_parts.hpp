@@ -28,7 +28,8 @@
 namespace thinwall {
 
 /// An entry's time as settled by its normal (unit, from A to B), or as it was, with `graze` set, where that may not be done.
-/// `trust`: by how much the plane may move the shapes, in roundings of their size as `std::numeric_limits` names one.
+/// `trust`: by how much the plane may move the shapes, in roundings of their size as `std::numeric_limits` names one: of that along the normal,
+/// or where nothing wider has the last word of all of it, by which what was turned is off.
 template <class A, class B, Scalar T>
 Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry, int trust) {
   using W = Wider<T>;
@@ -44,7 +45,8 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const bool second_order_is_small = 32 * shift * motion.squaredNorm() <= round * closing || round == W(0);
   const Vec3<T> paths = narrow_a.displacement.cwiseAbs() + narrow_b.displacement.cwiseAbs();
   const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
-  const T size = entry.normal.cwiseAbs().dot(sizes) + gap, tiny = entry.time * constant_power_of_two<T, -40>();
+  const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap,
+          tiny = entry.time * constant_power_of_two < T, has_wider<T> ? -40 : -20 > ();
   const T trusted = T(trust) * std::numeric_limits<T>::epsilon() * size;
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
   const bool by_rounding = shift <= W(tiny) && std::max(W(shift * closing), W(outside * largest(motion))) <= W(trusted);
@@ -52,6 +54,17 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));
   return entry;
+}
+
+/// The unit vector n, but for what roundings lean it along an edge that it is across: that, times a long edge, is what its plane is early by.
+template <Scalar T> Vec3<T> freed_of_lean(const Vec3<T>& n, const Vec3<T>& edge) {
+  const Vec3<T> along = safe_unit(edge);
+  const T lean = n.dot(along);
+  return largest(lean) <= 16 * std::numeric_limits<T>::epsilon() ? Vec3<T>(n - along * lean) : n;
+}
+
+template <Scalar T> Vec3<T> freed_of_leans(const Vec3<T>& n, const Obb<T>& box) {
+  return freed_of_lean<T>(freed_of_lean<T>(freed_of_lean<T>(n, box.axes.col(0)), box.axes.col(1)), box.axes.col(2));
 }
 
 // ---- The closed form's options, and how an entry becomes the answer.
@@ -112,13 +125,12 @@ template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                      const Point& point) {
   const T gap(method.min_separation);
+  if (found.inside || found.gave_up) return toi_of(a, b, gap, found, point);
+  const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, gap, found, 2) : found;
   if constexpr (has_wider<T>) {
-    if (found.inside || found.gave_up) return toi_of(a, b, gap, found, point);
-    const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, gap, found, 2) : found;
-    return entry.graze ? toi_by_wider<Method, A, B, T>(method, a, b) : toi_of(a, b, gap, entry, point);
-  } else {
-    return toi_of(a, b, gap, found, point);
+    if (entry.graze) return toi_by_wider<Method, A, B, T>(method, a, b);
   }
+  return toi_of(a, b, gap, entry, point);
 }
 
 /// Where a moving sphere touches something that lies along `outward` at `time`; the middle of the gap if there is one.
