@@ -87,7 +87,10 @@ Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& m
     const auto sine = [](const Vec3<T>& n, int k) { return largest(n[(k + 1) % 3], n[(k + 2) % 3]); };
     if (i >= 0 && j >= 0) (sine(on_b, j) < sine(entry.normal, i) ? i : j) = -1;
   }
-  if (i < 0 && j < 0) return turned;
+  if (i < 0 && j < 0) {  // across an edge of each, maybe: the longer one has the last word
+    const bool a_is_longer = largest(b.half_extents) <= largest(a.half_extents);
+    return a_is_longer ? freed_of_leans(freed_of_leans(turned, b), a) : freed_of_leans(freed_of_leans(turned, a), b);
+  }
   const auto edge = [](const Obb<T>& box, int k) -> Vec3<T> { return box.axes.col(k % 3); };
   const Vec3<T> n = j < 0   ? accurate_cross(edge(a, i + 1), edge(a, i + 2))
                     : i < 0 ? accurate_cross(edge(b, j + 1), edge(b, j + 2))
@@ -124,6 +127,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   Entry<T> entry = boxes_entry(moving, gap);
   const Vec3<T> touching = moving.touching_point(entry);
   entry.come_later(path.base_time);
+  entry.normal = world_normal(to_obb(b.shape), a.shape, moving, entry);
   return toi_of_turned(method, a, b, flipped(entry),
                        [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
 }

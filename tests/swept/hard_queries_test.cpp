@@ -369,6 +369,22 @@ TEST(HardQueries, a_long_box_within_a_gap_is_met_along_a_normal_that_does_not_le
   EXPECT_NEAR(toi.time, 0.59323096091163507, 1e-15);
 }
 
+// The normal is across a rod's length but for the rounding of a turn, which its 3000 gap widths multiplied.
+TEST(HardQueries, a_long_box_within_a_gap_is_met_across_its_length) {
+  const Moving plate{Obb<double>{V(-0x1.e613456215b5cp+9, 0x1.eea3c6437048ep-3, 0x1.d458eaa24eedbp+0),
+                                 V(0, 0x1.60e9b270e3bccp+1, 0x1.0d704bb34d66cp-4),
+                                 leaning(V(-0x1.13ab3be746ed2p-1, -0x1.af5ab48bac5dap-1, 0x1.257e7d387d974p-6),
+                                         V(0x1.248896f2a34c7p-2, -0x1.9eb12cb49357cp-3, -0x1.df95cda678ffap-1),
+                                         V(0x1.95e6febe7ebdp-1, -0x1.ff3131b6a8a0fp-2, 0x1.66183b55affd1p-2))},
+                     V(-0x1.e4cacdcd9fce6p-2, -0x1.0b1449a477233p-2, -0x1.da017f6b91ab1p-7)};
+  const double c = 0x1.6a09e667f3bccp-1, s = 0x1.6a09e667f3bcdp-1;
+  const Obb<double> rod{V(-0x1.357f9f3dac0a4p-3, -0x1.601d7e6c18b8ep-2, 0x1.d2f5e54806058p-3),
+                        V(0x1.a5a8a5e0853dp+11, 0x1.cbafe0d1216c7p-3, 0x1.59760a23a1354p-11),
+                        leaning(V(1, 0, 0), V(0, -c, s), V(0, -s, -c))};
+  const auto toi = time_of_impact(ClosedForm<double>{0x1.beed2619df85bp-8}, plate, at_rest(rod));
+  EXPECT_NEAR(toi.time, 0x1.01c0ab97d2c8cp-8, 1e-15);
+}
+
 // All but along an edge, 2000 long, from beside one end of it: what rounding leans the path across it along it, the other end multiplies.
 TEST(HardQueries, a_path_along_an_edge_is_as_exact_as_from_its_near_end) {
   const Moving triangle{
