@@ -76,7 +76,7 @@ template <class Error> Panel error_panel(const std::vector<Row>& rows, std::stri
       columns_of<Row>(text("scalar", "", [](const Row& r) { return name(r.inquiry); }),
                       value("place", "", "", [](const Row& r) { return r.place; }), value("error", "", "", drawn));
   Panel panel =
-      plot(columns, rows).x("place", Axis::linear, "pair").y("error", Axis::log, std::move(label)).by("scalar");
+      plot(rows, columns).x("place", Axis::linear, "pair").y("error", Axis::log, std::move(label)).by("scalar");
   for (const auto& group : group_by(rows, &Row::place))
     panel.x_tics.push_back({static_cast<double>(group[0]->place), std::string(group[0]->pair->name)});
   panel.series.push_back({"goal", Mark::dashes, {0.5, rows.back().place + 0.5}, {goal, goal}, {}, {}});

@@ -112,8 +112,9 @@ Columns<Row> row_columns() {
 Table test_table(const std::vector<BounceTest>& tests) {
   using T = BounceTest;
   const auto is_judged = [](const T& t) { return t.means.judged > 0; };
-  const auto columns = columns_of<T>(
-      policy_column(&T::policy),
+  return in_report(table(
+      "self_test", "Means and variances of the change of energy against theory, over all cells of a policy at once.",
+      tests, policy_column(&T::policy),
       value("certain_cells", "1", "Cells in which phases do not matter: every bounce must give what theory says.",
             &T::certain_cells),
       value("certain_wrong", "1", "Of those, cells in which one does not; must be 0.", &T::certain_wrong),
@@ -130,22 +131,18 @@ Table test_table(const std::vector<BounceTest>& tests) {
             [](const T& t) { return t.variances.judged; }),
       chi_square_columns("spread_chi_square", "Sum of squared residuals of the variances.", &T::variances, "spread_"),
       value("other_cells", "1", "Cells with too few bounces to judge.", &T::other_cells),
-      value("passed", "", "All of the above hold.", &T::passed));
-  return in_report(table(
-      "self_test", "Means and variances of the change of energy against theory, over all cells of a policy at once.",
-      columns, tests));
+      value("passed", "", "All of the above hold.", &T::passed)));
 }
 
 Table dropped_table(const std::vector<LongRow>& rows) {
   using R = LongRow;
-  const auto columns = columns_of<R>(policy_and_step(), fields(&R::at, {"bounces"}),
-                                     value("energy", "1", "Energy after the last bounce over that of the first flight.",
-                                           [](const R& r) { return r.at.mean; }),
-                                     value("random_mean", "1", "Its mean at random phases, to first order.",
-                                           [](const R& r) { return r.at.random_mean; }));
   return in_report(table(
       "dropped", "The same for one run that begins with the drop itself: its phase may lock where nothing is lost.",
-      columns, rows));
+      rows, policy_and_step(), fields(&R::at, {"bounces"}),
+      value("energy", "1", "Energy after the last bounce over that of the first flight.",
+            [](const R& r) { return r.at.mean; }),
+      value("random_mean", "1", "Its mean at random phases, to first order.",
+            [](const R& r) { return r.at.random_mean; })));
 }
 
 auto error_columns() {
@@ -154,22 +151,19 @@ auto error_columns() {
 }
 
 Table even_phases_table(const std::vector<WorkRow>& work) {
-  const auto columns = columns_of<WorkRow>(
-      policy_and_step(), delta_column(),
-      value("bounces", "1", "Phases.", [](const WorkRow& w) { return w.errors.trials; }), error_columns());
   return table("even_phases",
-               "Change of energy a bounce without loss at evenly spaced phases: the errors of the timed bounces.",
-               columns, work);
+               "Change of energy a bounce without loss at evenly spaced phases: the errors of the timed bounces.", work,
+               policy_and_step(), delta_column(),
+               value("bounces", "1", "Phases.", [](const WorkRow& w) { return w.errors.trials; }), error_columns());
 }
 
 Table timings_table(const std::vector<WorkRow>& work) {
-  const auto columns =
-      columns_of<WorkRow>(policy_and_step(), error_columns(),
-                          measured("nanoseconds", "ns", "A bounce; median over the rounds.", &WorkRow::nanoseconds),
-                          value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
-                                [](const WorkRow& w) { return w.nanoseconds.value * delta(w.cell) / 2; }));
-  return timing(in_report(table(
-      "timings", "Time a bounce, from apex to apex, on this machine, the threads of the run at work.", columns, work)));
+  return timing(
+      in_report(table("timings", "Time a bounce, from apex to apex, on this machine, the threads of the run at work.",
+                      work, policy_and_step(), error_columns(),
+                      measured("nanoseconds", "ns", "A bounce; median over the rounds.", &WorkRow::nanoseconds),
+                      value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
+                            [](const WorkRow& w) { return w.nanoseconds.value * delta(w.cell) / 2; }))));
 }
 
 // What the pictures show.
@@ -202,13 +196,12 @@ Figure energy_figure(const std::vector<Row>& rows, const Table& means) {
 Figure work_figure(const std::vector<WorkRow>& work) {
   const auto panel = [&](std::string label, double (WorkRow::*error)() const) {
     constexpr double least_error = 0x1p-60;  // drawn in place of an error that is less, down to 0
-    const auto columns = columns_of<WorkRow>(
-        policy_column(policy_of), measured("nanoseconds", "ns", "", &WorkRow::nanoseconds),
-        value("error", "1", "", [=](const WorkRow& w) { return std::max(least_error, std::abs((w.*error)())); }));
-    return joined(plot(columns, work)
-                      .x("nanoseconds", Axis::log, "run time [ns a bounce]")
-                      .y("error", Axis::log, std::move(label))
-                      .by("policy"));
+    return joined(
+        plot(work, policy_column(policy_of), measured("nanoseconds", "ns", "", &WorkRow::nanoseconds),
+             value("error", "1", "", [=](const WorkRow& w) { return std::max(least_error, std::abs((w.*error)())); }))
+            .x("nanoseconds", Axis::log, "run time [ns a bounce]")
+            .y("error", Axis::log, std::move(label))
+            .by("policy"));
   };
   return {
       .name = "energy_against_time",

@@ -112,16 +112,14 @@ Table times_by_count(const Group<SurveyRow>& kind, const std::vector<Course>& al
 
 std::vector<Panel> panels_by_kind(const std::vector<SurveyRow>& rows, const std::string& quantity,
                                   const std::function<std::optional<Measured>(const FindingRow&)>& get) {
-  const auto columns =
-      columns_of<FindingRow>(crowd_factors().columns(&FindingRow::crowd), fields(&FindingRow::finding, {"broad_phase"}),
-                             measured("y", "", "", get));
   std::vector<Panel> panels;
   for (const Group<SurveyRow>& kind : group_by(rows, kind_of)) {
     std::vector<SurveyRow> rising;
     for (const SurveyRow* row : kind) rising.push_back(*row);
     std::ranges::stable_sort(rising, {}, [](const SurveyRow& row) { return row.crowd.count; });
     const auto [placement, speed] = kind_of(*kind[0]);
-    panels.push_back(joined(plot(columns, findings_of(rising))
+    panels.push_back(joined(plot(findings_of(rising), crowd_factors().columns(&FindingRow::crowd),
+                                 fields(&FindingRow::finding, {"broad_phase"}), measured("y", "", "", get))
                                 .x("count", Axis::log, "balls")
                                 .y("y", Axis::log, fmt::format("{}; {}, {:g} m a step", quantity, placement, speed))
                                 .by("broad_phase")));

@@ -177,14 +177,13 @@ Columns<Contest> compare_columns() {
 
 Table compare_timings_table(const Comparison& comparison, const std::vector<Contest>& contests) {
   const double duration = comparison.scene.duration();
-  const auto columns =
-      columns_of<Contest>(key_columns(), run_time_column(duration),
-                          value("seconds_least", "1", "The shortest of the repeats.",
-                                [duration](const Contest& c) { return std::ranges::min(c.seconds) / duration; }),
-                          value("seconds_most", "1", "The longest.",
-                                [duration](const Contest& c) { return std::ranges::max(c.seconds) / duration; }));
-  return in_report(timing(table(
-      "timings", "Run time of stepping one second of the scene, each contender on one thread.", columns, contests)));
+  return in_report(
+      timing(table("timings", "Run time of stepping one second of the scene, each contender on one thread.", contests,
+                   key_columns(), run_time_column(duration),
+                   value("seconds_least", "1", "The shortest of the repeats.",
+                         [duration](const Contest& c) { return std::ranges::min(c.seconds) / duration; }),
+                   value("seconds_most", "1", "The longest.",
+                         [duration](const Contest& c) { return std::ranges::max(c.seconds) / duration; }))));
 }
 
 /// What the pictures show of each.
@@ -199,11 +198,10 @@ Table drawn_table(const Comparison& comparison, const std::vector<Contest>& cont
     const auto [shortest, longest] = std::ranges::minmax(c.seconds);
     return Measured{cost(c, duration), {shortest / duration, longest / duration}};
   };
-  const auto columns =
-      columns_of<Contest>(key_columns(), value("step", "", "", [](const Contest& c) { return 1e3 * c.contender.dt; }),
-                          value("went_through", "", "", [](const Contest& c) { return c.trial.went_through(); }),
-                          value("error", "", "", error), measured("seconds", "", "", run_time));
-  return table("drawn", "", columns, contests);
+  return table("drawn", "", contests, key_columns(),
+               value("step", "", "", [](const Contest& c) { return 1e3 * c.contender.dt; }),
+               value("went_through", "", "", [](const Contest& c) { return c.trial.went_through(); }),
+               value("error", "", "", error), measured("seconds", "", "", run_time));
 }
 
 /// Contacts that went unseen or through and time error against the step, one series a policy.

@@ -120,27 +120,24 @@ std::vector<Total> totals_of(const std::vector<Row>& rows) {
 }
 
 Table rules_table(const std::vector<Total>& totals) {
-  const auto columns = columns_of<Total>(
-      text("rule", "How a hit is found.", &Total::rule), fields(&Total::tally, {"shots", "touching", "missed"}),
-      where(&Total::has_theory,
-            columns_of<Total>(
-                value("missed_expected", "1", "By theory; missing where it has no formula for every cell.",
-                      &Total::missed_theory),
-                value("missed_least", "1", "Share of true hits missed, by theory, in the cell where it is least.",
-                      &Total::least_missed),
-                value("missed_most", "1", "The same where it is most.", &Total::most_missed))),
-      fields(&Total::tally, {"false_hits", "lateness_max"}));
-  return in_report(table("rules", "Each rule over all of its cells, every cell with the same number of encounters.",
-                         columns, totals));
+  return in_report(
+      table("rules", "Each rule over all of its cells, every cell with the same number of encounters.", totals,
+            text("rule", "How a hit is found.", &Total::rule), fields(&Total::tally, {"shots", "touching", "missed"}),
+            where(&Total::has_theory,
+                  columns_of<Total>(
+                      value("missed_expected", "1", "By theory; missing where it has no formula for every cell.",
+                            &Total::missed_theory),
+                      value("missed_least", "1", "Share of true hits missed, by theory, in the cell where it is least.",
+                            &Total::least_missed),
+                      value("missed_most", "1", "The same where it is most.", &Total::most_missed))),
+            fields(&Total::tally, {"false_hits", "lateness_max"})));
 }
 
 Table rule_timings_table(const std::vector<Total>& totals) {
-  const auto columns =
-      columns_of<Total>(text("rule", "How a hit is found.", &Total::rule),
-                        value("nanoseconds_per_shot", "ns", "Drawing and the exact motion included.",
-                              [](const Total& t) { return 1e9 * t.seconds / static_cast<double>(t.tally.shots); }));
-  return timing(
-      table("timings", "Time an encounter, on this machine, the threads of the run at work.", columns, totals));
+  return timing(table("timings", "Time an encounter, on this machine, the threads of the run at work.", totals,
+                      text("rule", "How a hit is found.", &Total::rule),
+                      value("nanoseconds_per_shot", "ns", "Drawing and the exact motion included.",
+                            [](const Total& t) { return 1e9 * t.seconds / static_cast<double>(t.tally.shots); })));
 }
 
 Table counts_test_table(const std::vector<SelfTest>& tests) {
@@ -151,7 +148,8 @@ Table counts_test_table(const std::vector<SelfTest>& tests) {
 
 Table timing_test_table(const std::vector<TimingTest>& tests) {
   using T = TimingTest;
-  const auto columns = columns_of<T>(
+  return in_report(table(
+      "times", "Times of impact against what they can be, for the rules that claim that a hit is one.", tests,
       text("rule", "How a hit is found.", &T::rule), value("cells", "1", "Cells in which it gave a time.", &T::cells),
       value("apart", "1", "Of those, cells with a time at which the balls are apart; must be 0.", &T::apart),
       value("wrong_time", "1",
@@ -159,10 +157,7 @@ Table timing_test_table(const std::vector<TimingTest>& tests) {
             &T::wrong_time),
       residual_columns("Cells whose mean lateness is held against theory.",
                        "Sum of squared standard residuals of the mean lateness.", &T::lateness),
-      value("passed", "", "All of the above hold.", &T::passed));
-  return in_report(table("times",
-                         "Times of impact against what they can be, for the rules that claim that a hit is one.",
-                         columns, tests));
+      value("passed", "", "All of the above hold.", &T::passed)));
 }
 
 // What the pictures show: shares over the angle, a series for each ratio of speeds.
@@ -200,17 +195,16 @@ Series theory_curves(const std::vector<Row>& rows, const Quantity& quantity) {
 /// Rows of one speed and offset. Of one ratio the marks are the same in every figure.
 Panel panel(std::vector<Row> rows, std::string y_label, const Quantity& quantity) {
   std::ranges::stable_sort(rows, {}, [](const Row& r) { return r.cell.ratio; });
-  const auto columns = columns_of<Row>(value("angle", "", "", [](const Row& r) { return r.cell.angle_deg; }),
-                                       text("ratio", "",
-                                            [](const Row& r) {
-                                              return r.cell.ratio == 0 ? "slower ball at rest"
-                                                                       : fmt::format("speed ratio {}", r.cell.ratio);
-                                            }),
-                                       measured("y", "", "", quantity.measured));
-  Panel panel = plot(columns, rows)
-                    .x("angle", Axis::linear, "angle between the motions [deg], 180 is head-on")
-                    .y("y", Axis::linear, std::move(y_label))
-                    .by("ratio");
+  Panel panel =
+      plot(rows, value("angle", "", "", [](const Row& r) { return r.cell.angle_deg; }),
+           text("ratio", "",
+                [](const Row& r) {
+                  return r.cell.ratio == 0 ? "slower ball at rest" : fmt::format("speed ratio {}", r.cell.ratio);
+                }),
+           measured("y", "", "", quantity.measured))
+          .x("angle", Axis::linear, "angle between the motions [deg], 180 is head-on")
+          .y("y", Axis::linear, std::move(y_label))
+          .by("ratio");
   panel.series.push_back(theory_curves(rows, quantity));
   return panel;
 }

@@ -105,43 +105,38 @@ Columns<Row> bounce_columns() {
 }
 
 Table told_table(const Rows& rows) {
-  const auto columns = columns_of<Row>(
-      names_and_factors(), verdict_columns(),
-      value("right_up_to", "m", "Longest path up to which it kept every ball in front; 0 is none of those asked.",
-            [&](const Row& r) { return safe_up_to(rows, r); }),
-      bounce_columns());
-  return in_report(table("engines", fmt::format("Every engine and mode at {} m a step.", told_path(rows)), columns,
-                         told_rows(rows)));
+  return in_report(
+      table("engines", fmt::format("Every engine and mode at {} m a step.", told_path(rows)), told_rows(rows),
+            names_and_factors(), verdict_columns(),
+            value("right_up_to", "m", "Longest path up to which it kept every ball in front; 0 is none of those asked.",
+                  [&](const Row& r) { return safe_up_to(rows, r); }),
+            bounce_columns()));
 }
 
 Table cells_table(const Rows& rows) {
-  return table("cells", "Every engine and mode at every path and wall.",
-               columns_of<Row>(names_and_factors(), verdict_columns(),
-                               fields(&Row::tally, {"unseen", "stuck", "lost", "turned"}),
-                               value("held", "1", "Balls in front of the wall that do not.",
-                                     [](const Row& r) { return r.tally.shots - r.tally.wrong() - r.tally.turned; }),
-                               bounce_columns(),
-                               value("lateness_path", "m", "The mean lateness as a path.",
-                                     [](const Row& r) {
-                                       const auto late = r.tally.lateness.mean();
-                                       return late ? std::optional(*late * r.cell.path) : std::nullopt;
-                                     }),
-                               fields(&Row::tally, {"earliest", "deepest"})),
-               rows);
+  return table("cells", "Every engine and mode at every path and wall.", rows, names_and_factors(), verdict_columns(),
+               fields(&Row::tally, {"unseen", "stuck", "lost", "turned"}),
+               value("held", "1", "Balls in front of the wall that do not.",
+                     [](const Row& r) { return r.tally.shots - r.tally.wrong() - r.tally.turned; }),
+               bounce_columns(),
+               value("lateness_path", "m", "The mean lateness as a path.",
+                     [](const Row& r) {
+                       const auto late = r.tally.lateness.mean();
+                       return late ? std::optional(*late * r.cell.path) : std::nullopt;
+                     }),
+               fields(&Row::tally, {"earliest", "deepest"}));
 }
 
 constexpr const char* whose_clock =
     "Processor time of the thread; of engines in npm packages, wall-clock time, which a busy machine lengthens.";
 
 Table timings_table(const Rows& rows) {
-  const auto columns = columns_of<Row>(
-      names_and_factors(),
+  return timing(table(
+      "timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock), rows, names_and_factors(),
       measured("nanoseconds", "ns", "Time a step of a world of one wall and one ball, median over volleys.", time_of,
                "", "its 95 % bootstrap interval"),
       value("volleys", "1", "Timed apart, in turn with the other engines.",
-            [](const Row& r) { return r.nanoseconds.size(); }));
-  return timing(
-      table("timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock), columns, rows));
+            [](const Row& r) { return r.nanoseconds.size(); })));
 }
 
 /// One row an engine that took part.
@@ -149,21 +144,18 @@ Table packages_table(const Rows& rows) {
   std::vector<Engine> engines;
   const auto name = [](const Row& row) { return row.setup->engine.name; };
   for (const Group<Row>& group : group_by(rows, name)) engines.push_back(group[0]->setup->engine);
-  return table("packages", "What each engine came from.",
-               columns_of<Engine>(text("engine", "The physics engine.", &Engine::called),
-                                  text("package", "Of Debian or npm; empty: this program.", &Engine::package),
-                                  text("version", "Of the package.", &Engine::version),
-                                  text("integrity", "The npm package's hash.", &Engine::integrity)),
-               engines);
+  return table("packages", "What each engine came from.", engines,
+               text("engine", "The physics engine.", &Engine::called),
+               text("package", "Of Debian or npm; empty: this program.", &Engine::package),
+               text("version", "Of the package.", &Engine::version),
+               text("integrity", "The npm package's hash.", &Engine::integrity));
 }
 
 // What the pictures show.
 
 /// A line and its points for each engine and mode, of a column against the path.
 Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
-  const auto columns =
-      columns_of<Row>(text("label", "", label_of<Row>), names_and_factors(), verdict_columns(), bounce_columns());
-  return joined(plot(columns, rows)
+  return joined(plot(rows, text("label", "", label_of<Row>), names_and_factors(), verdict_columns(), bounce_columns())
                     .x("path", Axis::log, "path of the ball in a step [m]")
                     .y(column, Axis::linear, std::move(y_label))
                     .by("label"));
@@ -249,14 +241,12 @@ Figure time_figure(const Rows& rows) {
                              "through at {} m a step, with 95 % intervals. {}",
                              path, whose_clock),
       .is_timing = true};
-  const auto columns =
-      columns_of<Row>(text("label", "", label_of<Row>), measured("through", "", "", percent_of, "through_"),
-                      measured("time", "", "", time_of, "time_"));
   for (const double wall : walls_of(rows)) {
     Rows some = rows_at(told_rows(rows), wall);
     std::stable_partition(some.begin(), some.end(), looks_at_poses);  // as in the other pictures: so are the marks
     figure.panels.push_back(
-        plot(columns, some)
+        plot(some, text("label", "", label_of<Row>), measured("through", "", "", percent_of, "through_"),
+             measured("time", "", "", time_of, "time_"))
             .x("through", Axis::linear, fmt::format("through at {} m a step, wall {} m wide [%]", path, wall))
             .y("time", Axis::log, "time a step [ns]")
             .by("label"));
@@ -396,11 +386,10 @@ Table stages_table(const std::vector<StageRow>& rows) {
 }
 
 Table stage_timings_table(const std::vector<StageRow>& rows) {
-  const auto columns =
-      columns_of<StageRow>(stage_columns(), value("nanoseconds", "ns", "Time a step, median over volleys.",
-                                                  [](const StageRow& r) { return median(r.nanoseconds); }));
-  return timing(table("stage_timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock),
-                      columns, rows));
+  return timing(table("stage_timings", fmt::format("Time a step; making the world is not in it. {}", whose_clock), rows,
+                      stage_columns(),
+                      value("nanoseconds", "ns", "Time a step, median over volleys.",
+                            [](const StageRow& r) { return median(r.nanoseconds); })));
 }
 
 std::string stages_summary(const std::vector<StageRow>& rows) {

@@ -109,18 +109,16 @@ Table ladder_test_table(const std::vector<LadderTest>& tests) {
   const auto finite = [](double T::*part) {
     return [part](const T& t) { return std::isfinite(t.*part) ? std::optional(t.*part) : std::nullopt; };
   };
-  const auto columns = columns_of<T>(
-      text("what", "What theory says something about; docs/extremes.md has the units.", &T::what),
-      text("precision", "Floating-point type.", &T::precision),
-      value("cells", "1", "Cells it is held against.", &T::cells),
-      value("measured", "1", "The worst of them; missing: there is none.", finite(&T::measured)),
-      value("least", "1", "Least allowed.", &T::least),
-      value("most", "1", "Most allowed; missing: no bound.", finite(&T::most)),
-      text("where", "The worst cell.", &T::where), value("passed", "", "Within what is allowed.", &T::passed));
   return in_report(
       table("self_test",
             "The contract of the closed form, and the theory of the textbook's loss between two balls, by precision.",
-            columns, tests));
+            tests, text("what", "What theory says something about; docs/extremes.md has the units.", &T::what),
+            text("precision", "Floating-point type.", &T::precision),
+            value("cells", "1", "Cells it is held against.", &T::cells),
+            value("measured", "1", "The worst of them; missing: there is none.", finite(&T::measured)),
+            value("least", "1", "Least allowed.", &T::least),
+            value("most", "1", "Most allowed; missing: no bound.", finite(&T::most)),
+            text("where", "The worst cell.", &T::where), value("passed", "", "Within what is allowed.", &T::passed)));
 }
 
 /// By arm and precision.
@@ -129,17 +127,16 @@ Table breaks_table(const std::vector<Rung>& rungs) {
   std::vector<S> breaks;
   for (const Rung& rung : rungs) std::ranges::copy_if(rung.arms, std::back_inserter(breaks), &S::is_asked);
   std::ranges::stable_sort(breaks, {}, [](const S& s) { return std::pair(s.arm, s.precision); });
-  const auto columns = columns_of<S>(
-      text("axis", "What is extreme.", [](const S& s) { return info(s.arm->axis).name; }),
-      text("side", "Towards greater or lesser values.", [](const S& s) { return s.arm->side_name(); }),
-      text("precision", "Floating-point type.", &S::precision),
-      text("method", "Way to find the time of impact; textbook is a foil.", &S::method),
-      text("pairs", "With a ball, three pairs; or two boxes.", &S::pairs),
-      value("survived", "1", "Last value before the first break; missing: none.", &S::survived),
-      value("broken", "1", "First value at which it breaks; missing: none.", &S::broken),
-      text("why", "A wrong verdict, an error, nan or gave_up.", &S::flaw), text("pair", "On which shapes.", &S::pair));
-  return table("breaks", "How far each method gets along each axis, on the pairs that every method is asked.", columns,
-               breaks);
+  return table("breaks", "How far each method gets along each axis, on the pairs that every method is asked.", breaks,
+               text("axis", "What is extreme.", [](const S& s) { return info(s.arm->axis).name; }),
+               text("side", "Towards greater or lesser values.", [](const S& s) { return s.arm->side_name(); }),
+               text("precision", "Floating-point type.", &S::precision),
+               text("method", "Way to find the time of impact; textbook is a foil.", &S::method),
+               text("pairs", "With a ball, three pairs; or two boxes.", &S::pairs),
+               value("survived", "1", "Last value before the first break; missing: none.", &S::survived),
+               value("broken", "1", "First value at which it breaks; missing: none.", &S::broken),
+               text("why", "A wrong verdict, an error, nan or gave_up.", &S::flaw),
+               text("pair", "On which shapes.", &S::pair));
 }
 
 Columns<Row> key_columns() {
@@ -272,19 +269,18 @@ Figure loss_figure(const std::vector<Row>& rows) {
     }
   }
   const auto unit = [](const Row& r) { return unit_of(r.precision) * r.place.value * r.place.value / 2; };
-  const auto columns = columns_of<Row>(
-      text("who", "", [](const Row& r) { return fmt::format("{}, {}", title_of(r.precision), r.tally.method); }),
-      value("distance", "1", "", [](const Row& r) { return r.place.value; }),
-      where([](const Row& r) { return r.tally.loss_rms != 0; },
-            value("loss", "1", "", [=](const Row& r) { return r.tally.loss_rms * unit(r); })),
-      where([](const Row& r) { return r.tally.method == "textbook"; }, value("theory", "1", "", unit)));
   return {
       "textbook_loss",
       "What the textbook's quadratic loses between two balls",
       "Root mean square of the error of the place of contact along the normal, over the radius, where it finds one. The "
       "lines are u (d/R)^2 / 2, one a precision; points leave them where verdicts go wrong, at d/R = 1/sqrt(u). The "
       "closed form's stay at u d/R, whose slope is half.",
-      {plot(columns, drawn)
+      {plot(drawn,
+            text("who", "", [](const Row& r) { return fmt::format("{}, {}", title_of(r.precision), r.tally.method); }),
+            value("distance", "1", "", [](const Row& r) { return r.place.value; }),
+            where([](const Row& r) { return r.tally.loss_rms != 0; },
+                  value("loss", "1", "", [=](const Row& r) { return r.tally.loss_rms * unit(r); })),
+            where([](const Row& r) { return r.tally.method == "textbook"; }, value("theory", "1", "", unit)))
            .x("distance", Axis::log, "distance / R [1]")
            .y("loss", Axis::log, "error along the normal / R [1]")
            .by("who")

@@ -123,7 +123,8 @@ std::vector<Total> totals_of(const Rows& rows) {
 
 Table rules_table(const std::vector<Total>& totals) {
   using T = Total;
-  const auto columns = columns_of<T>(
+  return in_report(table(
+      "rules", "Each rule over all of its cells, every cell with the same number of shots.", totals,
       text("rule", "How a hit is found.", &T::rule), fields(&T::tally, {"shots", "touching", "missed"}),
       value("missed_expected", "1", "By theory.", &T::missed_theory),
       value("reported", "1", "Hits that the rule reports.", reported), fields(&T::tally, {"false_hits"}),
@@ -135,9 +136,7 @@ Table rules_table(const std::vector<Total>& totals) {
       value("path_error_max", "m", "Largest distance from the arc at the range, of all cells.",
             [](const T& t) { return t.tally.path_error.most; }),
       where(is_timed, value("point_error_max", "m", "Largest distance from the true point on the target, of all cells.",
-                            [](const T& t) { return t.tally.point_error.most; })));
-  return in_report(
-      table("rules", "Each rule over all of its cells, every cell with the same number of shots.", columns, totals));
+                            [](const T& t) { return t.tally.point_error.most; }))));
 }
 
 /// [s] The flight time from which on the ray of a bullet without radius misses this share of the hits.
@@ -154,30 +153,27 @@ Table reach_table(const std::vector<Cell>& cells) {
   };
   const auto range = [](double share) { return [=](const Cell& c) { return range_of_missed(c, share); }; };
   const auto time = [](double share) { return [=](const Cell& c) { return time_of_missed(c, share); }; };
-  const auto columns =
-      columns_of<Cell>(columns_in_turn(std::identity(), "speed", "drag", "wind", "gravity", "target"),
-                       value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
-                       value("time_5_percent", "s", "Flight time to there.", time(0.05)),
-                       value("range_50_percent", "m", "Range at which half of the hits are missed.", range(0.5)),
-                       value("time_50_percent", "s", "Flight time to there.", time(0.5)));
   return in_report(
       table("reach",
             "How far hitscan is good: the range at which the ray misses a share of the hits of a bullet without "
             "radius, in the limit of flat fire. Missing where the bullet slows to a tenth of its speed before.",
-            columns, distinct(cells, bullet)));
+            distinct(cells, bullet), columns_in_turn(std::identity(), "speed", "drag", "wind", "gravity", "target"),
+            value("range_5_percent", "m", "Range at which 5 % of the hits are missed.", range(0.05)),
+            value("time_5_percent", "s", "Flight time to there.", time(0.05)),
+            value("range_50_percent", "m", "Range at which half of the hits are missed.", range(0.5)),
+            value("time_50_percent", "s", "Flight time to there.", time(0.5))));
 }
 
 Table moments_table(const std::vector<HitscanMomentTest>& tests) {
   using T = HitscanMomentTest;
-  const auto columns = columns_of<T>(
+  return in_report(table(
+      "moments", "Path errors and lateness against theory, over all cells of a rule at once.", tests,
       text("rule", "How a hit is found.", &T::rule), text("quantity", "What is measured.", &T::quantity),
       value("cells", "1", "Cells in which it is.", &T::cells),
       value("out_of_bounds", "1", "Of those, cells with a shot beyond what is possible; must be 0.", &T::out_of_bounds),
       residual_columns("Cells whose mean is held against theory.", "Sum of squared standard residuals of the means.",
                        &T::means),
-      value("passed", "", "All of the above hold.", &T::passed));
-  return in_report(
-      table("moments", "Path errors and lateness against theory, over all cells of a rule at once.", columns, tests));
+      value("passed", "", "All of the above hold.", &T::passed)));
 }
 
 // What the pictures show.
@@ -196,15 +192,14 @@ Plot drawn(const Rows& rows) {
     if (!r.expected.lateness) return std::nullopt;
     return normal_mean(steps_late(r), r.expected.lateness->sigma / r.cell.step, r.tally.lateness.count);
   };
-  const auto columns = columns_of<Row>(
-      row_columns(),
+  return plot(
+      rows, row_columns(),
       text("bullet", "", [](const Row& r) { return fmt::format("bullet radius {:g} mm", 1e3 * r.cell.radius); }),
       value("off", "", "", [](const Row& r) { return deflection(r.cell) / r.cell.target; }),
       value("speed_there", "", "", speed_there), where(is_judged, value("residual", "", "", missed_residual)),
       where(is_timed, together(measured("late", "", "", late, "late_"),
                                value("early", "", "", [](const Row& r) { return -steps_late(r); }))),
       value("flight", "", "", [](const Row& r) { return flight_time(r.cell) / r.cell.step; }));
-  return plot(columns, rows);
 }
 
 /// Of hitscan, all with some deflection and the same target.

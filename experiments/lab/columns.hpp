@@ -7,6 +7,7 @@
 ///       share("probability", "tunneled / shots.", &Row::tunneled, &Row::shots),  // and its Wilson interval
 ///       value("theory", "1", "By theory.", [](const Row& r) { return r.theory; }));  // an empty optional: an empty cell
 ///   Table cells = table("cells", "Every cell.", columns, rows);
+///   Table methods = table("methods", "Every method.", totals, text("method", "Its name.", &Total::method), fields(&Total::tally));
 ///   Table brief = in_report(table("bullet", "The bullet.", columns.without({"queries"}), bullets));
 
 #include <algorithm>
@@ -124,6 +125,11 @@ template <class Get> ValueColumn<Get> value(std::string name, std::string unit, 
 }
 template <class Get> ValueColumn<Get> text(std::string name, std::string description, Get get) {
   return {std::move(name), "", std::move(description), std::move(get)};
+}
+
+/// What a part of a row says: `of(&Row::tally, &Tally::mean)`.
+auto of(auto part, auto what) {
+  return [=](const auto& row) { return std::invoke(what, std::invoke(part, row)); };
 }
 
 /// The columns of `part`, empty in the rows for which `condition` does not hold.
@@ -263,6 +269,12 @@ Table table(std::string name, std::string description, const Columns<Row>& colum
     for (const ColumnOf<Row>& column : columns.all()) values.push_back(column.read(row));
   }
   return table;
+}
+
+/// Of the parts' columns.
+template <class Row, class... Parts>
+Table table(std::string name, std::string description, const std::vector<Row>& rows, const Parts&... parts) {
+  return table(std::move(name), std::move(description), columns_of<Row>(parts...), rows);
 }
 
 /// Shown whole in the report.

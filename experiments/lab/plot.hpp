@@ -74,8 +74,8 @@ inline Plot plot(const Table& table) { return Plot(table); }
 std::vector<Figure> only_measured(std::vector<Figure> figures);
 
 /// Of columns that no table of the result has.
-template <class Row> Plot plot(const Columns<Row>& columns, const std::vector<Row>& rows) {
-  return Plot(table("drawn", "", columns, rows));
+template <class Row, class... Parts> Plot plot(const std::vector<Row>& rows, const Parts&... parts) {
+  return Plot(table("drawn", "", rows, parts...));
 }
 
 /// With a line through the points of each series, below them.

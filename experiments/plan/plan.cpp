@@ -67,33 +67,29 @@ auto tunneled_column() {
 }
 
 Table savings_table(const std::vector<PlanRace>& races) {
-  const auto columns = columns_of<WayRow>(
+  return in_report(timing(table(
+      "savings", "What a step takes with the plan, and how much more with each omission taken back.", rows_of(races),
       scene_column(), way_fields({"way"}), time_column(),
       measured("saved", "ms", "Time of a step less that of the plan: median over the rounds of the differences.",
                &WayRow::saved, "saved_"),
       ratio_column(), way_fields({"bytes"}), value("bytes_saved", "B", "Less that of the plan.", [](const WayRow& row) {
         return row.way.bytes - row.lean.bytes;
-      }));
-  return in_report(
-      timing(table("savings", "What a step takes with the plan, and how much more with each omission taken back.",
-                   columns, rows_of(races))));
+      }))));
 }
 
 Table ways_table(const std::vector<PlanRace>& races) {
-  const auto columns = columns_of<WayRow>(scene_column(), way_fields({"way"}), same_column(),
-                                          way_fields({"repeated_alike", "sweeps", "gated", "hits"}), tunneled_column());
-  return in_report(
-      table("ways", "What each way to step finds and asks, the same in every run.", columns, rows_of(races)));
+  return in_report(table("ways", "What each way to step finds and asks, the same in every run.", rows_of(races),
+                         scene_column(), way_fields({"way"}), same_column(),
+                         way_fields({"repeated_alike", "sweeps", "gated", "hits"}), tunneled_column()));
 }
 
 /// For the terminal.
 Table race_table(const PlanRace& race) {
-  const auto columns = columns_of<WayRow>(way_fields({"way"}), time_column(), ratio_column(),
-                                          way_fields({"sweeps", "bytes", "hits"}), tunneled_column(), same_column());
   return table(race.scene,
                fmt::format("{}: {} bodies, {} steps; each omission taken back in turn.", race.scene,
                            grouped_text(race.bodies), grouped_text(race.steps)),
-               columns, rows_of(race));
+               rows_of(race), way_fields({"way"}), time_column(), ratio_column(),
+               way_fields({"sweeps", "bytes", "hits"}), tunneled_column(), same_column());
 }
 
 double path_of(const GateRow& row) { return row.cell.path; }
@@ -126,13 +122,11 @@ Table gate_table(const std::vector<GateRow>& rows) {
 }
 
 Table gate_timings_table(const std::vector<GateRow>& rows) {
-  const auto columns = columns_of<GateRow>(cell_columns(),
-                                           value("time", "ms", "A step with the gate: median over the rounds.",
-                                                 [](const GateRow& row) { return median(row.tally.milliseconds); }),
-                                           value("time_without_gate", "ms", "A step without.", [](const GateRow& row) {
-                                             return median(row.tally.swept_milliseconds);
-                                           }));
-  return timing(table("gate_timings", "Time of a step of the shots, with the gate and without.", columns, rows));
+  return timing(table("gate_timings", "Time of a step of the shots, with the gate and without.", rows, cell_columns(),
+                      value("time", "ms", "A step with the gate: median over the rounds.",
+                            [](const GateRow& row) { return median(row.tally.milliseconds); }),
+                      value("time_without_gate", "ms", "A step without.",
+                            [](const GateRow& row) { return median(row.tally.swept_milliseconds); })));
 }
 
 // What the pictures show.
@@ -151,9 +145,7 @@ Figure savings_figure(const std::vector<PlanRace>& races) {
     const Measured more = row.saved().times(1 / median(row.lean.milliseconds));
     return Measured{1 + more.value, {1 + more.interval.lower, 1 + more.interval.upper}};
   };
-  const auto columns =
-      columns_of<WayRow>(way_fields({"way"}), value("scene", "", "", aside), measured("y", "", "", relative));
-  Panel panel = plot(columns, rows)
+  Panel panel = plot(rows, way_fields({"way"}), value("scene", "", "", aside), measured("y", "", "", relative))
                     .x("scene")
                     .y("y", Axis::log, "time of a step over that of the plan [1]")
                     .by("way")
@@ -172,7 +164,7 @@ Figure savings_figure(const std::vector<PlanRace>& races) {
 Panel gate_panel(const std::vector<GateRow>& rows, GateTarget target) {
   const auto label = text("series", "", [](const GateRow& row) { return fmt::format("gate {:g}", row.cell.gate); });
   const std::string name = gate_target_name(target);
-  Plot points = plot(columns_of<GateRow>(gate_columns(), label), rows);
+  Plot points = plot(rows, gate_columns(), label);
   points.where("target", name).x("path", Axis::log, "path of a step [radii]").by("series");
   const double shortest = std::ranges::min(rows, {}, path_of).cell.path,
                longest = std::ranges::max(rows, {}, path_of).cell.path;

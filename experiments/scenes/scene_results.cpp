@@ -103,20 +103,17 @@ Table in_report_if_short(Table table) {
 }
 
 Table events_table(const Playback& playback) {
-  const auto columns = columns_of<LoggedEvent>(
-      value("time", "s", "When they met; of an end, when the step ended.", &LoggedEvent::time),
-      value("step", "1", "Number of the step.", &LoggedEvent::step),
-      text("event", "begin or end.", [](const LoggedEvent& e) { return e.begins ? "begin" : "end"; }),
-      pair_columns<LoggedEvent>(playback));
-  return in_report_if_short(table("events",
-                                  "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.",
-                                  columns, playback.events));
+  return in_report_if_short(
+      table("events", "Who met whom, and when: begins and ends of contacts, in order; the first 10 000.",
+            playback.events, value("time", "s", "When they met; of an end, when the step ended.", &LoggedEvent::time),
+            value("step", "1", "Number of the step.", &LoggedEvent::step),
+            text("event", "begin or end.", [](const LoggedEvent& e) { return e.begins ? "begin" : "end"; }),
+            pair_columns<LoggedEvent>(playback)));
 }
 
 Table missed_table(const Playback& playback) {
-  const auto columns = columns_of<Meeting>(fields(std::identity(), {"time"}), pair_columns<Meeting>(playback));
-  return in_report_if_short(
-      table("tunneled", "Who touched whom unseen, and when; the first 10 000.", columns, playback.missed));
+  return in_report_if_short(table("tunneled", "Who touched whom unseen, and when; the first 10 000.", playback.missed,
+                                  fields(std::identity(), {"time"}), pair_columns<Meeting>(playback)));
 }
 
 /// Of records that say all of it.

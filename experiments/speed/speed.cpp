@@ -238,43 +238,39 @@ auto to_floor_column() {
 
 Table errors_table(std::vector<TimedWay> all) {
   std::erase_if(all, [](const TimedWay& c) { return !c.error("missed"); });
-  const auto columns = columns_of<TimedWay>(
-      key_columns(), missed_column(), false_column(),
-      number_column("error_p99", "1", "99th percentile error, in steps; of a depth, a length.", "p99_error"),
-      number_column("error_max", "1", "Largest of the same.", "max_error"), p99_column(), max_column());
   return table("errors",
                "Verdicts and errors against the benchmark's oracle, of every row that has one. An error is that of a "
                "hit that was found: of a time in steps and as a length along the relative path, of a contact's depth "
                "as a length.",
-               columns, all);
+               all, key_columns(), missed_column(), false_column(),
+               number_column("error_p99", "1", "99th percentile error, in steps; of a depth, a length.", "p99_error"),
+               number_column("error_max", "1", "Largest of the same.", "max_error"), p99_column(), max_column());
 }
 
 Table race_table(const std::vector<TimedWay>& drawn) {
-  const auto columns = columns_of<TimedWay>(
-      text("subject", "The pair of shapes.", &TimedWay::subject), text("who", "Who answers, and how.", &TimedWay::name),
-      time_columns(), to_floor_column(), missed_column(), false_column(), p99_column(), max_column());
   return in_report(
       timing(table("race",
                    "Time of impact: what an answer costs and what is wrong with it, of 100 000 queries a pair. Length: "
                    "the error of the time times the relative motion.",
-                   columns, drawn)));
+                   drawn, text("subject", "The pair of shapes.", &TimedWay::subject),
+                   text("who", "Who answers, and how.", &TimedWay::name), time_columns(), to_floor_column(),
+                   missed_column(), false_column(), p99_column(), max_column())));
 }
 
 Table timings_table(const std::vector<TimedWay>& all) {
-  const auto columns = columns_of<TimedWay>(
-      key_columns(), time_columns(),
-      value("rounds", "1", "Rounds timed.", [](const TimedWay& c) { return c.nanoseconds.size(); }),
-      median_column("floor_ns", "ns", "The least that the same work could take; median over rounds.",
-                    &TimedWay::floor_ns),
-      to_floor_column(),
-      median_column(
-          "call_ns", "ns",
-          "What calling another language takes beside it, asked of nothing; not in the time; median over rounds.",
-          &TimedWay::call_ns));
-  return timing(table("timings",
-                      "Every row of every benchmark program: processor time of an answer, median over rounds, each a "
-                      "process of its own.",
-                      columns, all));
+  return timing(
+      table("timings",
+            "Every row of every benchmark program: processor time of an answer, median over rounds, each a "
+            "process of its own.",
+            all, key_columns(), time_columns(),
+            value("rounds", "1", "Rounds timed.", [](const TimedWay& c) { return c.nanoseconds.size(); }),
+            median_column("floor_ns", "ns", "The least that the same work could take; median over rounds.",
+                          &TimedWay::floor_ns),
+            to_floor_column(),
+            median_column(
+                "call_ns", "ns",
+                "What calling another language takes beside it, asked of nothing; not in the time; median over rounds.",
+                &TimedWay::call_ns)));
 }
 
 Table floors_table(const std::vector<BenchOutput>& outputs) {
@@ -283,14 +279,12 @@ Table floors_table(const std::vector<BenchOutput>& outputs) {
     for (const Counter& floor : output.floors) floors[floor.name].push_back(floor.value);
   }
   using Row = std::pair<std::string, std::vector<double>>;
-  const auto columns = columns_of<Row>(
-      text("floor", "What was measured.", &Row::first),
-      value("median", "1", "In the unit that its name ends with.", [](const Row& row) { return median(row.second); }),
-      value("least", "1", "Least of all starts.", [](const Row& row) { return std::ranges::min(row.second); }),
-      value("most", "1", "Most of all starts.", [](const Row& row) { return std::ranges::max(row.second); }));
   return in_report(timing(table(
       "floors", "What the machine can do at best, measured by each start of a program; medians and extremes over all.",
-      columns, std::vector<Row>(floors.begin(), floors.end()))));
+      std::vector<Row>(floors.begin(), floors.end()), text("floor", "What was measured.", &Row::first),
+      value("median", "1", "In the unit that its name ends with.", [](const Row& row) { return median(row.second); }),
+      value("least", "1", "Least of all starts.", [](const Row& row) { return std::ranges::min(row.second); }),
+      value("most", "1", "Most of all starts.", [](const Row& row) { return std::ranges::max(row.second); }))));
 }
 
 /// What did not take part, and why.
@@ -318,12 +312,11 @@ std::vector<BenchOutput> first_starts(const std::vector<BenchOutput>& outputs) {
 }
 
 Table programs_table(const std::vector<BenchOutput>& outputs) {
-  const auto columns = columns_of<BenchOutput>(
-      text("program", "Benchmark program.", &BenchOutput::program),
-      value("rows", "1", "Rows that it has.", [](const BenchOutput& output) { return output.rows.size(); }),
-      text("left_out", "What did not take part, and why; missing if all did.", left_out));
   return in_report(
-      table("programs", "Which benchmark programs and libraries took part.", columns, first_starts(outputs)));
+      table("programs", "Which benchmark programs and libraries took part.", first_starts(outputs),
+            text("program", "Benchmark program.", &BenchOutput::program),
+            value("rows", "1", "Rows that it has.", [](const BenchOutput& output) { return output.rows.size(); }),
+            text("left_out", "What did not take part, and why; missing if all did.", left_out)));
 }
 
 // What the pictures show.
@@ -340,9 +333,8 @@ Measured drawn_length(const TimedWay& c) {
 
 /// Of one pair, or of all of them.
 Panel race_panel(const std::vector<TimedWay>& drawn, const std::string& subject) {
-  const auto columns = columns_of<TimedWay>(text("subject", "", &TimedWay::subject), text("who", "", &TimedWay::name),
-                                            measured("length", "", "", drawn_length, "length_"), time_columns());
-  Plot points = plot(table("drawn", "", columns, drawn));
+  Plot points = plot(drawn, text("subject", "", &TimedWay::subject), text("who", "", &TimedWay::name),
+                     measured("length", "", "", drawn_length, "length_"), time_columns());
   if (!subject.empty()) points.where("subject", subject);
   return points
       .x("length", Axis::log,
@@ -412,7 +404,7 @@ Figure verdict_figure(const std::vector<TimedWay>& drawn) {
   for (const auto& [counter, label] : {std::pair{"missed", "hits missed"}, {"false", "hits invented"}}) {
     const auto columns = columns_of<TimedWay>(text("who", "", &TimedWay::name), number_column("wrong", "", "", counter),
                                               value("place", "", "", place));  // the first on top
-    Panel panel = plot(table("drawn", "", columns, drawn))
+    Panel panel = plot(drawn, columns)
                       .where("wrong", [](double wrong) { return wrong > 0; })
                       .x("wrong", Axis::log, "of 100 000 queries, half of them hits")
                       .y("place", Axis::linear, label)
@@ -439,7 +431,7 @@ Figure batch_figure(const std::vector<TimedWay>& all) {
           "square roots of scalar code, which vectors may go below; from memory it is to stream a row's bytes, one obstacle against many.",
       .is_timing = true};
   for (const std::string& where : distinct(rows, &BatchRow::where)) {
-    Panel panel = plot(columns, rows)
+    Panel panel = plot(rows, columns)
                       .where("where", where)
                       .x("time", Axis::log, "ns a row")
                       .y("place", Axis::linear,

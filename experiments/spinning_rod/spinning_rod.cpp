@@ -164,17 +164,16 @@ void add_totals(const char* obstacle, const std::vector<Row>& rows, const Key& k
 }
 
 Table methods_table(const std::vector<Total>& totals) {
-  const auto columns = columns_of<Total>(
-      text("obstacle", "What is in the way.", &Total::obstacle),
-      text("method", "Way of detecting the hit.", &Total::method), fields(&Total::tally, {"trials", "tunneled"}),
-      value("expected", "1", "Tunneled by theory; missing where it has none.", &Total::tunneled_theory),
-      late_share("First hits later than first contact, by more than a millionth of a step."),
-      fields(&Total::tally, {"false_hits", "lateness_max", "gap_min", "gap_max"}),
-      value("looks", "1", "Looks at a pose and closed forms a step.", [](const Total& t) {
-        return static_cast<double>(t.tally.evaluations) / static_cast<double>(t.tally.steps);
-      }));
-  return in_report(table("methods", "Each method over all of its cells, every cell with the same number of trials.",
-                         columns, totals));
+  return in_report(
+      table("methods", "Each method over all of its cells, every cell with the same number of trials.", totals,
+            text("obstacle", "What is in the way.", &Total::obstacle),
+            text("method", "Way of detecting the hit.", &Total::method), fields(&Total::tally, {"trials", "tunneled"}),
+            value("expected", "1", "Tunneled by theory; missing where it has none.", &Total::tunneled_theory),
+            late_share("First hits later than first contact, by more than a millionth of a step."),
+            fields(&Total::tally, {"false_hits", "lateness_max", "gap_min", "gap_max"}),
+            value("looks", "1", "Looks at a pose and closed forms a step.", [](const Total& t) {
+              return static_cast<double>(t.tally.evaluations) / static_cast<double>(t.tally.steps);
+            })));
 }
 
 /// What a linear sweep finds too late, by spin.
@@ -189,16 +188,14 @@ std::vector<Total> spins_of(const std::vector<FlightRow>& rows) {
 }
 
 Table spins_table(const std::vector<Total>& totals) {
-  const auto columns =
-      columns_of<Total>(value("spin_deg", "deg", "How far the rod turns in a step.", &Total::spin_deg),
-                        fields(&Total::tally, {"trials", "tunneled"}),
-                        late_share("First hits later than first contact, by more than a millionth of a step."),
-                        share("false_share", "Hits reported in a step by whose end nothing has touched yet.",
-                              of(&Tally::false_hits), of(&Tally::detected), "false_"),
-                        fields(&Total::tally, {"lateness_max", "gap_min", "gap_max"}));
   return in_report(table("linear_sweep",
-                         "A linear sweep at the wall, which leaves the spin out, over all cells of a spin.", columns,
-                         totals));
+                         "A linear sweep at the wall, which leaves the spin out, over all cells of a spin.", totals,
+                         value("spin_deg", "deg", "How far the rod turns in a step.", &Total::spin_deg),
+                         fields(&Total::tally, {"trials", "tunneled"}),
+                         late_share("First hits later than first contact, by more than a millionth of a step."),
+                         share("false_share", "Hits reported in a step by whose end nothing has touched yet.",
+                               of(&Tally::false_hits), of(&Tally::detected), "false_"),
+                         fields(&Total::tally, {"lateness_max", "gap_min", "gap_max"})));
 }
 
 // The self-test: counts against theory, and hits against what each method claims.
@@ -258,13 +255,12 @@ double nearest(const std::vector<FlightRow>& rows, double RodFlight::*factor, do
 
 /// The flights with the spin in words.
 Table drawn_table(const std::vector<FlightRow>& rows) {
-  const auto columns = columns_of<FlightRow>(
-      flight_columns(), text("spin", "", [](const FlightRow& r) { return fmt::format("{:g} deg", r.cell.spin_deg); }),
-      value("depth_max", "m", "", [](const FlightRow& r) -> std::optional<double> {
-        if (r.tally.detected() == 0) return std::nullopt;
-        return std::max(0.0, -r.tally.deepest);
-      }));
-  return table("drawn", "", columns, rows);
+  return table("drawn", "", rows, flight_columns(),
+               text("spin", "", [](const FlightRow& r) { return fmt::format("{:g} deg", r.cell.spin_deg); }),
+               value("depth_max", "m", "", [](const FlightRow& r) -> std::optional<double> {
+                 if (r.tally.detected() == 0) return std::nullopt;
+                 return std::max(0.0, -r.tally.deepest);
+               }));
 }
 
 constexpr const char* step_axis = "step / (w + 2 r + 2 L sin(tilt)) [1]";

@@ -81,10 +81,9 @@ Table claims_table(const std::vector<StiffClaim>& claims) {
 }
 
 Table limits_table(const std::vector<LimitRow>& rows) {
-  return table("limits", "The largest stable step of a spring that holds both ways, measured and by formula.",
-               columns_of<LimitRow>(fields(std::identity()),
-                                    value("inside", "", "The limit lies between the two.", &LimitRow::holds_theory)),
-               rows);
+  return table("limits", "The largest stable step of a spring that holds both ways, measured and by formula.", rows,
+               fields(std::identity()),
+               value("inside", "", "The limit lies between the two.", &LimitRow::holds_theory));
 }
 
 Table stability_table(const std::vector<LimitRow>& limits) {
@@ -98,19 +97,18 @@ Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
       value("energy_min", "1", "The least energy out over energy in.",
             [](const Row& r) { return r.tally.slowest * r.tally.slowest; }),
       value("energy_max", "1", "The greatest.", [](const Row& r) { return r.tally.fastest * r.tally.fastest; }));
-  const auto columns = columns_of<Row>(
-      contact_columns("scheme", "detection", "stiffness", "damping_ratio", "step"),
-      value("path", "m", "How far the ball flies in a step.",
-            [&](const Row& r) { return step_path(plan.approach, r.contact); }),
-      value("bounces", "1", "Asked, each at a phase of its own.", bounces_of),
-      fields(&Row::tally, {"returned", "escaped", "unfinished", "blown_up", "blow_up_step", "speed_min"}),
-      where(has_returned, of_returned),
-      value("speed_exact", "1", "Speed out over speed in, in continuous time.",
-            [](const Row& r) { return restitution(ratio_of(r)); }),
-      error_column(), contact_steps_column(), fields(&Row::tally, {"depth_max"}),
-      where(has_returned, value("depth_ratio", "1", "The same over the depth in continuous time.",
-                                [&](const Row& r) { return relative_depth(plan, r); })));
-  return table("bounces", "A wall that only pushes: every cell, over all phases.", columns, rows);
+  return table("bounces", "A wall that only pushes: every cell, over all phases.", rows,
+               contact_columns("scheme", "detection", "stiffness", "damping_ratio", "step"),
+               value("path", "m", "How far the ball flies in a step.",
+                     [&](const Row& r) { return step_path(plan.approach, r.contact); }),
+               value("bounces", "1", "Asked, each at a phase of its own.", bounces_of),
+               fields(&Row::tally, {"returned", "escaped", "unfinished", "blown_up", "blow_up_step", "speed_min"}),
+               where(has_returned, of_returned),
+               value("speed_exact", "1", "Speed out over speed in, in continuous time.",
+                     [](const Row& r) { return restitution(ratio_of(r)); }),
+               error_column(), contact_steps_column(), fields(&Row::tally, {"depth_max"}),
+               where(has_returned, value("depth_ratio", "1", "The same over the depth in continuous time.",
+                                         [&](const Row& r) { return relative_depth(plan, r); })));
 }
 
 /// Discrete detection beside split steps, at the greatest stiffness, where every bounce came back.
@@ -127,34 +125,31 @@ Table detection_table(const StiffResults& results) {
                                  [read, split](const Row& r) { return read(split(r)); }));
   };
   return table("detection",
-               "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.",
-               columns_of<Row>(contact_columns("scheme", "damping_ratio", "step"),
-                               both("error", "Root mean square error of speed out over speed in", rms_error),
-                               both("spread", "Greatest less least speed out over speed in", spread),
-                               both("depth", "Deepest over the depth in continuous time",
-                                    [&](const Row& r) { return relative_depth(plan, r); })),
-               rows);
+               "Contact found at the poses beside steps split at the time of impact, at the greatest stiffness.", rows,
+               contact_columns("scheme", "damping_ratio", "step"),
+               both("error", "Root mean square error of speed out over speed in", rms_error),
+               both("spread", "Greatest less least speed out over speed in", spread),
+               both("depth", "Deepest over the depth in continuous time",
+                    [&](const Row& r) { return relative_depth(plan, r); }));
 }
 
 auto racer_columns() { return contact_columns("scheme", "detection", "damping_ratio", "step"); }
 
 Table race_table(const std::vector<Row>& racers) {
-  return table("race", "The error of a bounce against the number of its steps.",
-               columns_of<Row>(racer_columns(), fields(&Row::tally, {"returned"}),
-                               value("bounces", "1", "Asked.", bounces_of), error_column(), contact_steps_column()),
-               racers);
+  return table("race", "The error of a bounce against the number of its steps.", racers, racer_columns(),
+               fields(&Row::tally, {"returned"}), value("bounces", "1", "Asked.", bounces_of), error_column(),
+               contact_steps_column());
 }
 
 Table times_table(const std::vector<Row>& racers) {
-  const auto columns = columns_of<Row>(
-      racer_columns(), error_column(),
-      value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.",
-            [](const Row& r) { return time_of(r).value; }),
-      value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
-            [](const Row& r) { return time_of(r).interval.lower; }),
-      value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_of(r).interval.upper; }));
-  return timing(table("timings", "Time a bounce, on this machine, the threads of the run at work: medians over rounds.",
-                      columns, racers));
+  return timing(
+      table("timings", "Time a bounce, on this machine, the threads of the run at work: medians over rounds.", racers,
+            racer_columns(), error_column(),
+            value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.",
+                  [](const Row& r) { return time_of(r).value; }),
+            value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
+                  [](const Row& r) { return time_of(r).interval.lower; }),
+            value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_of(r).interval.upper; })));
 }
 
 // What the pictures show.
@@ -173,13 +168,11 @@ Plot plot_of(const StiffPlan& plan, const std::vector<Row>& rows, const char* y,
     const auto drawn = [](double ratio) { return std::max(1e-3, ratio); };
     return Measured{drawn(mean_speed(r)), {drawn(r.tally.slowest), drawn(r.tally.fastest)}};
   };
-  const auto columns = columns_of<Row>(
-      fields(&Row::contact), text("method", "", method_of), text("fate", "", fate_of),
-      measured("speed", "", "", speed, "speed_"), value("error", "", "", rms_error),
-      value("spread", "", "", [](const Row& r) { return std::max(1e-5, spread(r)); }),
-      value("depth", "", "", [&](const Row& r) { return relative_depth(plan, r); }),
-      where([](const Row& r) { return !r.nanoseconds.empty(); }, measured("time", "", "", time_of, "time_")));
-  return plot(columns, rows)
+  return plot(rows, fields(&Row::contact), text("method", "", method_of), text("fate", "", fate_of),
+              measured("speed", "", "", speed, "speed_"), value("error", "", "", rms_error),
+              value("spread", "", "", [](const Row& r) { return std::max(1e-5, spread(r)); }),
+              value("depth", "", "", [&](const Row& r) { return relative_depth(plan, r); }),
+              where([](const Row& r) { return !r.nanoseconds.empty(); }, measured("time", "", "", time_of, "time_")))
       .where(y, is_positive)
       .x("step", Axis::log, "h omega [1]")
       .y(y, Axis::log, std::move(y_label))
@@ -212,12 +205,12 @@ Figure stability_figure(const StiffResults& results) {
           .where("damping_ratio", is_positive)  // 0 has no place on the axis
           .x("damping_ratio", Axis::log, "damping ratio zeta [1]");
     };
-    Panel panel = against_ratio(plot(limits, results.limits))
+    Panel panel = against_ratio(plot(results.limits, limits))
                       .y("middle", Axis::log, "h omega [1], " + scheme_name)
                       .label("measured limit, every stiffness")
                       .height(0.9)
                       .curve("formula", [scheme](double ratio) { return *step_limit(scheme, ratio); });
-    const Panel tried = against_ratio(plot(map, decided)).y("step").by("fate");
+    const Panel tried = against_ratio(plot(decided, map)).y("step").by("fate");
     panel.series.insert(panel.series.begin(), tried.series.begin(), tried.series.end());
     figure.panels.push_back(panel);
   }
@@ -394,16 +387,15 @@ std::string passages_text(const StiffResults& results) {
     return text(std::move(name), "",
                 [count](const Row& r) { return percent_text(share_of(r.tally.*count, r.tally.bounces())); });
   };
-  const auto columns =
-      columns_of<Row>(contact_columns("scheme", "detection"), value("bounces", "1", "", bounces_of),
-                      share("through", &ContactTally::escaped), share("still_there", &ContactTally::unfinished),
-                      share("too_fast", &ContactTally::blown_up), fields(&Row::tally, {"least_path"}));
   return terminal(
       table("passages",
             fmt::format("Walls stiff enough for continuous time. Too fast: over {:g} x the speed in. Least path: "
                         "the shortest step that let a ball through, over the way from touch to the middle.",
                         results.plan.approach.blow_up),
-            columns, passages(results, results.plan.bounce_ratios)));
+            passages(results, results.plan.bounce_ratios), contact_columns("scheme", "detection"),
+            value("bounces", "1", "", bounces_of), share("through", &ContactTally::escaped),
+            share("still_there", &ContactTally::unfinished), share("too_fast", &ContactTally::blown_up),
+            fields(&Row::tally, {"least_path"})));
 }
 
 std::string stiff_summary(const StiffResults& results, const std::vector<StiffClaim>& claims) {

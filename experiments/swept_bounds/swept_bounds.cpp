@@ -83,18 +83,17 @@ std::vector<Total> totals_of(const std::vector<Row>& rows) {
 }
 
 Table shapes_table(const std::vector<Total>& totals) {
-  const auto columns = columns_of<Total>(
-      shape_column<Total>(), bound_column<Total>(),
-      value("cells", "1", "Conditions.", [](const Total& t) { return t.cells.size(); }),
-      value("touched", "1", "Balls that the shape truly touches, those that just touch included.",
-            [](const Total& t) { return t.tally.touched(); }),
-      value("missed", "1", "Of those, not reported by the bound.", [](const Total& t) { return t.tally.missed; }),
-      fields(&Total::tally, {"reported", "false_hits"}),
-      value("false_least", "1", "Share of reports that are false, by theory, in the cell where it is least.",
-            [](const Total& t) { return std::ranges::min(t.false_shares()); }),
-      value("false_most", "1", "The same where it is most.",
-            [](const Total& t) { return std::ranges::max(t.false_shares()); }));
-  return in_report(table("shapes", "Each bound of each shape over all of its cells.", columns, totals));
+  return in_report(
+      table("shapes", "Each bound of each shape over all of its cells.", totals, shape_column<Total>(),
+            bound_column<Total>(), value("cells", "1", "Conditions.", [](const Total& t) { return t.cells.size(); }),
+            value("touched", "1", "Balls that the shape truly touches, those that just touch included.",
+                  [](const Total& t) { return t.tally.touched(); }),
+            value("missed", "1", "Of those, not reported by the bound.", [](const Total& t) { return t.tally.missed; }),
+            fields(&Total::tally, {"reported", "false_hits"}),
+            value("false_least", "1", "Share of reports that are false, by theory, in the cell where it is least.",
+                  [](const Total& t) { return std::ranges::min(t.false_shares()); }),
+            value("false_most", "1", "The same where it is most.",
+                  [](const Total& t) { return std::ranges::max(t.false_shares()); })));
 }
 
 Table counts_test_table(const std::vector<SelfTest>& tests) {
@@ -108,8 +107,11 @@ Table timings_table(const std::vector<SweepCost>& costs) {
   const auto time = [](std::string name, std::string description, TimedWork work, double share = 0.5) {
     return value(std::move(name), "ns", std::move(description), [=](const T& c) { return c.quantile_ns(work, share); });
   };
-  const auto columns = columns_of<T>(
-      shape_column<T>(), value("speed", "m/s", "Its speed.", [](const T& c) { return c.sweep.speed; }),
+  return timing(in_report(table(
+      "timings",
+      "What each bound costs among the pairs that a broad phase of boxes hands over: medians over "
+      "rounds, on this machine.",
+      costs, shape_column<T>(), value("speed", "m/s", "Its speed.", [](const T& c) { return c.sweep.speed; }),
       value("path", "widths", "How far it moves in a step.", [](const T& c) { return path_in_widths(c.sweep); }),
       bound_column<T>(), value("reported", "1", "Share of the pairs that it reports.", &T::reported),
       value("false_hits", "1", "Share of the pairs that it reports although they do not touch.", &T::false_hits),
@@ -120,12 +122,7 @@ Table timings_table(const std::vector<SweepCost>& costs) {
       value("wasted_ns", "ns", "false_hits * false_ns: time a pair that false hits cost.", &T::wasted_ns),
       time("pair_ns", "Time a pair, the bound first and then the closed form on those reported.", TimedWork::pipeline),
       time("pair_lower_ns", "Lower quartile of the rounds.", TimedWork::pipeline, 0.25),
-      time("pair_upper_ns", "Upper quartile of them.", TimedWork::pipeline, 0.75));
-  return timing(
-      in_report(table("timings",
-                      "What each bound costs among the pairs that a broad phase of boxes hands over: medians over "
-                      "rounds, on this machine.",
-                      columns, costs)));
+      time("pair_upper_ns", "Upper quartile of them.", TimedWork::pipeline, 0.75))));
 }
 
 // What the pictures show: around the view one factor varies, the others are its. Bounds that are exact by construction are not
@@ -155,7 +152,7 @@ std::vector<Panel> panels(const std::vector<Row>& rows, const std::vector<SweptB
   for (const std::string_view form : swept_form_names) {
     const auto shown = only(those, [&](const Row& row) { return name(row.sweep.form) == form; });
     if (shown.empty()) continue;
-    Plot panel = plot(row_columns(), shown)
+    Plot panel = plot(shown, row_columns())
                      .x(along.column, along.axis, along.label)
                      .y("false_fraction", Axis::linear, fmt::format("false share [1], {}", form))
                      .by("bound")

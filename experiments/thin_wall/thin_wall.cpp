@@ -67,11 +67,6 @@ template <class Row> std::vector<Row> of_one_scalar(const std::vector<Row>& rows
 
 // What the tables show.
 
-/// What a part of a row says.
-auto of(auto part, auto what) {
-  return [=](const auto& row) { return std::invoke(what, std::invoke(part, row)); };
-}
-
 template <class Row> Columns<Row> method_columns() {
   return columns_of<Row>(
       text("method", "Way of detecting the hit; substeps_N tests N poses a step.",
@@ -112,11 +107,10 @@ Columns<Row> bounce_columns() {
 }
 
 Table timings_table(const Rows& rows) {
-  const auto columns =
-      columns_of<Row>(cell_columns(), fields(&Row::tally, {"shots"}),
+  return timing(table("timings", "Time a shot, on this machine, the threads of the run at work.", rows, cell_columns(),
+                      fields(&Row::tally, {"shots"}),
                       value("nanoseconds_per_shot", "ns", "Wall-clock time over shots, drawing the shot included.",
-                            [](const Row& r) { return 1e9 * r.seconds / static_cast<double>(r.tally.shots); }));
-  return timing(table("timings", "Time a shot, on this machine, the threads of the run at work.", columns, rows));
+                            [](const Row& r) { return 1e9 * r.seconds / static_cast<double>(r.tally.shots); })));
 }
 
 /// [1] With 97.5 % confidence the chance is below this, where none tunneled.
@@ -150,15 +144,13 @@ Table methods_table(const Totals& totals) {
 
 /// For the terminal: the counts of `methods_table` as shares.
 std::string shares_text(const Totals& totals) {
-  const auto columns =
-      columns_of<Total>(total_columns(),
-                        value("share", "1", "Tunneled, of the shots for which there is a theory.",
-                              of(&Total::tunneled, &Foretold::share)),
-                        value("theory", "1", "Of the same, by theory.", of(&Total::tunneled, &Foretold::theory)));
   return terminal(
       table("methods",
-            "Each method over all of its cells; share and theory: of the shots for which there is a formula.", columns,
-            totals),
+            "Each method over all of its cells; share and theory: of the shots for which there is a formula.", totals,
+            total_columns(),
+            value("share", "1", "Tunneled, of the shots for which there is a theory.",
+                  of(&Total::tunneled, &Foretold::share)),
+            value("theory", "1", "Of the same, by theory.", of(&Total::tunneled, &Foretold::theory))),
       {"method", "scalar", "shots", "tunneled", "share", "theory", "worst_residual"});
 }
 
@@ -177,18 +169,17 @@ Table bounce_self_test_table(const std::vector<SelfTest>& tests) {
 }
 
 Table lateness_table(const Totals& totals) {
-  const auto columns = columns_of<Total>(
-      method_columns<Total>(), value("cells", "1", "Cells in which anything was detected.", &Total::detected_cells),
+  return in_report(table(
+      "lateness", "Lateness of detection along the path against theory, over all cells of a method and scalar at once.",
+      totals, method_columns<Total>(),
+      value("cells", "1", "Cells in which anything was detected.", &Total::detected_cells),
       value("false_cells", "1",
             "Of those, cells with a hit where ball and wall are farther apart than the method claims; must be 0.",
             &Total::false_cells),
       value("late_cells", "1", "Of those, cells with one later than theory allows; must be 0.", &Total::late_cells),
       residual_columns("Cells with a theory and enough detections to judge their mean.",
                        "Sum of squared standard residuals of the judged means.", &Total::lateness),
-      value("passed", "", "All of the above hold.", &Total::lateness_passes));
-  return in_report(table(
-      "lateness", "Lateness of detection along the path against theory, over all cells of a method and scalar at once.",
-      columns, totals));
+      value("passed", "", "All of the above hold.", &Total::lateness_passes)));
 }
 
 Table stratified_table(const Totals& totals) {
@@ -251,7 +242,7 @@ std::optional<Measured> lateness_share(const Row& row) {
 Plot points(const Rows& rows, const Abscissa& along, std::string_view y, std::string y_label) {
   const auto columns = columns_of<Row>(row_columns(), bounce_columns(), value("x", "", "", along.x),
                                        measured("lateness_share", "", "", lateness_share, "lateness_"));
-  return plot(columns, rows).x("x", Axis::log, along.label).y(y, Axis::linear, std::move(y_label)).by("method");
+  return plot(rows, columns).x("x", Axis::log, along.label).y(y, Axis::linear, std::move(y_label)).by("method");
 }
 
 /// Methods that never tunnel would hide each other on the zero line: they take turns on it.

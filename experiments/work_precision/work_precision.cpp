@@ -86,50 +86,44 @@ Columns<Row> key_columns() {
 }
 
 Table errors_table(const std::vector<Row>& rows) {
-  const auto columns = columns_of<Row>(
-      key_columns(), fields(racer_of, {"queries", "touching", "missed", "false_hits", "gave_up"}), median_error(),
+  return table(
+      "errors",
+      "Verdicts and errors of the time of impact against the oracle at 50 digits, and evaluations, for every method "
+      "and setting. A contact that is missed counts as an infinite error; a quantile that is infinite is left out.",
+      rows, key_columns(), fields(racer_of, {"queries", "touching", "missed", "false_hits", "gave_up"}), median_error(),
       error("error_p99", "step", "99th percentile of the same.", &Racer::time, &ErrorSpread::p99),
       error("error_max", "step", "Largest of the same.", &Racer::time, &ErrorSpread::max),
       error("length_median", "m", "Median error along the relative path.", &Racer::length, &ErrorSpread::median),
       error("length_p99", "m", "99th percentile of the same.", &Racer::length, &ErrorSpread::p99),
       error("length_max", "m", "Largest of the same.", &Racer::length, &ErrorSpread::max),
       fields(racer_of, {"latest", "earliest", "evaluations", "most_evaluations"}));
-  return table(
-      "errors",
-      "Verdicts and errors of the time of impact against the oracle at 50 digits, and evaluations, for every method "
-      "and setting. A contact that is missed counts as an infinite error; a quantile that is infinite is left out.",
-      columns, rows);
 }
 
 Table times_table(const std::vector<Row>& rows) {
-  const auto columns =
-      columns_of<Row>(key_columns(), measured("nanoseconds", "ns", "A query; median over the rounds.", &Row::time),
-                      value("rounds", "1", "Rounds timed.", [](const Row& r) { return r.racer->nanoseconds.size(); }),
-                      value("on_front", "", "Nobody is both finer and faster.", &Row::is_on_front));
   return timing(table(
       "timings", "Time a query on this machine: the median over interleaved rounds, with its 95 % bootstrap interval.",
-      columns, rows));
+      rows, key_columns(), measured("nanoseconds", "ns", "A query; median over the rounds.", &Row::time),
+      value("rounds", "1", "Rounds timed.", [](const Row& r) { return r.racer->nanoseconds.size(); }),
+      value("on_front", "", "Nobody is both finer and faster.", &Row::is_on_front)));
 }
 
 /// Of every race on hits one racer a method: what fine answers cost, against the closed form.
 Table trailing_table(std::vector<Row> rows) {
   std::erase_if(rows, [](const Row& row) { return row.heat->kind != QueryClass::hit || !row.stands_for_method; });
-  const auto columns = columns_of<Row>(
-      key_columns(),
-      value("missed", "1", "Contacts that it does not see.", [](const Row& r) { return r.racer->missed; }),
-      value("false_share", "1", "Share of the misses, asked apart, that it calls a hit.", &Row::false_share),
-      median_error(),
-      error("error_p99", "step", "99th percentile of the same; missing: it misses more than 1 %.", &Racer::time,
-            &ErrorSpread::p99),
-      value("evaluations", "1", "A query, on average.", [](const Row& r) { return r.racer->evaluations; }),
-      value("nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.value; }),
-      measured("times_closed_form", "1", "Its time over that of the closed form, round by round; median.",
-               &Row::slowdown));
   return in_report(timing(
       table("trailing",
             "Each method at its roughest setting with a 99th percentile error of at most 1e-12 of a step (1e-6 in "
             "float), or else its finest; and how many times as long as the closed form it takes. Hits alone.",
-            columns, rows)));
+            rows, key_columns(),
+            value("missed", "1", "Contacts that it does not see.", [](const Row& r) { return r.racer->missed; }),
+            value("false_share", "1", "Share of the misses, asked apart, that it calls a hit.", &Row::false_share),
+            median_error(),
+            error("error_p99", "step", "99th percentile of the same; missing: it misses more than 1 %.", &Racer::time,
+                  &ErrorSpread::p99),
+            value("evaluations", "1", "A query, on average.", [](const Row& r) { return r.racer->evaluations; }),
+            value("nanoseconds", "ns", "A query; median over the rounds.", [](const Row& r) { return r.time.value; }),
+            measured("times_closed_form", "1", "Its time over that of the closed form, round by round; median.",
+                     &Row::slowdown))));
 }
 
 // What the pictures show.

@@ -202,7 +202,7 @@ TEST(Plot, leads_lines_through_another_column_and_leaves_out_panels_of_nothing) 
 
 TEST(Plot, has_a_gap_between_curves_of_one_label_and_bars_along_either_axis) {
   const auto zero = [](double) { return 0.0; };
-  const Panel panel = joined(plot(columns(), rows)
+  const Panel panel = joined(plot(rows, columns())
                                  .x("probability")
                                  .y("shots")
                                  .label("all")
