@@ -39,11 +39,11 @@ struct TextFile {
 };
 
 struct Outcome {
-  std::string answer;             ///< the question's answer in a sentence or two, with its numbers
-  std::string summary;            ///< a table for the terminal, plain text, at most 100 columns
-  std::vector<Table> tables;      ///< in the order the report shows them
-  std::vector<Figure> figures;    ///< the first one is the headline
-  std::vector<Section> sections;  ///< method, oracle, self-test, limits
+  std::string answer;                  ///< the question's answer in a sentence or two, with its numbers
+  std::string summary;                 ///< a table for the terminal, plain text, at most 100 columns
+  std::vector<Table> tables;           ///< in the order the report shows them
+  std::vector<Figure> figures;         ///< the first one is the headline
+  std::vector<Section> sections = {};  ///< method, oracle, self-test, limits
   bool self_test_passed = true;
   std::vector<TextFile> files = {};
 };

@@ -439,7 +439,6 @@ Outcome outcome_of(const std::vector<Row>& all) {
           .tables = {ladder_table(rungs), ladder_test_table(tests), breaks_table(rungs), cells_table(rows),
                      timings_table(rows)},
           .figures = figures_of(all, rows),
-          .sections = {},
           .self_test_passed = all_passed(tests)};
 }
 

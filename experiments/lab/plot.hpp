@@ -47,6 +47,11 @@ class Plot {
   Plot& curve(std::string label, const std::function<double(double)>& f, Mark mark = Mark::line);
   Plot& curve(std::string label, const std::function<double(double)>& f, double from, double to,
               Mark mark = Mark::line);
+  /// The same at one height.
+  Plot& level(const std::string& label, double y, Mark mark = Mark::line) {
+    const auto everywhere = [y](double) { return y; };
+    return curve(label, everywhere, mark);
+  }
   Plot& line(std::string label, std::vector<double> xs, std::vector<double> ys, Mark mark = Mark::line);
   /// A line for each value of the `by` column, from left to right through what another column says. After `x` and `by`.
   Plot& through(std::string_view column, const std::string& label);

@@ -248,10 +248,13 @@ template <class Row, class Key> std::vector<Group<Row>> group_by(const std::vect
   return groups;
 }
 
-/// All rows of several lists, one list after the other.
-template <class Row> std::vector<Row> flat(const std::vector<std::vector<Row>>& lists) {
-  std::vector<Row> all;
-  for (const std::vector<Row>& list : lists) all.insert(all.end(), list.begin(), list.end());
+/// All rows of several lists, or of a list in each of several things, one list after the other.
+template <class Thing, class Get = std::identity> auto flat(const std::vector<Thing>& things, const Get& get = {}) {
+  std::remove_cvref_t<std::invoke_result_t<const Get&, const Thing&>> all;
+  for (const Thing& thing : things) {
+    const auto& list = std::invoke(get, thing);
+    all.insert(all.end(), list.begin(), list.end());
+  }
   return all;
 }
 

@@ -262,13 +262,13 @@ std::string summary_text(const std::string& summary) {
 }
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all =
-      flat<Command>({{{"list", "Print every experiment and its question", list_examples, options(add_json, list)}},
-                     run_commands(),
-                     thin_wall_commands(),
-                     {validate_command()},
-                     result_commands(),
-                     {completion_command()}});
+  static const std::vector<Command> all = flat<std::vector<Command>>(
+      {{{"list", "Print every experiment and its question", list_examples, options(add_json, list)}},
+       run_commands(),
+       thin_wall_commands(),
+       {validate_command()},
+       result_commands(),
+       {completion_command()}});
   return all;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -15,11 +14,6 @@
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
-
-double frequency(const Approach& e, const PenaltyContact& c) {
-  return frequency(spring_of(e.mass, c.spring.stiffness, 0));
-}
-double step_path(const Approach& e, const PenaltyContact& c) { return e.speed * (c.step / frequency(e, c)); }
 
 Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
   const Spring spring = spring_of(e.mass, c.spring.stiffness, c.spring.damping_ratio);
@@ -72,20 +66,14 @@ Bounce bounce(const Approach& e, const PenaltyContact& c, double phase) {
 }
 
 ContactTally bounce_all(const Approach& e, const PenaltyContact& c, std::uint64_t seed, std::int64_t count) {
-  const std::array factors = {e.mass,
-                              e.speed,
-                              e.radius,
-                              e.thickness,
-                              c.spring.stiffness,
-                              c.spring.damping_ratio,
-                              c.step,
-                              static_cast<double>(count)};
+  const auto& [scheme, stiffness, ratio] = c.spring;
+  const double all = static_cast<double>(count), exact = restitution(ratio);
+  const std::array factors = {e.mass, e.speed, e.radius, e.thickness, stiffness, ratio, c.step, all};
   const RandomStream stream = {seed, stream_of(factors)};
-  const double exact = restitution(c.spring.damping_ratio);
   ContactTally t;
   for (std::int64_t i = 0; i < count; ++i) {
     const double within = uniform(random_words(stream, static_cast<std::uint64_t>(i), 0)[0]);
-    const Bounce b = bounce(e, c, (static_cast<double>(i) + within) / static_cast<double>(count));
+    const Bounce b = bounce(e, c, (static_cast<double>(i) + within) / all);
     if (b.blow_up_step > 0) {
       t.blow_up_step = std::min(t.blow_up_step.value_or(b.blow_up_step), b.blow_up_step);
       ++t.blown_up;
@@ -120,11 +108,9 @@ std::vector<double> ascending(std::vector<double> list) {
 }
 
 void check(const Settings& settings, const StiffPlan& plan) {
-  for (const double ratio : plan.ratios) {
-    if (ratio != 0 && ratio < least_ratio) {
-      settings.complain("damping_ratio",
-                        fmt::format("0, or {:g} to {:g}; one is {:g}", least_ratio, greatest_ratio, ratio));
-    }
+  for (const double ratio : only(plan.ratios, [](double r) { return r != 0 && r < least_ratio; })) {
+    settings.complain("damping_ratio",
+                      fmt::format("0, or {:g} to {:g}; one is {:g}", least_ratio, greatest_ratio, ratio));
   }
   if (plan.approach.reach() < least_reach) {
     settings.complain("thickness", fmt::format("such that radius + thickness / 2 is at least {:g} m", least_reach));
@@ -139,48 +125,14 @@ void check(const Settings& settings, const StiffPlan& plan) {
   }
 }
 
-}  // namespace
-
-StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
-  const auto steps = [&](std::string_view key, double lower, double upper) {  // a bounce takes about pi / step
-    return ascending(settings.numbers(key, {.lower = lower, .upper = upper, .unit = "1/omega"}));
-  };
-  settings.limit_cells({"stiffness", "damping_ratio", "step"}, all_schemes.size());
-  settings.limit_cells({"stiffness", "bounce_damping", "bounce_step"}, all_schemes.size() * all_detections.size());
-  StiffPlan plan;
-  plan.seed = options.seed;
-  plan.approach.mass = settings.number("mass", {.lower = 1e-12, .upper = 1e12, .unit = "kg"});
-  plan.stiffness = ascending(settings.numbers("stiffness", {.lower = 1e-12, .upper = 1e18, .unit = "N/m"}));
-  plan.ratios = ascending(settings.numbers("damping_ratio", {.lower = 0, .upper = greatest_ratio}));
-  plan.steps = steps("step", 1e-6, 1e6);
-  plan.approach.speed = settings.number("speed", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m/s"});
-  plan.approach.radius = settings.number("radius", {.lower = 0, .upper = 1e6, .unit = "m"});
-  plan.approach.thickness = settings.number("thickness", {.lower = 0, .upper = 1e6, .unit = "m"});
-  plan.approach.blow_up =
-      settings.number("blow_up", {.lower = 1, .upper = 1e9, .lower_open = true, .unit = "incoming speeds"});
-  plan.bounce_ratios = ascending(settings.numbers("bounce_damping", {.lower = 0, .upper = 100}));
-  plan.bounce_steps = steps("bounce_step", 1e-3, 1e6);
-  plan.bounces = settings.trials("bounces", 1, 1 << 24, options.trials);
-  plan.race_steps = steps("race_step", 1e-3, 2);
-  std::ranges::reverse(plan.race_steps);
-  plan.race_bounces = settings.integer("race_bounces", 1, 1 << 20);
-  plan.rounds = settings.integer("rounds", 1, 1 << 20);
-  check(settings, plan);
-  return plan;
-}
-
-namespace {
-
 LimitRow measured_spring(const StiffPlan& plan, const SpringCell& cell) {
   const Spring spring = spring_of(plan.approach.mass, cell.stiffness, cell.damping_ratio);
   const auto [stable, unstable] = measured_limit(cell.scheme, spring);
   LimitRow row = {cell, step_limit(cell.scheme, cell.damping_ratio), stable, unstable, {}};
   for (const double step : plan.steps) {
-    const std::int64_t blow_up = blow_up_step(cell.scheme, spring, step / frequency(spring));
-    const char* const verdict = blow_up > 0 ? "unstable" : "stable";
-    const bool is_undecided = stable < step && step < unstable;
-    row.map.push_back(
-        {cell, step, is_undecided ? "undecided" : verdict, blow_up > 0 ? std::optional(blow_up) : std::nullopt});
+    const auto blow_up = blow_up_step(cell.scheme, spring, step / frequency(spring));
+    const char* const verdict = blow_up ? "unstable" : "stable";
+    row.map.push_back({cell, step, stable < step && step < unstable ? "undecided" : verdict, blow_up});
   }
   return row;
 }
@@ -218,7 +170,41 @@ std::vector<ContactRow> measured_race(const StiffPlan& plan, double ratio) {
   return rows;
 }
 
+/// `rows` are those that it speaks of.
+template <class Row, class Holds> StiffClaim claim(std::string text, const std::vector<Row>& rows, const Holds& holds) {
+  const std::int64_t right = std::ranges::count_if(rows, holds);
+  return {std::move(text), std::ssize(rows), std::ssize(rows) - right};
+}
+
 }  // namespace
+
+StiffPlan make_stiff_plan(const Settings& settings, const RunOptions& options) {
+  const auto steps = [&](std::string_view key, double lower, double upper) {  // a bounce takes about pi / step
+    return ascending(settings.numbers(key, {.lower = lower, .upper = upper, .unit = "1/omega"}));
+  };
+  settings.limit_cells({"stiffness", "damping_ratio", "step"}, all_schemes.size());
+  settings.limit_cells({"stiffness", "bounce_damping", "bounce_step"}, all_schemes.size() * all_detections.size());
+  StiffPlan plan;
+  plan.seed = options.seed;
+  plan.approach.mass = settings.number("mass", {.lower = 1e-12, .upper = 1e12, .unit = "kg"});
+  plan.stiffness = ascending(settings.numbers("stiffness", {.lower = 1e-12, .upper = 1e18, .unit = "N/m"}));
+  plan.ratios = ascending(settings.numbers("damping_ratio", {.lower = 0, .upper = greatest_ratio}));
+  plan.steps = steps("step", 1e-6, 1e6);
+  plan.approach.speed = settings.number("speed", {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m/s"});
+  plan.approach.radius = settings.number("radius", {.lower = 0, .upper = 1e6, .unit = "m"});
+  plan.approach.thickness = settings.number("thickness", {.lower = 0, .upper = 1e6, .unit = "m"});
+  plan.approach.blow_up =
+      settings.number("blow_up", {.lower = 1, .upper = 1e9, .lower_open = true, .unit = "incoming speeds"});
+  plan.bounce_ratios = ascending(settings.numbers("bounce_damping", {.lower = 0, .upper = 100}));
+  plan.bounce_steps = steps("bounce_step", 1e-3, 1e6);
+  plan.bounces = settings.trials("bounces", 1, 1 << 24, options.trials);
+  plan.race_steps = steps("race_step", 1e-3, 2);
+  std::ranges::reverse(plan.race_steps);
+  plan.race_bounces = settings.integer("race_bounces", 1, 1 << 20);
+  plan.rounds = settings.integer("rounds", 1, 1 << 20);
+  check(settings, plan);
+  return plan;
+}
 
 StiffTasks stiff_tasks(const std::shared_ptr<const StiffPlan>& plan) {
   StiffTasks tasks;
@@ -251,31 +237,6 @@ StiffTasks stiff_tasks(const std::shared_ptr<const StiffPlan>& plan) {
 
 // Whether what was measured agrees with theory.
 
-namespace {
-
-/// `rows` are those that it speaks of.
-template <class Row, class Holds> StiffClaim claim(std::string text, const std::vector<Row>& rows, const Holds& holds) {
-  const std::int64_t right = std::ranges::count_if(rows, holds);
-  return {std::move(text), std::ssize(rows), std::ssize(rows) - right};
-}
-
-}  // namespace
-
-bool LimitRow::holds_theory() const {
-  if (!theory) return std::isinf(unstable);
-  return stable <= *theory && *theory <= unstable;
-}
-
-std::vector<MapStep> map_of(const std::vector<LimitRow>& rows) {
-  std::vector<MapStep> all;
-  for (const LimitRow& row : rows) all.insert(all.end(), row.map.begin(), row.map.end());
-  return all;
-}
-
-bool is_clean(const StiffPlan& plan, const ContactRow& row) {
-  return row.tally.returned == row.tally.bounces() && row.tally.deepest < plan.approach.reach();
-}
-
 const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow& row) {
   PenaltyContact other = row.contact;
   other.detection = other.detection == Detection::discrete ? Detection::toi_split : Detection::discrete;
@@ -283,9 +244,9 @@ const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow&
 }
 
 std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
-  constexpr double wide = 1e-3;  // a bracket wider than this shows nothing
   const StiffPlan& plan = results.plan;
-  const auto decided = only(map_of(results.limits), [](const MapStep& s) { return s.verdict != "undecided"; });
+  const Approach& e = plan.approach;
+  const auto is_decided = [](const MapStep& s) { return s.verdict != "undecided"; };
   const auto undamped = only(
       results.bounces, [&](const ContactRow& r) { return r.contact.spring.damping_ratio == 0 && is_clean(plan, r); });
   const auto undamped_by = [&](Scheme scheme) {
@@ -296,18 +257,18 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   // of the path of a step, which the spring turns into step^2 of it in speed; near a step of 2 the bounce passes that on up to
   // 1 / sqrt(1 - step^2 / 4) times.
   const auto slack = [&](const ContactRow& r) {
-    const double step = r.contact.step, reach = plan.approach.reach();
-    const double pose = std::numeric_limits<double>::epsilon() * (1 + reach / step_path(plan.approach, r.contact));
-    const double passed_on = bounce_bounds(step).value_or(Interval{1, 1}).upper;
+    const double step = r.contact.step, passed_on = bounce_bounds(step).value_or(Interval{1, 1}).upper;
+    const double pose = std::numeric_limits<double>::epsilon() * (1 + e.reach() / step_path(e, r.contact));
     return pose * (std::numbers::pi + 2 * step) * (1 + step) * passed_on;
   };
   return {
-      claim("the limit lies in the measured bracket", results.limits, std::mem_fn(&LimitRow::holds_theory)),
+      claim("the limit lies in the measured bracket", results.limits, &LimitRow::holds_theory),
       claim("the bracket is at most 0.1 % wide", results.limits,
             [](const LimitRow& row) {
-              return row.stable == 0 || std::isinf(row.unstable) || row.unstable / row.stable - 1 <= wide;
+              return row.stable == 0 || std::isinf(row.unstable) || row.unstable / row.stable - 1 <= 1e-3;
             }),
-      claim("a step is stable below the limit and unstable above", decided,
+      claim("a step is stable below the limit and unstable above",
+            only(flat(results.limits, &LimitRow::map), is_decided),
             [](const MapStep& s) {
               const auto limit = step_limit(s.spring.scheme, s.spring.damping_ratio);
               return (s.verdict == "stable") == (!limit || s.step < *limit);
@@ -335,16 +296,15 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
             }),
       claim("discrete: as many escape as are first seen past the middle, or more", only(results.bounces, discrete),
             [&](const ContactRow& r) {
-              const double late_share = std::max(0.0, 1 - plan.approach.reach() / step_path(plan.approach, r.contact));
+              const double late_share = std::max(0.0, 1 - e.reach() / step_path(e, r.contact));
               const double least = std::floor(static_cast<double>(r.tally.bounces()) * late_share) - 1;
               return static_cast<double>(r.tally.escaped) >= least;
             }),
       claim("implicit, split, stiff enough for continuous time: none escapes",
             only(results.bounces,
                  [&](const ContactRow& r) {
-                   const double depth = plan.approach.speed / frequency(plan.approach, r.contact);
-                   return r.contact.spring.scheme == Scheme::implicit_euler && !discrete(r) &&
-                          depth < plan.approach.reach();
+                   const double depth = e.speed / frequency(e, r.contact);
+                   return r.contact.spring.scheme == Scheme::implicit_euler && !discrete(r) && depth < e.reach();
                  }),
             [](const ContactRow& r) { return r.tally.escaped == 0; })};
 }

@@ -1,9 +1,7 @@
 #pragma once
-/// A spring and a damper between a ball and a wall: one step by three schemes, whether the steps of a spring that holds both ways
-/// grow, and what mathematics says of both (spring.cpp). The ball flies at the wall and is followed until it leaves: what the settings
-/// ask, one bounce, what is counted over its phases, the rows of the results, and whether they agree with theory (model.cpp).
-/// All is derived in docs/stiff_contact.md; the damping ratio is c / (2 sqrt(k m)). Contact is the library's: `contact` at the poses,
-/// `time_of_impact` between them.
+/// A spring and a damper between a ball and a wall: the schemes of a step (spring.cpp), and a ball that is followed until it leaves the
+/// wall (model.cpp). All is derived in docs/stiff_contact.md; the damping ratio is c / (2 sqrt(k m)). Contact is the library's:
+/// `contact` at the poses, `time_of_impact` between them.
 
 #include <array>
 #include <cmath>
@@ -22,10 +20,8 @@ namespace thinwall {
 
 enum class Scheme { explicit_euler, semi_implicit, implicit_euler };
 inline constexpr std::array all_schemes = {Scheme::explicit_euler, Scheme::semi_implicit, Scheme::implicit_euler};
-constexpr std::string_view name(Scheme scheme) {
-  constexpr std::array<std::string_view, 3> names = {"explicit_euler", "semi_implicit", "implicit_euler"};
-  return names[static_cast<std::size_t>(scheme)];
-}
+inline constexpr std::array<std::string_view, 3> scheme_names = {"explicit_euler", "semi_implicit", "implicit_euler"};
+constexpr std::string_view name(Scheme scheme) { return scheme_names[static_cast<std::size_t>(scheme)]; }
 
 struct Spring {
   double mass;       ///< [kg] > 0
@@ -34,9 +30,11 @@ struct Spring {
 };
 
 /// Of damping ratio `ratio` >= 0.
-Spring spring_of(double mass, double stiffness, double ratio);
+inline Spring spring_of(double mass, double stiffness, double ratio) {
+  return {mass, stiffness, 2 * ratio * std::sqrt(stiffness) * std::sqrt(mass)};
+}
 
-double frequency(const Spring& spring);  ///< [1/s] omega = sqrt(k / m)
+inline double frequency(const Spring& spring) { return std::sqrt(spring.stiffness / spring.mass); }  ///< [1/s] omega
 
 struct Motion {
   double depth;  ///< [m] into the wall; < 0 is apart
@@ -63,9 +61,9 @@ enum class Fate {
 /// `step` [s] > 0.
 Fate fate(Scheme scheme, const Spring& spring, double step);
 
-/// A number of steps after which the power first passes 2^32, found by halving; 0 if it does not. The largest entry of a
+/// A number of steps after which the power first passes 2^32, found by halving; nothing if it does not. The largest entry of a
 /// state that oscillates dips, so an earlier step may have passed by less than one oscillation.
-std::int64_t blow_up_step(Scheme scheme, const Spring& spring, double step);
+std::optional<std::int64_t> blow_up_step(Scheme scheme, const Spring& spring, double step);
 
 /// Where stable ends, in steps of 1/omega: it decays at the lower end, or holds if undamped, and grows at the upper. The lower is 0 if
 /// it grows at every step that was tried, the upper infinity if at none.
@@ -86,7 +84,10 @@ double deepest(double damping_ratio);
 
 /// [1] |speed out / speed in| of an undamped bounce by the semi-implicit scheme lies in here, whatever the phase.
 /// Nothing for a step of 2 and more.
-std::optional<Interval> bounce_bounds(double step);
+inline std::optional<Interval> bounce_bounds(double step) {
+  const double least = std::sqrt(1 - step * step / 4);
+  return step < 2 ? std::optional(Interval{least, 1 / least}) : std::nullopt;
+}
 
 // The bounce.
 
@@ -141,8 +142,10 @@ struct PenaltyContact {
   }
 };
 
-double frequency(const Approach& e, const PenaltyContact& c);  ///< [1/s] omega
-double step_path(const Approach& e, const PenaltyContact& c);  ///< [m] of the incoming ball in a step
+/// [1/s] omega.
+inline double frequency(const Approach& e, const PenaltyContact& c) { return std::sqrt(c.spring.stiffness / e.mass); }
+/// [m] Of the incoming ball in a step.
+inline double step_path(const Approach& e, const PenaltyContact& c) { return e.speed * (c.step / frequency(e, c)); }
 
 enum class Ending {
   returned,    ///< left on the side it came from
@@ -167,8 +170,7 @@ struct ContactTally {
   std::optional<std::int64_t> blow_up_step;      ///< the first after which one of them was too fast
   std::int64_t contact_steps = 0;                ///< of the returned, as all that follows
   double slowest = no_least, fastest = no_most;  ///< [incoming speeds] on leaving
-  double speed_sum = 0;                          ///< [incoming speeds]
-  double square_error = 0;                       ///< sum of (speed - restitution)^2
+  double speed_sum = 0, square_error = 0;        ///< [incoming speeds] sums of speed and (speed - restitution)^2
   double deepest = no_most;                      ///< [m]
   double least_path = no_least;                  ///< [reaches] of a step that let one through
 
@@ -244,7 +246,7 @@ struct LimitRow {
   std::vector<MapStep> map;
 
   /// The measured bracket holds the limit, or both have none.
-  bool holds_theory() const;
+  bool holds_theory() const { return theory ? stable <= *theory && *theory <= unstable : std::isinf(unstable); }
   static constexpr auto fields() {
     using L = LimitRow;
     return record(
@@ -278,17 +280,15 @@ StiffTasks stiff_tasks(const std::shared_ptr<const StiffPlan>& plan);
 struct StiffResults {
   StiffPlan plan;
   std::vector<LimitRow> limits;
-  std::vector<ContactRow> bounces;
-  std::vector<ContactRow> racers;
+  std::vector<ContactRow> bounces, racers;
 };
 
 // Whether what was measured agrees with theory.
 
-/// Every step of every spring.
-std::vector<MapStep> map_of(const std::vector<LimitRow>& rows);
-
 /// Every bounce came back, and none got past the middle of the wall.
-bool is_clean(const StiffPlan& plan, const ContactRow& row);
+inline bool is_clean(const StiffPlan& plan, const ContactRow& row) {
+  return row.tally.returned == row.tally.bounces() && row.tally.deepest < plan.approach.reach();
+}
 
 /// The one of the same wall and step with the other detection, which must be there.
 const ContactRow& twin_of(const std::vector<ContactRow>& rows, const ContactRow& row);

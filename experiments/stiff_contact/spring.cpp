@@ -1,6 +1,5 @@
 #include <thinwall/experiments/stiff_contact/model.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -8,12 +7,6 @@
 #include <Eigen/Core>
 
 namespace thinwall {
-
-Spring spring_of(double mass, double stiffness, double ratio) {
-  return {mass, stiffness, 2 * ratio * std::sqrt(stiffness) * std::sqrt(mass)};
-}
-
-double frequency(const Spring& spring) { return std::sqrt(spring.stiffness / spring.mass); }
 
 Motion stepped(Scheme scheme, const Spring& spring, double step, const Motion& old) {
   const auto& [mass, stiffness, damping] = spring;
@@ -75,10 +68,16 @@ bool decays(const Power& p) { return p.exponent < -bound; }
 std::vector<Power> powers(Scheme scheme, const Spring& spring, double step) {
   const int doublings = spring.damping > 0 ? damped_doublings : undamped_doublings;
   std::vector<Power> list = {one_step(scheme, spring, step)};
-  while (!grows(list.back()) && !decays(list.back()) && static_cast<int>(list.size()) <= doublings) {
+  while (!grows(list.back()) && !decays(list.back()) && static_cast<int>(list.size()) <= doublings)
     list.push_back(product(list.back(), list.back()));
-  }
   return list;
+}
+
+/// acos(z) / sqrt(1 - z^2), which is acosh(z) / sqrt(z^2 - 1) beyond 1, and 1 at 1.
+double arc_over_sine(double z) {
+  const double sine = std::sqrt(std::abs((1 - z) * (1 + z)));
+  if (sine == 0) return 1;
+  return (z < 1 ? std::atan2(sine, z) : std::asinh(sine)) / sine;
 }
 
 }  // namespace
@@ -88,9 +87,9 @@ Fate fate(Scheme scheme, const Spring& spring, double step) {
   return grows(last) ? Fate::grows : decays(last) ? Fate::decays : Fate::holds;
 }
 
-std::int64_t blow_up_step(Scheme scheme, const Spring& spring, double step) {
+std::optional<std::int64_t> blow_up_step(Scheme scheme, const Spring& spring, double step) {
   const std::vector<Power> list = powers(scheme, spring, step);
-  if (!grows(list.back())) return 0;
+  if (!grows(list.back())) return std::nullopt;
   Power state = {Eigen::Matrix2d::Identity(), 0};
   std::int64_t steps = 0;
   for (std::size_t i = list.size(); i-- > 0;) {
@@ -125,35 +124,15 @@ Interval measured_limit(Scheme scheme, const Spring& spring) {
 
 // What mathematics says.
 
-namespace {
-
-/// acos(z) / sqrt(1 - z^2), which is acosh(z) / sqrt(z^2 - 1) beyond 1, and 1 at 1.
-double arc_over_sine(double z) {
-  const double sine = std::sqrt(std::abs((1 - z) * (1 + z)));
-  if (sine == 0) return 1;
-  return (z < 1 ? std::atan2(sine, z) : std::asinh(sine)) / sine;
-}
-
-}  // namespace
-
 std::optional<double> step_limit(Scheme scheme, double damping_ratio) {
   const double z = damping_ratio;
-  switch (scheme) {
-    case Scheme::explicit_euler: return z < 1 ? 2 * z : 2 / (z + std::sqrt((z - 1) * (z + 1)));
-    case Scheme::semi_implicit: return 2 / (std::hypot(1.0, z) + z);
-    case Scheme::implicit_euler: break;
-  }
-  return std::nullopt;
+  if (scheme == Scheme::implicit_euler) return std::nullopt;
+  if (scheme == Scheme::semi_implicit) return 2 / (std::hypot(1.0, z) + z);
+  return z < 1 ? 2 * z : 2 / (z + std::sqrt((z - 1) * (z + 1)));
 }
 
 double restitution(double damping_ratio) { return std::exp(-2 * damping_ratio * arc_over_sine(damping_ratio)); }
 
 double deepest(double damping_ratio) { return std::exp(-damping_ratio * arc_over_sine(damping_ratio)); }
-
-std::optional<Interval> bounce_bounds(double step) {
-  if (!(step < 2)) return std::nullopt;
-  const double least = std::sqrt(1 - step * step / 4);
-  return Interval{least, 1 / least};
-}
 
 }  // namespace thinwall

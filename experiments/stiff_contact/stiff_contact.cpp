@@ -1,9 +1,7 @@
-/// A ball held by a stiff spring at a wall: which steps are stable, what does a bounce do to the energy, and when does the ball get
-/// through? See docs/stiff_contact.md.
+/// See docs/stiff_contact.md.
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -29,9 +27,9 @@ template <class T> bool is_in(const std::vector<T>& all, const T& x) { return st
 bool has_returned(const Row& row) { return row.tally.returned > 0; }
 bool all_returned(const Row& row) { return has_returned(row) && row.tally.returned == row.tally.bounces(); }
 std::int64_t bounces_of(const Row& row) { return row.tally.bounces(); }
-double mean_speed(const Row& row) { return row.tally.mean_speed(); }
 double rms_error(const Row& row) { return row.tally.rms_error(); }
 double spread(const Row& row) { return row.tally.fastest - row.tally.slowest; }
+double mean_speed(const Row& row) { return row.tally.mean_speed(); }
 double ratio_of(const Row& row) { return row.contact.spring.damping_ratio; }
 std::string method_of(const Row& row) {
   return fmt::format("{} {}", name(row.contact.spring.scheme), name(row.contact.detection));
@@ -74,21 +72,17 @@ auto contact_steps_column() {
 
 Table claims_table(const std::vector<StiffClaim>& claims) {
   using C = StiffClaim;
-  const auto columns = columns_of<C>(
-      text("claim", "What must hold.", &C::text), value("judged", "1", "Cells it speaks of.", &C::judged),
-      value("wrong", "1", "Of those, in which it does not hold.", &C::wrong), value("passed", "", "None.", &C::passed));
-  return in_report(table("self_test", "What theory claims, and how often it was wrong.", columns, claims));
+  return in_report(table("self_test", "What theory claims, and how often it was wrong.", claims,
+                         text("claim", "What must hold.", &C::text),
+                         value("judged", "1", "Cells it speaks of.", &C::judged),
+                         value("wrong", "1", "Of those, in which it does not hold.", &C::wrong),
+                         value("passed", "", "None.", &C::passed)));
 }
 
 Table limits_table(const std::vector<LimitRow>& rows) {
   return table("limits", "The largest stable step of a spring that holds both ways, measured and by formula.", rows,
                fields(std::identity()),
                value("inside", "", "The limit lies between the two.", &LimitRow::holds_theory));
-}
-
-Table stability_table(const std::vector<LimitRow>& limits) {
-  return table("stability", "The map: what each step does to a spring that holds both ways.",
-               columns_of<MapStep>(fields(std::identity())), map_of(limits));
 }
 
 Table bounces_table(const StiffPlan& plan, const std::vector<Row>& rows) {
@@ -135,18 +129,12 @@ Table detection_table(const StiffResults& results) {
 
 auto racer_columns() { return contact_columns("scheme", "detection", "damping_ratio", "step"); }
 
-Table race_table(const std::vector<Row>& racers) {
-  return table("race", "The error of a bounce against the number of its steps.", racers, racer_columns(),
-               fields(&Row::tally, {"returned"}), value("bounces", "1", "Asked.", bounces_of), error_column(),
-               contact_steps_column());
-}
-
 Table times_table(const std::vector<Row>& racers) {
   return timing(
       table("timings", "Time a bounce, on this machine, the threads of the run at work: medians over rounds.", racers,
             racer_columns(), error_column(),
             value("bounce_ns", "ns", "Median time of a bounce, from before contact until it is seen to leave.",
-                  [](const Row& r) { return time_of(r).value; }),
+                  of(time_of, &Measured::value)),
             value("lower_ns", "ns", "Lower end of its 95 % bootstrap interval.",
                   [](const Row& r) { return time_of(r).interval.lower; }),
             value("upper_ns", "ns", "Upper end of it.", [](const Row& r) { return time_of(r).interval.upper; })));
@@ -189,13 +177,11 @@ Figure stability_figure(const StiffResults& results) {
                        "Circles and squares: what the steps of the map do, at {:g} N/m. Triangles: the measured limit "
                        "at every stiffness from {:g} to {:g} N/m, with bars thinner than the line.",
                        plan.stiffness.front(), plan.stiffness.front(), plan.stiffest())};
-  const auto map = columns_of<MapStep>(fields(std::identity()), text("fate", "", [](const MapStep& s) {
-                                         return s.verdict == "stable" ? "decays" : "grows";
-                                       }));
-  const auto limits = columns_of<LimitRow>(fields(std::identity()), measured("middle", "", "", [](const LimitRow& r) {
-                                             return Measured{std::sqrt(r.stable * r.unstable), {r.stable, r.unstable}};
-                                           }));
-  const auto decided = only(map_of(results.limits), [&](const MapStep& s) {
+  const auto fate = [](const MapStep& s) { return s.verdict == "stable" ? "decays" : "grows"; };
+  const auto middle = [](const LimitRow& r) {
+    return Measured{std::sqrt(r.stable * r.unstable), {r.stable, r.unstable}};
+  };
+  const auto decided = only(flat(results.limits, &LimitRow::map), [&](const MapStep& s) {
     return s.spring.stiffness == plan.stiffness.front() && s.verdict != "undecided";
   });
   for (const Scheme scheme : all_schemes) {
@@ -205,12 +191,13 @@ Figure stability_figure(const StiffResults& results) {
           .where("damping_ratio", is_positive)  // 0 has no place on the axis
           .x("damping_ratio", Axis::log, "damping ratio zeta [1]");
     };
-    Panel panel = against_ratio(plot(results.limits, limits))
+    Panel panel = against_ratio(plot(results.limits, fields(std::identity()), measured("middle", "", "", middle)))
                       .y("middle", Axis::log, "h omega [1], " + scheme_name)
                       .label("measured limit, every stiffness")
                       .height(0.9)
                       .curve("formula", [scheme](double ratio) { return *step_limit(scheme, ratio); });
-    const Panel tried = against_ratio(plot(decided, map)).y("step").by("fate");
+    const Panel tried =
+        against_ratio(plot(decided, fields(std::identity()), text("fate", "", fate))).y("step").by("fate");
     panel.series.insert(panel.series.begin(), tried.series.begin(), tried.series.end());
     figure.panels.push_back(panel);
   }
@@ -243,13 +230,11 @@ Figure bounce_figure(const StiffResults& results) {
                      .where("detection", "discrete")
                      .where("scheme", scheme_name)
                      .by("damping_ratio");
-    for (const double ratio : plan.bounce_ratios)
-      panel.curve("continuous time", [ratio](double) { return restitution(ratio); });
+    for (const double ratio : plan.bounce_ratios) panel.level("continuous time", restitution(ratio));
     for (double Interval::*end : {&Interval::lower, &Interval::upper}) {
       if (scheme != Scheme::semi_implicit || plan.bounce_ratios.front() != 0) continue;
-      panel.curve(
-          "bounds, undamped", [=](double step) { return *bounce_bounds(std::min(step, last_bound)).*end; },
-          plan.bounce_steps.front(), last_bound);
+      const auto end_at = [=](double step) { return *bounce_bounds(std::min(step, last_bound)).*end; };
+      panel.curve("bounds, undamped", end_at, plan.bounce_steps.front(), last_bound);
     }
     figure.panels.push_back(panel);
   }
@@ -262,7 +247,6 @@ Figure escape_figure(const StiffResults& results) {
   const double ratio = plan.bounce_ratios.front(), rate = e.speed / e.reach();
   const auto at = [&](double step) { return e.mass * (step * rate) * (step * rate); };  // [N/m]
   const auto step_at = [&](double stiffness) { return std::sqrt(stiffness / e.mass) / rate; };
-  const double soft = at(deepest(ratio));
   Figure figure = {
       .name = "escape",
       .title = "Who gets through the wall",
@@ -283,7 +267,7 @@ Figure escape_figure(const StiffResults& results) {
               .curve("a step goes to the wall's middle", at,
                      std::max(step_at(plan.stiffness.front()), plan.bounce_steps.front()),
                      std::min(step_at(plan.stiffest()), plan.bounce_steps.back()))
-              .curve("too soft in continuous time", [soft](double) { return soft; }));
+              .level("too soft in continuous time", at(deepest(ratio))));
     }
   }
   return figure;
@@ -425,12 +409,16 @@ Outcome outcome_of(const StiffResults& results) {
   const std::vector<StiffClaim> claims = stiff_claims(results);
   return {.answer = stiff_answer(results),
           .summary = stiff_summary(results, claims),
-          .tables = {claims_table(claims), limits_table(results.limits), stability_table(results.limits),
-                     bounces_table(results.plan, results.bounces), detection_table(results), race_table(results.racers),
+          .tables = {claims_table(claims), limits_table(results.limits),
+                     table("stability", "The map: what each step does to a spring that holds both ways.",
+                           flat(results.limits, &LimitRow::map), fields(std::identity())),
+                     bounces_table(results.plan, results.bounces), detection_table(results),
+                     table("race", "The error of a bounce against the number of its steps.", results.racers,
+                           racer_columns(), fields(&Row::tally, {"returned"}),
+                           value("bounces", "1", "Asked.", bounces_of), error_column(), contact_steps_column()),
                      times_table(results.racers)},
           .figures = only_measured({stability_figure(results), bounce_figure(results), escape_figure(results),
                                     detection_figure(results), race_figure(results)}),
-          .sections = {},
           .self_test_passed = all_passed(claims)};
 }
 
