@@ -1,4 +1,3 @@
-/// A ball bounces on a floor: what does each way to find and answer the impact do to its energy, and what time does it take?
 /// See docs/bouncing.md.
 #include <algorithm>
 #include <cmath>
@@ -30,10 +29,40 @@ using Scenario = BounceScenario;
 
 constexpr const char* unit = "g h / V";  // of the energy
 
-/// Balls that bounce on and on, after some bounces.
+/// [1] Energy over the first after so many bounces without loss, and its standard deviation, if every phase were random; to first order.
+struct RandomPhases {
+  double mean, sigma;
+};
+RandomPhases at_random_phases(const Cell& cell, double bounces) {
+  const BounceTheory theory = bounce_theory(cell.policy.name, 0, 1);
+  const double speed = std::max(0.0, 1 + theory.mean() * delta(cell) * bounces / 2), mean = speed * speed;  // of V
+  return {mean, std::sqrt(mean * bounces) * delta(cell) * theory.sigma()};
+}
+
+/// Balls that bounce on and on, whose phases are not random: each follows from the one before. What `energies` tells of them after 1, 2,
+/// 4, ... bounces, as long as every run lasts. Each begins at a time of its own within the first step.
+std::vector<Tally> long_run(const Cell& cell, std::uint64_t seed, std::int64_t runs, std::int64_t bounces) {
+  const RandomStream stream = bounce_factors().stream(cell, seed);
+  constexpr std::uint64_t draw = 1;  // draw 0 is the phases'
+  std::vector<Tally> tallies;
+  for (std::int64_t i = 0; i < runs; ++i) {
+    const double elapsed = uniform(random_words(stream, static_cast<std::uint64_t>(i), draw)[0]);
+    const std::vector<double> run = energies(cell, elapsed, bounces);
+    for (std::size_t n = 1, k = 0; n <= run.size(); n *= 2, ++k) {
+      if (k == tallies.size()) tallies.emplace_back();
+      tallies[k].add(run[n - 1]);
+    }
+  }
+  std::erase_if(tallies, [=](const Tally& tally) { return tally.trials < runs; });
+  return tallies;
+}
+
+/// After some bounces.
 struct LongRow {
   Cell cell;
-  LongRunPoint at;
+  std::int64_t bounces;
+  Tally energy;  ///< [1] over that of the first flight
+  RandomPhases random = at_random_phases(cell, static_cast<double>(bounces));
 };
 
 /// Whole bounces without loss at evenly spaced phases, timed, and nothing else; in turn with all others.
@@ -64,13 +93,13 @@ struct Results {
   std::vector<Row> rows, lively;  ///< lively: at the highest restitution that was asked for, usually 1
   std::vector<BounceTest> tests;
   std::vector<Scenario> scenarios;
-  std::vector<LongRow> long_rows;
-  std::vector<LongRow> dropped;  ///< the one ball that begins with the drop itself
+  std::vector<LongRow> long_rows, dropped;  ///< dropped: the one ball that begins with the drop itself
   std::vector<WorkRow> work;
 
   std::int64_t scenarios_passed() const { return std::ranges::count(scenarios, true, &Scenario::passed); }
 };
 
+constexpr auto cell_of = [](const auto& row) { return row.cell; };
 constexpr auto policy_of = [](const auto& row) { return row.cell.policy.name; };
 
 /// The last row of each policy.
@@ -83,28 +112,25 @@ template <class R> std::vector<R> last_of_each(const std::vector<R>& rows) {
 // What the tables show.
 
 auto policy_column(auto policy) { return text("policy", "What is done in a step.", policy); }
-auto policy_and_step() {
-  return together(policy_column(policy_of),
-                  bounce_factors().columns([](const auto& row) { return row.cell; }, {"step"}));
-}
+auto policy_and_step() { return together(policy_column(policy_of), bounce_factors().columns(cell_of, {"step"})); }
 auto delta_column() {
-  return value("delta", "1", "g h / V: what gravity adds in a step, over the impact speed V.",
-               [](const auto& row) { return delta(row.cell); });
+  return value("delta", "1", "g h / V: what gravity adds in a step, over the impact speed V.", of(cell_of, delta));
 }
 
 Columns<Row> row_columns() {
+  const auto mean = [](const Row& r) { return normal_mean(r.tally.mean, r.tally.sigma(), r.tally.trials, normal_95); };
   return columns_of<Row>(
       policy_and_step(), delta_column(), bounce_factors().columns(&Row::cell, {"restitution"}),
       fields(&Row::tally, {"bounces"}),
-      measured("mean", unit, "Mean change of the flight's energy, beyond that of the restitution.", measured_mean,
-               "mean_"),
+      measured("mean", unit, "Mean change of the flight's energy, beyond that of the restitution.", mean, "mean_"),
       value("theory", unit, "The same by theory.", [](const Row& r) { return r.theory.mean(); }),
       value("first_order", unit, "The theory for short steps.",
             [](const Row& r) { return bounce_theory(policy_of(r), 0, r.cell.restitution).mean(); }),
-      value("residual", "1", "Standard errors between the two; missing where phases do not matter.", mean_residual),
+      value("residual", "1", "Standard errors between the two; missing where phases do not matter.",
+            &Row::mean_residual),
       value("sigma", unit, "Standard deviation over the bounces.", [](const Row& r) { return r.tally.sigma(); }),
       value("sigma_theory", unit, "The same by theory.", [](const Row& r) { return r.theory.sigma(); }),
-      value("variance_residual", "1", "Standard errors between the variance and theory.", variance_residual),
+      value("variance_residual", "1", "Standard errors between the variance and theory.", &Row::variance_residual),
       fields(&Row::tally, {"least", "most"}),
       value("rounding", unit, "What rounding can explain.", [](const Row& r) { return rounding_of(r.cell); }));
 }
@@ -135,26 +161,18 @@ Table test_table(const std::vector<BounceTest>& tests) {
 }
 
 Table dropped_table(const std::vector<LongRow>& rows) {
-  using R = LongRow;
   return in_report(table(
       "dropped", "The same for one run that begins with the drop itself: its phase may lock where nothing is lost.",
-      rows, policy_and_step(), fields(&R::at, {"bounces"}),
+      rows, policy_and_step(), value("bounces", "1", "Bounces so far.", &LongRow::bounces),
       value("energy", "1", "Energy after the last bounce over that of the first flight.",
-            [](const R& r) { return r.at.mean; }),
+            of(&LongRow::energy, &Tally::mean)),
       value("random_mean", "1", "Its mean at random phases, to first order.",
-            [](const R& r) { return r.at.random_mean; })));
+            of(&LongRow::random, &RandomPhases::mean))));
 }
 
 auto error_columns() {
   return together(value("mean_error", "1", "Mean change of the energy a bounce, relative.", &WorkRow::mean_error),
                   value("rms_error", "1", "Root of its mean square.", &WorkRow::rms_error));
-}
-
-Table even_phases_table(const std::vector<WorkRow>& work) {
-  return table("even_phases",
-               "Change of energy a bounce without loss at evenly spaced phases: the errors of the timed bounces.", work,
-               policy_and_step(), delta_column(),
-               value("bounces", "1", "Phases.", [](const WorkRow& w) { return w.errors.trials; }), error_columns());
 }
 
 Table timings_table(const std::vector<WorkRow>& work) {
@@ -179,10 +197,7 @@ Figure energy_figure(const std::vector<Row>& rows, const Table& means) {
     });
   }
   Plot residuals = over_step("residual", "from theory [standard errors]").height(0.6);
-  for (const double at : {-1.96, 1.96}) {
-    residuals.curve(
-        "95 % of chance", [at](double) { return at; }, Mark::dashes);
-  }
+  for (const double at : {-1.96, 1.96}) residuals.level("95 % of chance", at, Mark::dashes);
   return {.name = "energy_per_bounce",
           .title = "What a bounce at random phase does to the energy",
           .caption = fmt::format(
@@ -216,20 +231,16 @@ Figure work_figure(const std::vector<WorkRow>& work) {
 }
 
 Figure long_figure(const std::vector<LongRow>& rows, const Table& runs, double step) {
-  Plot means =
-      plot(runs).x("bounces", Axis::log, "bounces").y("mean", Axis::linear, "mean energy / first [1]").by("policy");
-  Plot sigmas = plot(runs)
-                    .where("sigma", [](double sigma) { return sigma > 1e-9; })
-                    .x("bounces", Axis::log, "bounces")
-                    .y("sigma", Axis::log, "standard deviation [1]")
-                    .by("policy");
+  Plot both = plot(runs).x("bounces", Axis::log, "bounces").by("policy");
+  Plot means = Plot(both).y("mean", Axis::linear, "mean energy / first [1]");
+  Plot sigmas = both.where("sigma", [](double x) { return x > 1e-9; }).y("sigma", Axis::log, "standard deviation [1]");
   for (const LongRow& last : last_of_each(rows)) {
     const auto add = [&](Plot& panel, double RandomPhases::*part) {
       const auto curve = [=](double n) { return at_random_phases(last.cell, n).*part; };
-      panel.curve("random phases", curve, 1, static_cast<double>(last.at.bounces));
+      panel.curve("random phases", curve, 1, static_cast<double>(last.bounces));
     };
     add(means, &RandomPhases::mean);
-    if (last.at.random_sigma > 0) add(sigmas, &RandomPhases::sigma);
+    if (last.random.sigma > 0) add(sigmas, &RandomPhases::sigma);
   }
   return {.name = "long_runs",
           .title = "One ball that bounces on and on",
@@ -331,10 +342,17 @@ Outcome outcome_of(const Results& results, double long_step) {
             "One ball that bounces on and on without loss: energy after a number of bounces over that of the first "
             "flight, and what it would be if every phase were random. Over runs that begin at random in the first "
             "step, as long as all last.",
-            columns_of<LongRow>(policy_and_step(), fields(&LongRow::at)), results.long_rows));
+            results.long_rows, policy_and_step(), value("bounces", "1", "Bounces so far.", &LongRow::bounces),
+            value("runs", "1", "Balls.", of(&LongRow::energy, &Tally::trials)),
+            value("mean", "1", "Mean energy over the first.", of(&LongRow::energy, &Tally::mean)),
+            value("random_mean", "1", "The same at random phases, to first order.",
+                  of(&LongRow::random, &RandomPhases::mean)),
+            value("sigma", "1", "Standard deviation over the runs.", of(&LongRow::energy, &Tally::sigma)),
+            value("random_sigma", "1", "The same at random phases, to first order.",
+                  of(&LongRow::random, &RandomPhases::sigma))));
   const Table dropped = dropped_table(results.dropped), timings = timings_table(results.work);
   const Table crowds = in_report(table("scenarios", "Impacts that come in crowds: what must happen, and what did.",
-                                       columns_of<Scenario>(fields(std::identity())), results.scenarios));
+                                       results.scenarios, fields(std::identity())));
   return {
       .answer = answer_of(results),
       .summary =
@@ -348,23 +366,18 @@ Outcome outcome_of(const Results& results, double long_step) {
       .tables = {means, crowds, runs, dropped, test_table(results.tests),
                  table("cells", "Change of energy a bounce at random phase, every cell and policy, against theory.",
                        row_columns(), results.rows),
-                 even_phases_table(results.work), timings},
+                 table(
+                     "even_phases",
+                     "Change of energy a bounce without loss at evenly spaced phases: the errors of the timed bounces.",
+                     results.work, policy_and_step(), delta_column(),
+                     value("bounces", "1", "Phases.", of(&WorkRow::errors, &Tally::trials)), error_columns()),
+                 timings},
       .figures = {energy_figure(results.lively, means), work_figure(results.work),
                   long_figure(results.long_rows, runs, long_step), heights_figure(results.rows)},
-      .sections = {},
       .self_test_passed = all_passed(results.tests) && all_passed(results.scenarios)};
 }
 
 // What is run.
-
-/// In the order asked for.
-std::vector<std::string> groups_asked(const Settings& settings) {
-  std::vector<std::string_view> allowed(scenario_groups.begin(), scenario_groups.end());
-  allowed.emplace_back("all");
-  const std::vector<std::string> asked = settings.choices("scenario", allowed);
-  if (std::ranges::find(asked, "all") == asked.end()) return asked;
-  return {scenario_groups.begin(), scenario_groups.end()};
-}
 
 /// `done` round by round.
 std::vector<WorkRow> work_of(std::vector<WorkRow> timed, const Done<Tally>& done) {
@@ -397,8 +410,8 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const auto key_of = [](const Cell& c) { return fmt::format("{} {}", bounce_factors().key(c), c.policy.name); };
   std::vector<Task<std::vector<Scenario>>> crowd_tasks;
   std::vector<Task<Tally>> cell_tasks, timing_tasks;
-  std::vector<Task<std::vector<LongRunPoint>>> long_tasks;
-  for (const std::string& group : groups_asked(settings))
+  std::vector<Task<std::vector<Tally>>> long_tasks;
+  for (const std::string& group : settings.choices_as_asked("scenario", scenario_groups))
     crowd_tasks.push_back({"scenario " + group, 1, [=] { return bounce_scenarios(group, mass_ratios, digits); }});
   for (const Cell& cell : cells) {
     cell_tasks.push_back(
@@ -416,7 +429,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   }
 
   const auto finish = [=](const Done<std::vector<Scenario>>& crowds, const Done<Tally>& tallies,
-                          const Done<std::vector<LongRunPoint>>& long_runs, const Done<Tally>& times) {
+                          const Done<std::vector<Tally>>& long_runs, const Done<Tally>& times) {
     Results results;
     results.scenarios = flat(crowds.results);
     results.work = work_of(timed, times);
@@ -425,10 +438,13 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
     results.lively = only(results.rows, [&](const Row& r) { return r.cell.restitution == most; });
     results.tests = bounce_tests(results.rows);
     for (std::size_t i = 0; i < long_cells.size(); ++i) {
-      for (const LongRunPoint& at : long_runs.results[i]) results.long_rows.push_back({long_cells[i], at});
+      for (std::int64_t n = 1; const Tally& energy : long_runs.results[i]) {
+        results.long_rows.push_back({long_cells[i], n, energy});
+        n *= 2;
+      }
       const std::vector<double> kept = energies(long_cells[i], 0, run_bounces);
-      const double random = at_random_phases(long_cells[i], static_cast<double>(kept.size())).mean;
-      results.dropped.push_back({long_cells[i], {std::ssize(kept), 1, kept.empty() ? 0 : kept.back(), random}});
+      LongRow& last = results.dropped.emplace_back(LongRow{long_cells[i], std::ssize(kept), {}});
+      if (!kept.empty()) last.energy.add(kept.back());
     }
     return outcome_of(results, middle_step);
   };

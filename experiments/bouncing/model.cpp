@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -19,12 +18,6 @@ BouncingBall falling(const BounceCell& cell, double elapsed) {
   const double early = cell.policy.staggered ? cell.step / 2 : 0;  // its speed is of half a step before
   return ball_at(cell.height - cell.gravity * elapsed * elapsed / 2, -cell.gravity * (elapsed - early), cell.radius);
 }
-
-constexpr double normal_95 = 1.959963984540054;
-constexpr std::int64_t least_for_mean = 30, least_for_spread = 100;
-
-/// Phases differ by no more than rounding: every bounce is the same.
-bool is_certain(const BounceRow& row) { return row.theory.sigma() <= rounding_of(row.cell); }
 
 }  // namespace
 
@@ -61,26 +54,6 @@ std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
     }
   }
   return cells;
-}
-
-BouncingWorld world_of(const BounceCell& c, std::int64_t bounces) {
-  const double fastest = impact_speed(c) + static_cast<double>(bounces + 1) * c.gravity * c.step;
-  return {c.gravity, c.restitution, c.step, floor_of_depth(2 * c.height + 4 * c.radius + 2 * c.step * fastest)};
-}
-
-double rounding_of(const BounceCell& c) {
-  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
-  const double steps = 2 / delta(c) + 2;  // each rounds a height, or a coordinate of the floor, and a speed
-  return 8 * u * steps * (1 + c.radius / c.height) / delta(c);
-}
-
-void BounceTally::add(double error) {
-  ++trials;
-  const double distance = error - mean;
-  mean += distance / static_cast<double>(trials);
-  squares += distance * (error - mean);
-  least = std::min(least, error);
-  most = std::max(most, error);
 }
 
 double error_at(const BounceCell& cell, double phase) {
@@ -130,35 +103,10 @@ BounceTally random_bounces(const BounceCell& cell, std::uint64_t seed, std::int6
   return tally;
 }
 
-std::vector<LongRunPoint> long_run(const BounceCell& cell, std::uint64_t seed, std::int64_t runs,
-                                   std::int64_t bounces) {
-  const RandomStream stream = bounce_factors().stream(cell, seed);
-  constexpr std::uint64_t draw = 1;  // draw 0 is the phases'
-  std::vector<std::vector<double>> all;
-  std::size_t shortest = static_cast<std::size_t>(bounces);
-  for (std::int64_t i = 0; i < runs; ++i) {
-    const double elapsed = uniform(random_words(stream, static_cast<std::uint64_t>(i), draw)[0]);
-    all.push_back(energies(cell, elapsed, bounces));
-    shortest = std::min(shortest, all.back().size());
-  }
-  std::vector<LongRunPoint> points;
-  for (std::size_t n = 1; n <= shortest; n *= 2) {
-    BounceTally tally;
-    for (const std::vector<double>& run : all) tally.add(run[n - 1]);
-    const RandomPhases random = at_random_phases(cell, static_cast<double>(n));
-    points.push_back({static_cast<std::int64_t>(n), runs, tally.mean, random.mean, tally.sigma(), random.sigma});
-  }
-  return points;
-}
-
-// Moments of u, uniform on [-1, 1]: 0, 1/3, 0, 1/5.
-double BounceTheory::mean() const { return c[0] + c[2] / 3; }
-double BounceTheory::sigma() const { return std::sqrt(c[1] * c[1] / 3 + 4 * c[2] * c[2] / 45); }
 double BounceTheory::kurtosis() const {
   const auto fourth = [&](double x) { return std::pow(at(x) - mean(), 4); };
-  const double moment =
-      boost::math::quadrature::gauss<double, 7>::integrate(fourth, -1.0, 1.0) / 2;  // exact to degree 13
-  return moment / std::pow(sigma(), 4);
+  using Gauss = boost::math::quadrature::gauss<double, 7>;  // exact to degree 13
+  return Gauss::integrate(fourth, -1.0, 1.0) / 2 / std::pow(sigma(), 4);
 }
 
 BounceTheory bounce_theory(std::string_view policy, double delta, double restitution) {
@@ -175,49 +123,17 @@ BounceTheory bounce_theory(std::string_view policy, double delta, double restitu
   throw std::logic_error(fmt::format("no theory for the policy '{}'", policy));
 }
 
-RandomPhases at_random_phases(const BounceCell& cell, double bounces) {
-  const BounceTheory theory = bounce_theory(cell.policy.name, 0, 1);
-  const double speed = std::max(0.0, 1 + theory.mean() * delta(cell) * bounces / 2), mean = speed * speed;  // of V
-  return {mean, std::sqrt(mean * bounces) * delta(cell) * theory.sigma()};
-}
-
-Measured measured_mean(const BounceRow& row) {
-  const double half = normal_95 * row.tally.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
-  return {row.tally.mean, {row.tally.mean - half, row.tally.mean + half}};
-}
-
-std::optional<double> mean_residual(const BounceRow& row) {
-  if (is_certain(row)) return std::nullopt;
-  const double difference = row.tally.mean - row.theory.mean();
-  const double beyond = std::max(0.0, std::abs(difference) - rounding_of(row.cell));
-  const double standard_error = row.theory.sigma() / std::sqrt(static_cast<double>(row.tally.trials));
-  return std::copysign(beyond / standard_error, difference);
-}
-
-std::optional<double> variance_residual(const BounceRow& row) {
-  if (is_certain(row) || row.tally.trials < least_for_spread) return std::nullopt;
-  const double n = static_cast<double>(row.tally.trials), s = row.tally.sigma() / row.theory.sigma();
-  return (s * s - 1) / std::sqrt((row.theory.kurtosis() - (n - 3) / (n - 1)) / n);
-}
-
-Interval BounceTest::covered_allowed() const { return binomial_range(means.judged, 0.95, 0.999); }
-
-bool BounceTest::passed() const {
-  const bool is_covered = means.judged == 0 || covered_allowed().contains(static_cast<double>(covered));
-  return certain_wrong == 0 && is_covered && means.passed() && variances.passed();
-}
-
 std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
   std::vector<BounceTest> tests;
   for (const Group<BounceRow>& group : group_by(rows, [](const BounceRow& row) { return row.cell.policy.name; })) {
     BounceTest& test = tests.emplace_back(BounceTest{group[0]->cell.policy.name});
     for (const BounceRow* row : group) {
-      const auto mean = mean_residual(*row), variance = variance_residual(*row);
+      const auto mean = row->mean_residual(), variance = row->variance_residual();
       if (!mean) {  // every bounce must be the same
         const double expected = row->theory.mean(), allowed = rounding_of(row->cell) + 4 * row->theory.sigma();
         ++test.certain_cells;
         if (!(row->tally.most - expected <= allowed && expected - row->tally.least <= allowed)) ++test.certain_wrong;
-      } else if (row->tally.trials < least_for_mean) {
+      } else if (row->tally.trials < 30) {
         ++test.other_cells;
       } else {
         test.means.add(*mean);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -93,17 +94,12 @@ template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBa
 
 // The policies: the ways to take a step.
 
-/// Semi-implicit Euler: first the speed, then the height with the new speed.
-inline void kick_and_drift(const BouncingWorld& world, BouncingBall& ball) {
-  ball.velocity -= world.gravity * world.step;
-  ball.body.center.y() += ball.velocity * world.step;
-  ball.time += world.step;
-}
+enum class Flight { euler, arc };  ///< semi-implicit: first the speed, then the height with the new speed; or exact
 
-/// The exact arc, as if there were no floor.
-inline void fly_on(const BouncingWorld& world, BouncingBall& ball) {
+/// As if there were no floor.
+template <Flight flight> void fly(const BouncingWorld& world, BouncingBall& ball) {
   const double kick = world.gravity * world.step;
-  ball.body.center.y() += (ball.velocity - kick / 2) * world.step;
+  ball.body.center.y() += (ball.velocity - (flight == Flight::euler ? kick : kick / 2)) * world.step;
   ball.velocity -= kick;
   ball.time += world.step;
 }
@@ -145,7 +141,7 @@ inline void linear_toi(const BouncingWorld& world, BouncingBall& ball) {
 /// the floor deeper than a step, and solved if it ends inside.
 inline void parabola_toi(const BouncingWorld& world, BouncingBall& ball) {
   BouncingBall end = ball;
-  fly_on(world, end);
+  fly<Flight::arc>(world, end);
   if (overlaps(end.body, world.floor)) return follow_arc(world, ball, [](double) {});
   ball = end;
 }
@@ -169,9 +165,10 @@ template <BouncePolicy::Step... parts> constexpr BouncePolicy bounce_policy(std:
 
 /// In the order of the tables; the first is the game loop's way.
 inline const std::vector<BouncePolicy> all_bounce_policies = {
-    bounce_policy<kick_and_drift, push_out>("project_flip", true),
-    bounce_policy<kick_and_drift, turn_speed>("flip_only", true), bounce_policy<linear_toi>("linear_toi", true),
-    bounce_policy<fly_on, push_out>("exact_project", false), bounce_policy<parabola_toi>("parabola_toi", false)};
+    bounce_policy<fly<Flight::euler>, push_out>("project_flip", true),
+    bounce_policy<fly<Flight::euler>, turn_speed>("flip_only", true), bounce_policy<linear_toi>("linear_toi", true),
+    bounce_policy<fly<Flight::arc>, push_out>("exact_project", false),
+    bounce_policy<parabola_toi>("parabola_toi", false)};
 
 /// [J/kg] Energy of the flight: gravity times the height that the ball will rise to. Semi-implicit Euler's positions lie on an exact
 /// parabola, and its velocities are that parabola's half a step earlier. Derived in docs/bouncing.md.
@@ -205,20 +202,32 @@ inline double fall_time(const BounceCell& c) { return impact_speed(c) / c.gravit
 inline double delta(const BounceCell& c) { return c.gravity * c.step / impact_speed(c); }
 /// The floor is deeper than what a ball falls in a step after `bounces` of which each adds a whole g h to its speed, so that
 /// a test of the pose at the end of a step sees it.
-BouncingWorld world_of(const BounceCell& c, std::int64_t bounces = 1);
+inline BouncingWorld world_of(const BounceCell& c, std::int64_t bounces = 1) {
+  const double fastest = impact_speed(c) + static_cast<double>(bounces + 1) * c.gravity * c.step;
+  return {c.gravity, c.restitution, c.step, floor_of_depth(2 * c.height + 4 * c.radius + 2 * c.step * fastest)};
+}
 /// [g h / V] More than what rounding does to the energy of a flight of this many steps.
-double rounding_of(const BounceCell& c);
+inline double rounding_of(const BounceCell& c) {
+  const double steps = 2 / delta(c) + 2;  // each rounds a height, or a coordinate of the floor, and a speed
+  return 4 * std::numeric_limits<double>::epsilon() * steps * (1 + c.radius / c.height) / delta(c);
+}
 
 // What is measured: bounces each of its own phase, and balls that bounce on and on.
 
-/// The change of energy over the trials of one cell, in the order of the trials.
+/// Numbers in their order: the change of energy [g h / V] over the trials of one cell.
 struct BounceTally {
   std::int64_t trials = 0;
-  double mean = 0;     ///< [g h / V]
-  double squares = 0;  ///< [(g h / V)^2] sum of squared distances from the mean
+  double mean = 0;
+  double squares = 0;  ///< sum of squared distances from the mean
   double least = no_least, most = no_most;
 
-  void add(double error);  ///< Source: Welford's update
+  void add(double x) {  ///< Source: Welford's update
+    const double distance = x - mean;
+    mean += distance / static_cast<double>(++trials);
+    squares += distance * (x - mean);
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
   double sigma() const { return trials > 1 ? std::sqrt(squares / static_cast<double>(trials - 1)) : 0; }
   double rms() const { return std::sqrt(mean * mean + squares / static_cast<double>(trials)); }
   static constexpr auto fields() {
@@ -242,24 +251,6 @@ std::vector<double> energies(const BounceCell& cell, double elapsed, std::int64_
 /// [m] The gap at the start of such a run, and after each step.
 std::vector<double> heights(const BounceCell& cell, double elapsed, std::int64_t steps);
 
-/// Balls that bounce on and on, whose phases are not random: each follows from the one before.
-struct LongRunPoint {
-  std::int64_t bounces = 0, runs = 0;
-  double mean = 0, random_mean = 0, sigma = 0, random_sigma = 0;
-
-  static constexpr auto fields() {
-    using P = LongRunPoint;
-    return record(kept("bounces", &P::bounces, "1", "Bounces so far."), kept("runs", &P::runs, "1", "Balls."),
-                  kept("mean", &P::mean, "1", "Mean energy over the first."),
-                  kept("random_mean", &P::random_mean, "1", "The same at random phases, to first order."),
-                  kept("sigma", &P::sigma, "1", "Standard deviation over the runs."),
-                  kept("random_sigma", &P::random_sigma, "1", "The same at random phases, to first order."));
-  }
-};
-
-/// After 1, 2, 4, ... bounces, as long as every run lasts. Each run begins at a time of its own within the first step.
-std::vector<LongRunPoint> long_run(const BounceCell& cell, std::uint64_t seed, std::int64_t runs, std::int64_t bounces);
-
 // What theory says.
 
 /// With delta = g h / V, where V is the speed at which the true flight meets the floor, and u = 1 - 2 tau, where tau in [0, 1] is
@@ -268,19 +259,14 @@ std::vector<LongRunPoint> long_run(const BounceCell& cell, std::uint64_t seed, s
 struct BounceTheory {
   Vec3<double> c = Vec3<double>::Zero();  ///< [g h / V]
   double at(double u) const { return c[0] + u * (c[1] + u * c[2]); }
-  double mean() const;      ///< [g h / V] over uniform phases
-  double sigma() const;     ///< [g h / V] standard deviation over them
+  // Over uniform phases. Moments of u, uniform on [-1, 1]: 0, 1/3, 0, 1/5.
+  double mean() const { return c[0] + c[2] / 3; }                                     ///< [g h / V]
+  double sigma() const { return std::sqrt(c[1] * c[1] / 3 + 4 * c[2] * c[2] / 45); }  ///< [g h / V] standard deviation
   double kurtosis() const;  ///< [1] fourth moment about the mean over the variance's square; 9/5 if c2 is 0
 };
 
 /// Requires one of the five policies' names.
 BounceTheory bounce_theory(std::string_view policy, double delta, double restitution);
-
-/// [1] Energy over the first after so many bounces without loss, and its standard deviation, if every phase were random; to first order.
-struct RandomPhases {
-  double mean, sigma;
-};
-RandomPhases at_random_phases(const BounceCell& cell, double bounces);
 
 // Whether the two agree.
 
@@ -289,36 +275,48 @@ struct BounceRow {
   BounceCell cell;
   BounceTally tally;
   BounceTheory theory = bounce_theory(cell.policy.name, delta(cell), cell.restitution);
-};
 
-Measured measured_mean(const BounceRow& row);  ///< [g h / V] with its 95 % normal interval
-/// Standard errors between the mean and theory, where the two differ by more than rounding; nothing where every bounce is the same.
-std::optional<double> mean_residual(const BounceRow& row);
-/// The same of the variance, whose standard error follows from the kurtosis; nothing below 100 trials.
-std::optional<double> variance_residual(const BounceRow& row);
+  /// Phases differ by no more than rounding: every bounce is the same, and there are no residuals.
+  bool is_certain() const { return theory.sigma() <= rounding_of(cell); }
+  /// Standard errors between the mean and theory, where the two differ by more than rounding.
+  std::optional<double> mean_residual() const {
+    if (is_certain()) return std::nullopt;
+    const double difference = tally.mean - theory.mean();
+    const double beyond = std::max(0.0, std::abs(difference) - rounding_of(cell));
+    return std::copysign(beyond / (theory.sigma() / std::sqrt(static_cast<double>(tally.trials))), difference);
+  }
+  /// The same of the variance, whose standard error follows from the kurtosis; nothing below 100 trials.
+  std::optional<double> variance_residual() const {
+    if (is_certain() || tally.trials < 100) return std::nullopt;
+    const double n = static_cast<double>(tally.trials), s = tally.sigma() / theory.sigma();
+    return (s * s - 1) / std::sqrt((theory.kurtosis() - (n - 3) / (n - 1)) / n);
+  }
+};
 
 /// The verdict on one policy. A right theory fails by chance about once in 300 times for each.
 struct BounceTest {
   std::string_view policy;
-  std::int64_t certain_cells = 0;    ///< every bounce must give what theory says, to rounding
-  std::int64_t certain_wrong = 0;    ///< ... and does not
-  std::int64_t covered = 0;          ///< of the judged means, those whose 95 % interval holds the theory
-  ResidualTest means = {};           ///< of cells with at least 30 bounces, and phases that matter
-  ResidualTest variances = {};       ///< of those with at least 100
-  std::int64_t other_cells = 0;      ///< too few bounces to judge
-  Interval covered_allowed() const;  ///< central 99.9 % of Binomial(judged, 0.95); requires that some are
-  bool passed() const;
+  std::int64_t certain_cells = 0;  ///< every bounce must give what theory says, to rounding
+  std::int64_t certain_wrong = 0;  ///< ... and does not
+  std::int64_t covered = 0;        ///< of the judged means, those whose 95 % interval holds the theory
+  ResidualTest means = {};         ///< of cells with at least 30 bounces, and phases that matter
+  ResidualTest variances = {};     ///< of those with at least 100
+  std::int64_t other_cells = 0;    ///< too few bounces to judge
+  /// Central 99.9 % of Binomial(judged, 0.95); requires that some are.
+  Interval covered_allowed() const { return binomial_range(means.judged, 0.95, 0.999); }
+  bool passed() const {
+    const bool is_covered = means.judged == 0 || covered_allowed().contains(static_cast<double>(covered));
+    return certain_wrong == 0 && is_covered && means.passed() && variances.passed();
+  }
 };
 std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows);  ///< by policy
 
 // Impacts that come in crowds: at one instant, without end, or in tens of millions. Each has an answer of its own to be held against.
 
 struct BounceScenario {
-  std::string name;      ///< what is done
-  std::string must;      ///< what must happen
-  std::string happened;  ///< what did
+  std::string name, must, happened;
   bool passed = false;
-  std::string group = {};  ///< the kind that it is of
+  std::string group = {};
 
   static constexpr auto fields() {
     using S = BounceScenario;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -196,9 +197,7 @@ BounceScenario head_on(double a, double b) {
   const double after_a = balls[0].velocity.x(), after_b = balls[1].velocity.x();
   const long double la = a, lb = b;
   const long double back = (la - lb) / (la + lb), on = 2 * la / (la + lb);
-  const auto units_off = [](double answer, long double truth) {
-    return static_cast<double>(std::abs(answer - truth)) / u;
-  };
+  const auto units_off = [](double is, long double truth) { return static_cast<double>(std::abs(is - truth)) / u; };
   // v' = 1 - 2 b / (a + b): three roundings of a number up to 2 beside an answer that may be small; V' has three of its own.
   const double off = std::max(units_off(after_a, back) / 2, units_off(after_b, on) / static_cast<double>(on));
   return {fmt::format("masses {} : {}, elastic", exact_text(a), exact_text(b)),
@@ -235,17 +234,12 @@ BounceScenario cradle(int count) {
           fmt::format("speeds {:g}, {} impacts", fmt::join(speeds, " "), impacts), passed};
 }
 
-struct BlockCount {
-  std::int64_t impacts;
-  /// [m^2/s] Of the path of (heavy, light) around the corner where all three touch: |x_heavy v_light - x_light v_heavy|. An impact
-  /// only turns its sign, so that it stays what it was, 1. It is what the places say, where the speeds alone decide the count.
-  double moment;
-};
-
-/// Impacts of a block that stands 1 m from a wall while one 100^digits times as heavy comes in at 1 m/s.
+/// Impacts of a block that stands 1 m from a wall while one 100^digits times as heavy comes in at 1 m/s, and then the moment [m^2/s] of
+/// the path of (heavy, light) around the corner where all three touch: |x_heavy v_light - x_light v_heavy|. An impact only turns its
+/// sign, so that it stays what it was, 1. It is what the places say, where the speeds alone decide the count.
 /// The blocks never both approach: after an impact of the two, only the light one can approach the wall, and after that one,
 /// only the two each other. So the speeds alone decide whether there is a next impact, and the library when.
-template <class S> BlockCount count_block_impacts(int digits) {
+template <class S> std::pair<std::int64_t, double> count_block_impacts(int digits) {
   using Block = Moving<Aabb<S>>;
   const S mass = static_cast<S>(std::pow(100.0, digits)), half = S(1) / S(2);
   const auto block = [&](S left) { return Block{{{left + half, 0, 0}, {half, half, half}}, Vec3<S>::Zero()}; };
@@ -280,15 +274,15 @@ template <class S> BlockCount count_block_impacts(int digits) {
 }
 
 template <class S> BounceScenario digits_of_pi(int digits, const char* scalar) {
-  const BlockCount count = count_block_impacts<S>(digits);
+  const auto [impacts, moment] = count_block_impacts<S>(digits);
   const auto expected = static_cast<std::int64_t>(std::numbers::pi * std::pow(10.0, digits));
   BounceScenario row = {fmt::format("blocks of masses 1 : 100^{} and a wall, {}", digits, scalar),
-                        fmt::format("{} impacts: the digits of pi", expected), fmt::format("{} impacts", count.impacts),
-                        count.impacts == expected};
+                        fmt::format("{} impacts: the digits of pi", expected), fmt::format("{} impacts", impacts),
+                        impacts == expected};
   if (std::is_same_v<S, double>) {
     // Each impact rounds places of up to 4 m beside speeds of up to 10^digits.
-    const double error = std::abs(count.moment - 1),
-                 allowed = 8 * u * static_cast<double>(expected) * std::pow(10.0, digits);
+    const double allowed = 8 * u * static_cast<double>(expected) * std::pow(10.0, digits);
+    const double error = std::abs(moment - 1);
     row.must += fmt::format("; the moment of the path, 1, stays within {:.1e}", allowed);
     row.happened += fmt::format(", moment off by {:.1e}", error);
     row.passed &= error <= allowed;

@@ -308,16 +308,19 @@ std::vector<std::string> Settings::choices(std::string_view key, std::span<const
   return impl_->several(key, allowed, [&](const auto& node) { return one_of(node, allowed); });
 }
 
-std::vector<std::string> Settings::choices_or_all(std::string_view key,
-                                                  std::span<const std::string_view> allowed) const {
+std::vector<std::string> Settings::choices_as_asked(std::string_view key,
+                                                    std::span<const std::string_view> allowed) const {
   std::vector<std::string_view> with_all(allowed.begin(), allowed.end());
   with_all.emplace_back("all");
   const std::vector<std::string> chosen = choices(key, with_all);
-  const bool all = std::ranges::find(chosen, "all") != chosen.end();
-  std::vector<std::string> names;
-  for (const std::string_view name : allowed) {
-    if (all || std::ranges::find(chosen, name) != chosen.end()) names.emplace_back(name);
-  }
+  if (std::ranges::find(chosen, "all") == chosen.end()) return chosen;
+  return {allowed.begin(), allowed.end()};
+}
+
+std::vector<std::string> Settings::choices_or_all(std::string_view key,
+                                                  std::span<const std::string_view> allowed) const {
+  std::vector<std::string> names = choices_as_asked(key, allowed);
+  std::ranges::sort(names, {}, [&](const std::string& name) { return std::ranges::find(allowed, name); });
   return names;
 }
 

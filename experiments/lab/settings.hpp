@@ -57,6 +57,8 @@ class Settings {
   std::vector<std::string> choices(std::string_view key, std::span<const std::string_view> allowed) const;
   /// The same, in the order of `allowed` and with "all" for all of them.
   std::vector<std::string> choices_or_all(std::string_view key, std::span<const std::string_view> allowed) const;
+  /// The same, in the order asked for.
+  std::vector<std::string> choices_as_asked(std::string_view key, std::span<const std::string_view> allowed) const;
 
   /// The tables of the list `[[key]]`, each laid over `defaults`; complaints name this file, the line and `key.inner`.
   std::vector<Settings> tables(std::string_view key, std::string_view defaults) const;

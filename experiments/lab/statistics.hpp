@@ -27,9 +27,12 @@ struct Measured {
   Measured times(double factor) const { return {factor * value, {factor * interval.lower, factor * interval.upper}}; }
 };
 
+/// Standard deviations from the middle of a normal distribution to either end of its central 95 %.
+inline constexpr double normal_95 = 1.959963984540054;
+
 /// The mean of so many, whose standard deviation is known; without an interval where that is NaN.
-inline Measured normal_mean(double mean, double deviation, std::int64_t count) {
-  const double bar = 1.96 * deviation / std::sqrt(static_cast<double>(count));
+inline Measured normal_mean(double mean, double deviation, std::int64_t count, double deviations = 1.96) {
+  const double bar = deviations * deviation / std::sqrt(static_cast<double>(count));
   return {mean, {mean - bar, mean + bar}};
 }
 
