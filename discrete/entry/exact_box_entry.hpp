@@ -27,41 +27,33 @@ template <Scalar S> bool is_last_in_doubt(const Vec3<S>& enter, const Vec3<S>& l
 template <Scalar S> struct ExactTwo {
   Vec3<S> first, second;
 
-  ExactTwo times_two_to(int e) const { return {times_power_of_two(first, e), times_power_of_two(second, e)}; }
   ExactNumber<S> sum(int i) const { return ExactNumber<S>(first[i]) + ExactNumber<S>(second[i]); }
   ExactNumber<S> difference(int i) const { return ExactNumber<S>(first[i]) - ExactNumber<S>(second[i]); }
-  /// No number that it came of has become so small that its product with another such loses digits.
-  bool is_plain(const ExactTwo& given) const { return is_plain(first, given.first) && is_plain(second, given.second); }
-
- private:
-  static bool is_plain(const Vec3<S>& x, const Vec3<S>& given) {
-    constexpr int lower = (std::numeric_limits<S>::min_exponent + 2 * std::numeric_limits<S>::digits) / 2;
-    return ((given.array() == S(0)) || (x.array().abs() >= constant_power_of_two<S, lower>())).all();
-  }
 };
 
 /// First time t >= 0 at which a point is in a box: it starts at `place` from the box's center and moves by `path`, both the first less the
-/// second; the box reaches the sum of `halves`. Nothing if it starts there or never is; nor where products of these numbers are out of range
-/// at any scale: in double they are 2^400 apart.
+/// second; the box reaches the sum of `halves`. Nothing if it starts there or never is.
 /// Error: the face is right; the time is off by a few u of itself.
 template <Scalar S>
 std::optional<Entry<S>> exact_box_entry(const ExactTwo<S>& place, const ExactTwo<S>& path, const ExactTwo<S>& halves) {
-  const SafeScale<S> scale(largest(place.first, place.second, halves.first, halves.second),
-                           largest(path.first, path.second));
-  const int of_lengths = scale.length_exponent, of_path = scale.speed_exponent;
-  const ExactTwo<S> x = place.times_two_to(-of_lengths), h = halves.times_two_to(-of_lengths),
-                    v = path.times_two_to(-of_path);
-  if (!x.is_plain(place) || !h.is_plain(halves) || !v.is_plain(path)) return std::nullopt;
-  ExactStretch<S> stretch(std::numeric_limits<S>::infinity());
+  using W = ExactOfAny<S>;
+  const int length = binary_exponent(largest(place.first, place.second, halves.first, halves.second)),
+            displacement = binary_exponent(largest(path.first, path.second));
+  const auto scaled = [](const ExactTwo<S>& of, int exponent) {
+    return ExactTwo<W>{near_one<W>(of.first, exponent), near_one<W>(of.second, exponent)};
+  };
+  const ExactTwo<W> x = scaled(place, length), h = scaled(halves, length), v = scaled(path, displacement);
+  ExactStretch<W> stretch(std::numeric_limits<W>::infinity());
   for (int i = 0; i < 3; ++i) {
-    const ExactNumber<S> at = x.difference(i), half = h.sum(i), speed = v.difference(i);
-    stretch.not_negative(half + at, speed, axis_vector<S>(i, true));
-    stretch.not_negative(half - at, -speed, axis_vector<S>(i, false));
+    const ExactNumber<W> at = x.difference(i), half = h.sum(i), speed = v.difference(i);
+    stretch.not_negative(half + at, speed, axis_vector<W>(i, true));
+    stretch.not_negative(half - at, -speed, axis_vector<W>(i, false));
   }
   if (stretch.empty || stretch.first.sign() == 0) return std::nullopt;
+  const W time = stretch.first.rounded() / stretch.first_denominator.rounded();
   Entry<S> entry;
-  entry.time = scale.time_back(S(stretch.first.rounded() / stretch.first_denominator.rounded()));
-  entry.normal = stretch.edge;
+  entry.time = static_cast<S>(times_power_of_two(time, length - displacement));
+  entry.normal = stretch.edge.template cast<S>();
   return entry;
 }
 

@@ -153,15 +153,19 @@ template <Scalar S> bool has_products_of_seven(const Vec3<S>& v, const S& size) 
   return has_products_of_seven(v[0], size) && has_products_of_seven(v[1], size) && has_products_of_seven(v[2], size);
 }
 
+/// A vector whose largest number, or one beside it, has this exponent, without it.
+template <class W, Scalar S> Vec3<W> near_one(const Vec3<S>& x, int exponent) {
+  return times_power_of_two<W>(x.template cast<W>(), -exponent);
+}
+
 /// exact_flat_entry in the scalar W, of lengths and displacements brought near 1.
 template <class W, Scalar S>
 THINWALL_COLD Entry<S> exact_flat_entry_by(FlatShape shape, const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& e1,
                                            const Vec3<S>& e2, const S& latest) {
   const int length = binary_exponent(largest(p, e1, e2)), displacement = binary_exponent(largest(v));
-  const auto near_one = [](const Vec3<S>& x, int e) { return times_power_of_two<W>(x.template cast<W>(), -e); };
   const Entry<W> found =
-      exact_flat_entry<W>(shape, near_one(p, length), near_one(v, displacement), near_one(e1, length),
-                          near_one(e2, length), times_power_of_two(W(latest), displacement - length));
+      exact_flat_entry<W>(shape, near_one<W>(p, length), near_one<W>(v, displacement), near_one<W>(e1, length),
+                          near_one<W>(e2, length), times_power_of_two(W(latest), displacement - length));
   Entry<S> entry;
   entry.inside = found.inside;
   entry.time = static_cast<S>(times_power_of_two(found.time, length - displacement));

@@ -99,7 +99,9 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   Pair time = entry.time;
   PairMask sure = clear_of_end(time);
   if (entry.rounds > 1) {
-    const Lanes n = frame.out_of(entry.normal), g = abs(frame.into(n)) * h;
+    const Lanes turned = frame.out_of(entry.normal), own = frame.into(turned), none = all(0);
+    const packed::LanesMask along = abs(entry.normal) <= none;  // across its axis: what it leans there is rounding
+    const Lanes n = turned - frame.out_of(keep(along, own)), g = select(along, none, abs(own)) * h;
     const Pair square = dot(n, n), toward = two_sums(n * p, n * v), closing = both(0) - seconds(toward);
     normal = nearer_unit(n, square);
     const Pair plane = (firsts(toward) - (R * (both(0.5) + square * both(0.5)) + sum(g))) / closing;

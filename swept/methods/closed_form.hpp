@@ -61,7 +61,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
   const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
   Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
   entry.come_later(path.base_time);
-  entry.normal = normal_out_of(frame, entry.normal);
+  entry.normal = freed_of_leans(normal_out_of(frame, entry.normal), frame);
   return toi_of_turned(method, box, sphere, entry,
                        [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
