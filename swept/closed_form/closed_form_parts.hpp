@@ -45,11 +45,12 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const bool second_order_is_small = 32 * shift * motion.squaredNorm() <= round * closing || round == W(0);
   const Vec3<T> paths = narrow_a.displacement.cwiseAbs() + narrow_b.displacement.cwiseAbs();
   const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
-  const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap,
-          tiny = entry.time * constant_power_of_two < T, has_wider<T> ? -40 : -20 > ();
+  constexpr int tiny = has_wider<T> ? -40 : -20;
+  const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap;
   const T trusted = T(trust) * std::numeric_limits<T>::epsilon() * size;
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
-  const bool by_rounding = shift <= W(tiny) && std::max(W(shift * closing), W(outside * largest(motion))) <= W(trusted);
+  const bool by_rounding = shift <= W(entry.time * constant_power_of_two<T, tiny>()) &&
+                           std::max(W(shift * closing), W(outside * largest(motion))) <= W(trusted);
   entry.graze = !(closing > W(0)) || !second_order_is_small || !by_rounding;
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));
