@@ -94,12 +94,15 @@ template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBa
 
 // The policies: the ways to take a step.
 
-enum class Flight { euler, arc };  ///< semi-implicit: first the speed, then the height with the new speed; or exact
+enum class BounceFlight {
+  euler,
+  arc
+};  ///< semi-implicit: first the speed, then the height with the new speed; or exact
 
 /// As if there were no floor.
-template <Flight flight> void fly(const BouncingWorld& world, BouncingBall& ball) {
+template <BounceFlight flight> void fly(const BouncingWorld& world, BouncingBall& ball) {
   const double kick = world.gravity * world.step;
-  ball.body.center.y() += (ball.velocity - (flight == Flight::euler ? kick : kick / 2)) * world.step;
+  ball.body.center.y() += (ball.velocity - (flight == BounceFlight::euler ? kick : kick / 2)) * world.step;
   ball.velocity -= kick;
   ball.time += world.step;
 }
@@ -141,7 +144,7 @@ inline void linear_toi(const BouncingWorld& world, BouncingBall& ball) {
 /// the floor deeper than a step, and solved if it ends inside.
 inline void parabola_toi(const BouncingWorld& world, BouncingBall& ball) {
   BouncingBall end = ball;
-  fly<Flight::arc>(world, end);
+  fly<BounceFlight::arc>(world, end);
   if (overlaps(end.body, world.floor)) return follow_arc(world, ball, [](double) {});
   ball = end;
 }
@@ -165,9 +168,10 @@ template <BouncePolicy::Step... parts> constexpr BouncePolicy bounce_policy(std:
 
 /// In the order of the tables; the first is the game loop's way.
 inline const std::vector<BouncePolicy> all_bounce_policies = {
-    bounce_policy<fly<Flight::euler>, push_out>("project_flip", true),
-    bounce_policy<fly<Flight::euler>, turn_speed>("flip_only", true), bounce_policy<linear_toi>("linear_toi", true),
-    bounce_policy<fly<Flight::arc>, push_out>("exact_project", false),
+    bounce_policy<fly<BounceFlight::euler>, push_out>("project_flip", true),
+    bounce_policy<fly<BounceFlight::euler>, turn_speed>("flip_only", true),
+    bounce_policy<linear_toi>("linear_toi", true),
+    bounce_policy<fly<BounceFlight::arc>, push_out>("exact_project", false),
     bounce_policy<parabola_toi>("parabola_toi", false)};
 
 /// [J/kg] Energy of the flight: gravity times the height that the ball will rise to. Semi-implicit Euler's positions lie on an exact
