@@ -94,10 +94,8 @@ template <class AtBounce> void follow_arc(const BouncingWorld& world, BouncingBa
 
 // The policies: the ways to take a step.
 
-enum class BounceFlight {
-  euler,
-  arc
-};  ///< semi-implicit: first the speed, then the height with the new speed; or exact
+/// Semi-implicit Euler, first the speed, then the height with the new speed; or the exact arc.
+enum class BounceFlight { euler, arc };
 
 /// As if there were no floor.
 template <BounceFlight flight> void fly(const BouncingWorld& world, BouncingBall& ball) {
