@@ -31,8 +31,8 @@ SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Ve
   return shared;
 }
 
-/// When a segment without a radius meets a box around 0 of any axes: the shadows on six axes are all there is. Nothing is turned into the box's
-/// own axes, where a long core would be off by its length's rounding on them all.
+/// When a segment without a radius meets a box around 0 of any axes: the shadows on six axes are all there is. But for whether it starts there
+/// nothing is turned into the box's own axes, on each of which a long core would be off by its length's rounding.
 template <Scalar S>
 Entry<S> sharp_segment_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h,
                                  const Mat3<S>& axes) {
