@@ -7,17 +7,23 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/gauss.hpp>
 
 #include <thinwall/discrete/aabb.hpp>
 #include <thinwall/experiments/lab/factors.hpp>
 #include <thinwall/experiments/lab/judge.hpp>
 #include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/lab/statistics.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
@@ -190,11 +196,17 @@ struct BounceCell {
   BouncePolicy policy;
 };
 
-const Factors<BounceCell>& bounce_factors();  ///< but for the policy
-
-/// Every combination of step, restitution and policy: steps from coarse to fine, policies fastest and in the order of the tables.
-/// Throws UsageError.
-std::vector<BounceCell> make_bounce_cells(const Settings& settings);
+/// But for the policy.
+inline const Factors<BounceCell>& bounce_factors() {
+  using C = BounceCell;
+  static const Factors<C> all = factors<C>(
+      number("gravity", &C::gravity, {.lower = 1e-6, .upper = 1e6, .unit = "m/s^2"}, "Downward."),
+      number("height", &C::height, {.lower = 1e-6, .upper = 1e6, .unit = "m"}, "Of the gap that it is dropped from."),
+      number("radius", &C::radius, {.lower = 1e-6, .upper = 1e6, .unit = "m"}, "Of the ball."),
+      numbers("step", &C::step, {.lower = 0, .lower_open = true, .unit = "s"}, "Time step h."),
+      numbers("restitution", &C::restitution, {.lower = 0, .upper = 1}, "Speed after over speed before."));
+  return all;
+}
 
 /// [m/s] V, of the true flight.
 inline double impact_speed(const BounceCell& c) { return std::sqrt(2 * c.gravity * c.height); }
@@ -202,6 +214,32 @@ inline double impact_speed(const BounceCell& c) { return std::sqrt(2 * c.gravity
 inline double fall_time(const BounceCell& c) { return impact_speed(c) / c.gravity; }
 /// [1] g h / V: speed that gravity adds in a step, over the impact's.
 inline double delta(const BounceCell& c) { return c.gravity * c.step / impact_speed(c); }
+/// Every combination of step, restitution and policy: steps from coarse to fine, policies fastest and in the order of the tables.
+/// Throws UsageError.
+inline std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
+  const auto names = settings.choices_or_all("policy", distinct(all_bounce_policies, &BouncePolicy::name));
+  const auto is_asked = [&](const BouncePolicy& p) { return std::ranges::find(names, p.name) != names.end(); };
+  std::vector<BounceCell> drops = bounce_factors().cells(settings, names.size(), {}, [&](const BounceCell& c) {
+    if (c.radius < 1e-3 * c.height || c.radius > 10 * c.height)
+      settings.complain("radius", "0.001 to 10 times the height, whose digits it shares");
+    if (!(delta(c) >= 1e-4 && delta(c) <= 0.5)) {
+      settings.complain("step",
+                        fmt::format("steps in which gravity adds 0.0001 to 0.5 of the impact speed: {} s to {} s",
+                                    rounded_text(1e-4 * fall_time(c), 3), rounded_text(0.5 * fall_time(c), 3)));
+    }
+    return true;
+  });
+  std::ranges::stable_sort(drops, std::greater<>(), &BounceCell::step);
+  std::vector<BounceCell> cells;
+  for (BounceCell& drop : drops) {
+    for (const BouncePolicy& policy : only(all_bounce_policies, is_asked)) {
+      drop.policy = policy;
+      cells.push_back(drop);
+    }
+  }
+  return cells;
+}
+
 /// The floor is deeper than what a ball falls in a step after `bounces` of which each adds a whole g h to its speed, so that
 /// a test of the pose at the end of a step sees it.
 inline BouncingWorld world_of(const BounceCell& c, std::int64_t bounces = 1) {
@@ -240,18 +278,63 @@ struct BounceTally {
   }
 };
 
+/// A ball on the true flight, `elapsed` seconds after it was dropped.
+inline BouncingBall falling(const BounceCell& cell, double elapsed) {
+  const double early = cell.policy.staggered ? cell.step / 2 : 0;  // its speed is of half a step before
+  return ball_at(cell.height - cell.gravity * elapsed * elapsed / 2, -cell.gravity * (elapsed - early), cell.radius);
+}
+
 /// [g h / V] Change of the flight's energy when a ball of `cell` meets the floor `phase` in (0, 1) of a step after it began.
-double error_at(const BounceCell& cell, double phase);
+inline double error_at(const BounceCell& cell, double phase) {
+  const BouncingWorld world = world_of(cell);
+  const double steps = fall_time(cell) / cell.step - phase;
+  BouncingBall ball = falling(cell, (steps - std::floor(steps)) * cell.step);
+  cell.policy.to_the_apex(world, ball);
+  const double energy = flight_energy(cell.policy, world, ball) / (cell.gravity * cell.height);
+  return (energy - cell.restitution * cell.restitution) / delta(cell);
+}
 
 /// `trials` bounces at random phases: independent, the same for every policy.
-BounceTally random_bounces(const BounceCell& cell, std::uint64_t seed, std::int64_t trials);
+inline BounceTally random_bounces(const BounceCell& cell, std::uint64_t seed, std::int64_t trials) {
+  const RandomStream stream = bounce_factors().stream(cell, seed);
+  BounceTally tally;
+  for (std::int64_t i = 0; i < trials; ++i) {
+    const double phase = uniform(random_words(stream, static_cast<std::uint64_t>(i), 0)[0]) + 0x1p-54;  // never 0 or 1
+    tally.add(error_at(cell, phase));
+  }
+  return tally;
+}
 
 /// One ball that bounces on and on: energy of the flight after each bounce over that of the first flight, until `bounces` or
 /// until a flight has become shorter than two steps. The run begins `elapsed` in [0, 1) of a step after the drop.
-std::vector<double> energies(const BounceCell& cell, double elapsed, std::int64_t bounces);
+inline std::vector<double> energies(const BounceCell& cell, double elapsed, std::int64_t bounces) {
+  const BouncingWorld world = world_of(cell, bounces);
+  BouncingBall ball = falling(cell, elapsed * cell.step);
+  const double first = flight_energy(cell.policy, world, ball), kick = cell.gravity * cell.step;
+  std::vector<double> energies;
+  while (ball.bounces < bounces) {
+    const std::int64_t before = ball.bounces;
+    cell.policy.step(world, ball);
+    if (ball.velocity == 0 && gap_of(ball) <= 0) break;  // at rest
+    if (ball.bounces == before) continue;
+    const double energy = flight_energy(cell.policy, world, ball);
+    if (!(energy > kick * kick / 2)) break;
+    energies.push_back(energy / first);
+  }
+  return energies;
+}
 
 /// [m] The gap at the start of such a run, and after each step.
-std::vector<double> heights(const BounceCell& cell, double elapsed, std::int64_t steps);
+inline std::vector<double> heights(const BounceCell& cell, double elapsed, std::int64_t steps) {
+  const BouncingWorld world = world_of(cell, steps);
+  BouncingBall ball = falling(cell, elapsed * cell.step);
+  std::vector<double> gaps = {gap_of(ball)};
+  for (std::int64_t i = 0; i < steps; ++i) {
+    cell.policy.step(world, ball);
+    gaps.push_back(gap_of(ball));
+  }
+  return gaps;
+}
 
 // What theory says.
 
@@ -264,11 +347,28 @@ struct BounceTheory {
   // Over uniform phases. Moments of u, uniform on [-1, 1]: 0, 1/3, 0, 1/5.
   double mean() const { return c[0] + c[2] / 3; }                                     ///< [g h / V]
   double sigma() const { return std::sqrt(c[1] * c[1] / 3 + 4 * c[2] * c[2] / 45); }  ///< [g h / V] standard deviation
-  double kurtosis() const;  ///< [1] fourth moment about the mean over the variance's square; 9/5 if c2 is 0
+  /// [1] Fourth moment about the mean over the variance's square; 9/5 if c2 is 0.
+  double kurtosis() const {
+    const auto fourth = [&](double x) { return std::pow(at(x) - mean(), 4); };
+    using Gauss = boost::math::quadrature::gauss<double, 7>;  // exact to degree 13
+    return Gauss::integrate(fourth, -1.0, 1.0) / 2 / std::pow(sigma(), 4);
+  }
 };
 
 /// Requires one of the five policies' names.
-BounceTheory bounce_theory(std::string_view policy, double delta, double restitution);
+inline BounceTheory bounce_theory(std::string_view policy, double delta, double restitution) {
+  const double e = restitution;
+  // Speed after: e (V + g h u / 2), which the flight has half a step later than Euler says, so it has lost g h / 2.
+  const Vec3<double> late_speed = {delta / 4 - e, e * e - e * delta / 2, e * e * delta / 4};
+  // What the depth at the end of the step is worth: V s + g s^2 / 2 with s = (1 + u) h / 2.
+  const Vec3<double> depth = {1 + delta / 4, 1 + delta / 2, delta / 4};
+  if (policy == "project_flip") return {late_speed};
+  if (policy == "flip_only") return {late_speed - depth};
+  if (policy == "linear_toi") return {late_speed + e * depth};
+  if (policy == "exact_project") return {e * e * depth};
+  if (policy == "parabola_toi") return {};
+  throw std::logic_error(fmt::format("no theory for the policy '{}'", policy));
+}
 
 // Whether the two agree.
 
@@ -311,7 +411,29 @@ struct BounceTest {
     return certain_wrong == 0 && is_covered && means.passed() && variances.passed();
   }
 };
-std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows);  ///< by policy
+
+/// By policy.
+inline std::vector<BounceTest> bounce_tests(const std::vector<BounceRow>& rows) {
+  std::vector<BounceTest> tests;
+  for (const Group<BounceRow>& group : group_by(rows, [](const BounceRow& row) { return row.cell.policy.name; })) {
+    BounceTest& test = tests.emplace_back(BounceTest{group[0]->cell.policy.name});
+    for (const BounceRow* row : group) {
+      const auto mean = row->mean_residual(), variance = row->variance_residual();
+      if (!mean) {  // every bounce must be the same
+        const double expected = row->theory.mean(), allowed = rounding_of(row->cell) + 4 * row->theory.sigma();
+        ++test.certain_cells;
+        if (!(row->tally.most - expected <= allowed && expected - row->tally.least <= allowed)) ++test.certain_wrong;
+      } else if (row->tally.trials < 30) {
+        ++test.other_cells;
+      } else {
+        test.means.add(*mean);
+        if (std::abs(*mean) <= normal_95) ++test.covered;
+        if (variance) test.variances.add(*variance);
+      }
+    }
+  }
+  return tests;
+}
 
 // Impacts that come in crowds: at one instant, without end, or in tens of millions. Each has an answer of its own to be held against.
 
