@@ -25,7 +25,7 @@ using Tally = AccuracyTally;
 
 /// A pair, and how its queries were put.
 struct Row {
-  const AccuracyPair* pair;
+  std::string_view pair;
   int place;  ///< of the pair in the table, from 1
   Inquiry inquiry;
   Tally tally{};
@@ -44,11 +44,11 @@ bool is_within_goal(const Row& row) {
           t.largest_wrong <= goal_wrong && t.gave_up == 0);
 }
 
-std::string full_name(const Row& row) { return fmt::format("{} {}", row.pair->name, name(row.inquiry)); }
+std::string full_name(const Row& row) { return fmt::format("{} {}", row.pair, name(row.inquiry)); }
 
 Table pairs_table(const std::vector<Row>& rows) {
   const auto columns = columns_of<Row>(
-      text("pair", "The two shapes.", [](const Row& r) { return r.pair->name; }),
+      text("pair", "The two shapes.", &Row::pair),
       text(
           "scalar",
           "float and double through the front door; the kernel in float; verdicts alone, and paths along edges, in double.",
@@ -78,7 +78,7 @@ template <class Error> Panel error_panel(const std::vector<Row>& rows, std::stri
   Panel panel =
       plot(rows, columns).x("place", Axis::linear, "pair").y("error", Axis::log, std::move(label)).by("scalar");
   for (const auto& group : group_by(rows, &Row::place))
-    panel.x_tics.push_back({static_cast<double>(group[0]->place), std::string(group[0]->pair->name)});
+    panel.x_tics.push_back({static_cast<double>(group[0]->place), std::string(group[0]->pair)});
   panel.series.push_back({"goal", Mark::dashes, {0.5, rows.back().place + 0.5}, {goal, goal}, {}, {}});
   return panel;
 }
@@ -135,22 +135,19 @@ Outcome outcome_of(const std::vector<Row>& rows) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  std::vector<std::string_view> names;
-  for (const AccuracyPair& pair : accuracy_pairs()) names.push_back(pair.name);
-  const std::vector<std::string> chosen = settings.choices_or_all("pair", names);
+  const std::vector<AccuracyPair> pairs = chosen(settings, "pair", accuracy_pairs());
   const std::int64_t queries = settings.trials("queries", 1, 1'000'000'000, options.trials);
   const std::int64_t verdicts = settings.trials("verdict_queries", 0, 1'000'000'000, options.trials);
   std::vector<Row> rows;
   std::vector<Task<Tally>> tasks;
   std::vector<std::size_t> row_of_task;
   int place = 0;
-  for (const AccuracyPair& pair : accuracy_pairs()) {
-    if (std::ranges::find(chosen, pair.name) == chosen.end()) continue;
+  for (const AccuracyPair& pair : pairs) {
     ++place;
     for (const Inquiry inquiry : all_inquiries) {
       const std::int64_t all = inquiry == Inquiry::verdicts ? verdicts : queries;
       const std::int64_t block = std::max<std::int64_t>(1000, (all + 999) / 1000);  // at most a thousand units a row
-      rows.push_back({&pair, place, inquiry});
+      rows.push_back({pair.name, place, inquiry});
       for (std::int64_t first = 0; first < all; first += block) {
         const std::int64_t count = std::min(block, all - first);
         row_of_task.push_back(rows.size() - 1);

@@ -161,20 +161,20 @@ AccuracyTally ask_pair(Inquiry inquiry, std::uint64_t seed, std::int64_t first, 
 
 }  // namespace
 
-std::span<const AccuracyPair> accuracy_pairs() {
-  static constexpr std::array list{
-      AccuracyPair{"sphere_sphere", &ask_pair<Sphere, Sphere>},
-      AccuracyPair{"sphere_aabb", &ask_pair<Sphere, Aabb>},
-      AccuracyPair{"aabb_aabb", &ask_pair<Aabb, Aabb>},
-      AccuracyPair{"sphere_obb", &ask_pair<Sphere, Obb>},
-      AccuracyPair{"aabb_obb", &ask_pair<Aabb, Obb>},
-      AccuracyPair{"obb_obb", &ask_pair<Obb, Obb>},
-      AccuracyPair{"sphere_triangle", &ask_pair<Sphere, Triangle>},
-      AccuracyPair{"sphere_capsule", &ask_pair<Sphere, Capsule>},
-      AccuracyPair{"capsule_capsule", &ask_pair<Capsule, Capsule>},
-      AccuracyPair{"capsule_aabb", &ask_pair<Capsule, Aabb>},
-      AccuracyPair{"capsule_obb", &ask_pair<Capsule, Obb>},
-      AccuracyPair{"capsule_triangle", &ask_pair<Capsule, Triangle>},
+const std::vector<AccuracyPair>& accuracy_pairs() {
+  static const std::vector<AccuracyPair> list = {
+      {"sphere_sphere", &ask_pair<Sphere, Sphere>},
+      {"sphere_aabb", &ask_pair<Sphere, Aabb>},
+      {"aabb_aabb", &ask_pair<Aabb, Aabb>},
+      {"sphere_obb", &ask_pair<Sphere, Obb>},
+      {"aabb_obb", &ask_pair<Aabb, Obb>},
+      {"obb_obb", &ask_pair<Obb, Obb>},
+      {"sphere_triangle", &ask_pair<Sphere, Triangle>},
+      {"sphere_capsule", &ask_pair<Sphere, Capsule>},
+      {"capsule_capsule", &ask_pair<Capsule, Capsule>},
+      {"capsule_aabb", &ask_pair<Capsule, Aabb>},
+      {"capsule_obb", &ask_pair<Capsule, Obb>},
+      {"capsule_triangle", &ask_pair<Capsule, Triangle>},
   };
   return list;
 }

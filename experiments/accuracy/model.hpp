@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -67,6 +66,6 @@ struct AccuracyPair {
   AccuracyTally (*ask)(Inquiry inquiry, std::uint64_t seed, std::int64_t first, std::int64_t count);
 };
 
-std::span<const AccuracyPair> accuracy_pairs();
+const std::vector<AccuracyPair>& accuracy_pairs();
 
 }  // namespace thinwall

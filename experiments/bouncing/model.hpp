@@ -217,9 +217,8 @@ inline double delta(const BounceCell& c) { return c.gravity * c.step / impact_sp
 /// Every combination of step, restitution and policy: steps from coarse to fine, policies fastest and in the order of the tables.
 /// Throws UsageError.
 inline std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
-  const auto names = settings.choices_or_all("policy", distinct(all_bounce_policies, &BouncePolicy::name));
-  const auto is_asked = [&](const BouncePolicy& p) { return std::ranges::find(names, p.name) != names.end(); };
-  std::vector<BounceCell> drops = bounce_factors().cells(settings, names.size(), {}, [&](const BounceCell& c) {
+  const std::vector<BouncePolicy> policies = chosen(settings, "policy", all_bounce_policies);
+  std::vector<BounceCell> drops = bounce_factors().cells(settings, policies.size(), {}, [&](const BounceCell& c) {
     if (c.radius < 1e-3 * c.height || c.radius > 10 * c.height)
       settings.complain("radius", "0.001 to 10 times the height, whose digits it shares");
     if (!(delta(c) >= 1e-4 && delta(c) <= 0.5)) {
@@ -231,11 +230,8 @@ inline std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
   });
   std::ranges::stable_sort(drops, std::greater<>(), &BounceCell::step);
   std::vector<BounceCell> cells;
-  for (BounceCell& drop : drops) {
-    for (const BouncePolicy& policy : only(all_bounce_policies, is_asked)) {
-      drop.policy = policy;
-      cells.push_back(drop);
-    }
+  for (const BounceCell& drop : drops) {
+    for (const BouncePolicy& policy : policies) cells.emplace_back(drop).policy = policy;
   }
   return cells;
 }

@@ -374,7 +374,7 @@ Outcome outcome_of(const std::vector<Row>& rows) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  const std::vector<CrossingRule> rules = crossing_rules(settings.choices_or_all("rule", crossing_rule_names()));
+  const std::vector<CrossingRule> rules = chosen(settings, "rule", all_crossing_rules());
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   std::vector<Row> rows;
   std::vector<Task<Tally>> tasks;

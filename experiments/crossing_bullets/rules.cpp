@@ -82,27 +82,17 @@ template <class Method> void put(const Method& method, const Encounter& e, Cross
   if (!std::is_same_v<Method, SweptOverlap> && says_so) note_time(e, truth, toi.time, tally);
 }
 
-template <class Visitor> void for_each_rule(const Visitor& visit) {
-  visit(SweptOverlap{});
-  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
-    if constexpr (serves<Method, Ball, Ball>) visit(Method{});
-  });
+template <class Method> CrossingRule rule_of(const Method& method) {
+  return {std::string(method.name), [method](const Encounter& e, CrossingTally& tally) { put(method, e, tally); },
+          [method](const CrossingTheory& theory) { return expected_of(method, theory); }};
 }
 
 }  // namespace
 
-std::vector<std::string_view> crossing_rule_names() {
-  std::vector<std::string_view> names;
-  for_each_rule([&](const auto& rule) { names.push_back(rule.name); });
-  return names;
-}
-
-std::vector<CrossingRule> crossing_rules(std::span<const std::string> names) {
-  std::vector<CrossingRule> all;
-  for_each_rule([&]<class Method>(const Method& rule) {
-    if (std::find(names.begin(), names.end(), rule.name) == names.end()) return;
-    all.push_back({std::string(rule.name), [rule](const Encounter& e, CrossingTally& tally) { put(rule, e, tally); },
-                   [rule](const CrossingTheory& theory) { return expected_of(rule, theory); }});
+std::vector<CrossingRule> all_crossing_rules() {
+  std::vector<CrossingRule> all = {rule_of(SweptOverlap{})};
+  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
+    if constexpr (serves<Method, Ball, Ball>) all.push_back(rule_of(Method{}));
   });
   return all;
 }

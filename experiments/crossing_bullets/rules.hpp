@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,8 +53,7 @@ struct CrossingRule {
   std::function<Expected(const CrossingTheory&)> expects;
 };
 
-std::vector<std::string_view> crossing_rule_names();
-std::vector<CrossingRule> crossing_rules(std::span<const std::string> names);  ///< those named, in the list's own order
+std::vector<CrossingRule> all_crossing_rules();
 
 /// All encounters of a cell, put to one rule.
 CrossingTally ask_all(const CrossingRule& rule, const Crossing& c, std::uint64_t seed, std::int64_t shots);

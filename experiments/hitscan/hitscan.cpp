@@ -361,9 +361,7 @@ Outcome outcome_of(const std::vector<Cell>& cells, const Rows& rows) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  const auto names = settings.choices_or_all("rule", distinct(hitscan_rules, &HitscanRule::name));
-  const auto is_asked = [&](const HitscanRule& rule) { return std::ranges::find(names, rule.name) != names.end(); };
-  const std::vector<HitscanRule> rules = only(hitscan_rules, is_asked);
+  const std::vector<HitscanRule> rules = chosen(settings, "rule", hitscan_rules);
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::vector<Cell> cells = make_hitscan_cells(settings);
   std::vector<Task<std::vector<Tally>>> tasks;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include <thinwall/experiments/lab/record.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
@@ -93,5 +94,14 @@ class Settings {
   explicit Settings(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// Those of a list of things with a `name` that the key's choices name, in the list's order.
+template <class Thing>
+std::vector<Thing> chosen(const Settings& settings, std::string_view key, const std::vector<Thing>& all) {
+  std::vector<std::string_view> names;
+  for (const Thing& thing : all) names.push_back(thing.name);
+  const std::vector<std::string> asked = settings.choices_or_all(key, names);
+  return only(all, [&](const Thing& thing) { return std::ranges::find(asked, thing.name) != asked.end(); });
+}
 
 }  // namespace thinwall

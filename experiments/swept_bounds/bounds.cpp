@@ -145,17 +145,9 @@ constexpr int balls_in_question = 2048, tests_a_round = 1 << 13;
 
 }  // namespace
 
-std::vector<std::string_view> swept_bound_names() {
-  std::vector<std::string_view> names;
-  for_each_type(Bounds{}, [&]<class Bound>(TypeTag<Bound>) { names.push_back(Bound::name); });
-  return names;
-}
-
-std::vector<SweptBound> swept_bounds_named(std::span<const std::string> names) {
+std::vector<SweptBound> all_swept_bounds() {
   std::vector<SweptBound> all;
-  for_each_type(Bounds{}, [&]<class Bound>(TypeTag<Bound>) {
-    if (std::ranges::find(names, Bound::name) != names.end()) all.push_back(erased<Bound>());
-  });
+  for_each_type(Bounds{}, [&]<class Bound>(TypeTag<Bound>) { all.push_back(erased<Bound>()); });
   return all;
 }
 

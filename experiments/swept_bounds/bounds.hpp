@@ -57,8 +57,7 @@ struct SweptBound {
   std::function<std::int64_t(TimedWork, const Sweep&, std::span<const Sphere<double>>, int passes)> repeat;
 };
 
-std::vector<std::string_view> swept_bound_names();
-std::vector<SweptBound> swept_bounds_named(std::span<const std::string> names);  ///< in the list's own order
+std::vector<SweptBound> all_swept_bounds();
 
 /// A bound that serves a cell's shape.
 struct SweepPair {

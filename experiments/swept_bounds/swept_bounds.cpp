@@ -292,7 +292,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::int64_t repeats = settings.integer("timing_repeats", 0, 1000);
   const auto asked = std::make_shared<Asked>();
-  asked->bounds = swept_bounds_named(settings.choices_or_all("bound", swept_bound_names()));
+  asked->bounds = chosen(settings, "bound", all_swept_bounds());
   asked->plan = make_sweeps(settings, asked->bounds.size());
   asked->pairs = serving_pairs(asked->plan.cells, asked->bounds);
   if (serving_pairs(asked->plan.timed, asked->bounds).empty())

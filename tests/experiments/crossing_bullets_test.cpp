@@ -58,13 +58,17 @@ TEST(CrossingBullets, agrees_with_theory) {
 const std::vector<CrossingRow>& measured() {
   static const std::vector<CrossingRow> all = [] {
     const Experiment experiment = crossing_bullets_experiment();
-    const Settings settings("speed = [10, 300]\nratio = [0.5, 1]\nangle_deg = [30, 90, 150]\noffset = [1, 4]",
+    const Settings settings(R"(rule = ["swept_overlap", "end_of_step", "sweep_then_confirm", "closed_form"]
+                               speed = [10, 300]
+                               ratio = [0.5, 1]
+                               angle_deg = [30, 90, 150]
+                               offset = [1, 4])",
                             "test.toml", experiment.default_toml);
-    const std::vector<std::string> names = {"swept_overlap", "end_of_step", "sweep_then_confirm", "closed_form"};
+    const std::vector<CrossingRule> rules = chosen(settings, "rule", all_crossing_rules());
     std::vector<CrossingRow> rows;
     for (const Crossing& c : make_crossings(settings)) {
       const CrossingTheory theory = theory_of(c);
-      for (const CrossingRule& rule : crossing_rules(names))
+      for (const CrossingRule& rule : rules)
         rows.push_back({c, rule.name, theory, rule.expects(theory), ask_all(rule, c, 1, 10000)});
     }
     return rows;
@@ -131,7 +135,7 @@ TEST(CrossingBulletsConfig, opens_with_the_head_on_bullets_and_leaves_out_no_rel
 }
 
 TEST(CrossingBulletsConfig, asks_every_method_of_the_list_that_serves_two_spheres) {
-  const auto names = crossing_rule_names();
+  const auto names = distinct(all_crossing_rules(), &CrossingRule::name);
   for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
     if constexpr (serves<Method, Sphere<double>, Sphere<double>>) {
       EXPECT_NE(std::find(names.begin(), names.end(), Method::name), names.end()) << Method::name;

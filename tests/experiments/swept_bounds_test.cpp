@@ -172,9 +172,7 @@ SweepPlan sweep_plan(std::string_view text) {
 
 /// The measured rows of settings laid over the defaults.
 std::vector<SweepRow> sweep_rows(std::string_view text, std::int64_t shots) {
-  static const std::vector<std::string_view> names = swept_bound_names();
-  static const std::vector<SweptBound> bounds =
-      swept_bounds_named(std::vector<std::string>(names.begin(), names.end()));
+  static const std::vector<SweptBound> bounds = all_swept_bounds();
   std::vector<SweepRow> rows;
   for (const SweepPair& pair : serving_pairs(sweep_plan(text).cells, bounds))
     rows.push_back({pair, count_balls(pair, 1, shots)});
@@ -335,8 +333,7 @@ TEST(SweptBoundsConfig, what_is_not_a_timing_does_not_depend_on_the_clock) {
 }
 
 TEST(SweptBoundsConfig, times_are_medians_over_the_rounds) {
-  const std::vector<std::string> names = {"capsule"};
-  const std::vector<SweptBound> bounds = swept_bounds_named(names);
+  const auto bounds = only(all_swept_bounds(), [](const SweptBound& bound) { return bound.name == "capsule"; });
   const auto subjects = timed_subjects({diagonals[1]}, bounds, 1);
   ASSERT_EQ(subjects.size(), 4U);
   std::vector<double> seconds;
