@@ -364,11 +364,9 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const std::vector<HitscanRule> rules = chosen(settings, "rule", hitscan_rules);
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::vector<Cell> cells = make_hitscan_cells(settings);
-  std::vector<Task<std::vector<Tally>>> tasks;
-  for (const Cell& cell : cells) {
-    tasks.push_back({hitscan_factors().key(cell), shots,
-                     [rules, cell, shots, seed = options.seed] { return shoot(rules, cell, seed, shots); }});
-  }
+  auto tasks = tasks_of(
+      cells, [](const Cell& c) { return hitscan_factors().key(c); }, shots,
+      [=, seed = options.seed](const Cell& c) { return shoot(rules, c, seed, shots); });
   const auto finish = [cells, rules](const Done<std::vector<Tally>>& done) {
     Rows rows;
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -1,9 +1,7 @@
 #pragma once
 /// A run as a list of tasks whose results are records: units, their journal text and reading it back follow.
 ///
-///   std::vector<Task<Tally>> tasks;
-///   for (const Cell& cell : plan->cells)
-///     tasks.push_back({grid.key(cell), plan->shots, [plan, &cell] { return fire(cell, plan->seed); }});
+///   auto tasks = tasks_of(plan->cells, key, plan->shots, [plan](const Cell& cell) { return fire(cell, plan->seed); });
 ///   return make_run([plan](const Done<Tally>& done) { return outcome(*plan, done.results, done.seconds); }, std::move(tasks));
 ///
 /// Several lists of tasks may follow each other, each with results of its own kind: `finish` then takes as many `Done`.
@@ -13,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,6 +26,14 @@ template <class Result> struct Task {
   std::function<Result()> compute;  ///< thread-safe, and deterministic but for times; a type that `to_text` takes
   double seconds = 0;               ///< [s] about how long it takes, if it starts a program; 0: a try tells
 };
+
+/// One for each of these things, each of as many trials: `compute(thing)`. All are copied.
+template <class Thing, class Key, class Compute>
+auto tasks_of(const std::vector<Thing>& things, const Key& key, std::int64_t trials, const Compute& compute) {
+  std::vector<Task<std::invoke_result_t<const Compute&, const Thing&>>> tasks;
+  for (const Thing& thing : things) tasks.push_back({key(thing), trials, [=] { return compute(thing); }});
+  return tasks;
+}
 
 /// What came of a list of tasks, in its order.
 template <class Result> struct Done {
