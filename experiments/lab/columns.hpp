@@ -236,17 +236,24 @@ template <class Row, class... Parts> Columns<Row> columns_of(const Parts&... par
   return columns;
 }
 
+/// The interval that a test allows, `PREFIX_lower` and `PREFIX_upper`; what is counted is an integer.
+template <class Number = double, class Get>
+auto allowed_columns(const std::string& prefix, std::string least, Get allowed) {
+  const auto end = [allowed](double Interval::*which) {
+    return [=](const auto& row) { return static_cast<Number>(std::invoke(allowed, row).*which); };
+  };
+  return together(value(prefix + "lower", "1", std::move(least), end(&Interval::lower)),
+                  value(prefix + "upper", "1", "Most allowed.", end(&Interval::upper)));
+}
+
 /// The chi-square of a test of residuals and what is allowed of it, `PREFIX_lower` and `PREFIX_upper`; empty where nothing is judged.
 template <class Get>
 auto chi_square_columns(std::string name, std::string description, Get get, const std::string& prefix) {
-  const auto is_judged = [get](const auto& row) { return std::invoke(get, row).judged > 0; };
-  return where(is_judged,
+  return where([get](const auto& row) { return std::invoke(get, row).judged > 0; },
                together(value(std::move(name), "1", std::move(description),
                               [get](const auto& row) { return std::invoke(get, row).chi_square; }),
-                        value(prefix + "lower", "1", "Least allowed: central 99.9 % of the chi-square distribution.",
-                              [get](const auto& row) { return std::invoke(get, row).allowed()->lower; }),
-                        value(prefix + "upper", "1", "Most allowed.",
-                              [get](const auto& row) { return std::invoke(get, row).allowed()->upper; })));
+                        allowed_columns(prefix, "Least allowed: central 99.9 % of the chi-square distribution.",
+                                        [get](const auto& row) { return *std::invoke(get, row).allowed(); })));
 }
 
 /// How many cells it judged, and that.

@@ -102,24 +102,21 @@ std::string self_test_text(const std::vector<SelfTest>& tests) {
 Table self_test_table(const std::vector<SelfTest>& tests, std::string description, const Heading& of,
                       const Heading& part) {
   using T = SelfTest;
-  const auto count = [](double x) { return static_cast<std::int64_t>(x); };
   const auto columns = columns_of<T>(
       text(of.name, of.description, &T::name), text(part.name, part.description, &T::part),
       value("certain_cells", "1", "Cells whose theory is exactly 0 or 1.", &T::certain_cells),
       value("certain_wrong", "1", "Of those, cells whose count is not exactly that; must be 0.", &T::certain_wrong),
       value("judged_cells", "1", "Cells with at least 5 expected events and 5 without.", &T::judged_cells),
       value("covered", "1", "Of those, cells whose 95 % Wilson interval holds the theory.", &T::covered),
-      where(
-          [](const T& t) { return t.judged_cells > 0; },
-          columns_of<T>(
-              value("covered_lower", "1",
+      where([](const T& t) { return t.judged_cells > 0; },
+            columns_of<T>(
+                allowed_columns<std::int64_t>(
+                    "covered_",
                     "Least allowed by Binomial(judged_cells, 0.95): all of this table fail a right run once in 1000.",
-                    [=](const T& t) { return count(t.covered_allowed.lower); }),
-              value("covered_upper", "1", "Most allowed.", [=](const T& t) { return count(t.covered_allowed.upper); }),
-              value("chi_square", "1", "Sum of squared standard residuals over the judged cells.", &T::chi_square),
-              value("chi_square_lower", "1", "Least allowed by the chi-square distribution, likewise.",
-                    [](const T& t) { return t.chi_square_allowed.lower; }),
-              value("chi_square_upper", "1", "Most allowed.", [](const T& t) { return t.chi_square_allowed.upper; }))),
+                    &T::covered_allowed),
+                value("chi_square", "1", "Sum of squared standard residuals over the judged cells.", &T::chi_square),
+                allowed_columns("chi_square_", "Least allowed by the chi-square distribution, likewise.",
+                                &T::chi_square_allowed))),
       value("other_cells", "1", "Cells with a theory but too few expected events to judge alone.", &T::other_cells),
       value("passed", "", "All of the above hold.", &T::passed));
   return in_report(table("self_test", std::move(description), columns, tests));
