@@ -1,11 +1,6 @@
 /// See docs/bouncing.md.
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <memory>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include <thinwall/experiments/bouncing/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
@@ -15,7 +10,6 @@
 #include <thinwall/experiments/lab/race.hpp>
 #include <thinwall/experiments/lab/tasks.hpp>
 #include <thinwall/experiments/lab/terminal.hpp>
-#include <thinwall/experiments/lab/text.hpp>
 #include <thinwall_embedded.hpp>
 
 namespace thinwall {
@@ -29,20 +23,10 @@ using Scenario = BounceScenario;
 
 constexpr const char* unit = "g h / V";  // of the energy
 
-/// [1] Energy over the first after so many bounces without loss, and its standard deviation, if every phase were random; to first order.
-struct RandomPhases {
-  double mean, sigma;
-};
-RandomPhases at_random_phases(const Cell& cell, double bounces) {
-  const BounceTheory theory = bounce_theory(cell.policy.name, 0, 1);
-  const double speed = std::max(0.0, 1 + theory.mean() * delta(cell) * bounces / 2), mean = speed * speed;  // of V
-  return {mean, std::sqrt(mean * bounces) * delta(cell) * theory.sigma()};
-}
-
 /// Balls that bounce on and on, whose phases are not random: each follows from the one before. What `energies` tells of them after 1, 2,
 /// 4, ... bounces, as long as every run lasts. Each begins at a time of its own within the first step.
 std::vector<Tally> long_run(const Cell& cell, std::uint64_t seed, std::int64_t runs, std::int64_t bounces) {
-  const RandomStream stream = bounce_factors().stream(cell, seed);
+  const RandomStream stream = bounce_factors.stream(cell, seed);
   constexpr std::uint64_t draw = 1;  // draw 0 is the phases'
   std::vector<Tally> tallies;
   for (std::int64_t i = 0; i < runs; ++i) {
@@ -57,44 +41,49 @@ std::vector<Tally> long_run(const Cell& cell, std::uint64_t seed, std::int64_t r
   return tallies;
 }
 
-/// After some bounces.
+/// After some bounces without loss.
 struct LongRow {
   Cell cell;
-  std::int64_t bounces;
-  Tally energy;  ///< [1] over that of the first flight
-  RandomPhases random = at_random_phases(cell, static_cast<double>(bounces));
+  double bounces;     ///< whole, but along a curve
+  Tally energy = {};  ///< [1] over that of the first flight
+
+  BounceTheory theory() const { return bounce_theory(cell.policy.name, 0, 1); }
+  /// [1] What `energy` would be if every phase were random, to first order; and its standard deviation.
+  double random_mean() const {
+    const double speed = std::max(0.0, 1 + theory().mean() * delta(cell) * bounces / 2);  // of V
+    return speed * speed;
+  }
+  double random_sigma() const { return std::sqrt(random_mean() * bounces) * delta(cell) * theory().sigma(); }
 };
 
-/// Whole bounces without loss at evenly spaced phases, timed, and nothing else; in turn with all others.
-struct WorkRow {
-  Cell cell;
-  Tally errors = {};          ///< [g h / V] no chance in it
-  Measured nanoseconds = {};  ///< a bounce, from apex to apex: median over the rounds
+constexpr int even_phases = 32;  // in the middle of equal parts of a step
 
-  static constexpr int phases = 32;  ///< in the middle of equal parts of a step
-  /// All phases so often that it takes less than a millisecond: most rounds are not interrupted.
-  std::int64_t bounces() const {
-    const double steps = 2 / delta(cell) * phases;
-    return phases * std::max(std::int64_t{1}, static_cast<std::int64_t>((1 << 14) / steps));
+/// How many are timed at once: all phases so often that it takes less than a millisecond, so that most are not interrupted.
+std::int64_t timed_bounces(const Cell& cell) {
+  const double steps = 2 / delta(cell) * even_phases;
+  return even_phases * std::max(std::int64_t{1}, static_cast<std::int64_t>((1 << 14) / steps));
+}
+
+/// What is timed: whole bounces at evenly spaced phases, and nothing else. The tally of the last time: all are alike.
+Tally even_bounces(const Cell& cell) {
+  Tally tally;
+  for (std::int64_t i = 0, all = timed_bounces(cell); i < all; ++i) {
+    if (i % even_phases == 0) tally = {};
+    tally.add(error_at(cell, (static_cast<double>(i % even_phases) + 0.5) / even_phases));
   }
-  Tally bounce() const {  ///< the tally of the last time: all are alike
-    Tally tally;
-    for (std::int64_t i = 0, all = bounces(); i < all; ++i) {
-      if (i % phases == 0) tally = {};
-      tally.add(error_at(cell, (static_cast<double>(i % phases) + 0.5) / phases));
-    }
-    return tally;
-  }
-  double mean_error() const { return errors.mean * delta(cell); }  ///< [1] of the energy, a bounce
-  double rms_error() const { return errors.rms() * delta(cell); }  ///< [1] the same, root of the mean square
-};
+  return tally;
+}
+
+Measured time_of(const Row& row) { return median_of_rounds(row.nanoseconds); }  // [ns] a bounce
+double mean_error(const Row& row) { return row.tally.mean * delta(row.cell); }  // [1] of the energy, a bounce
+double rms_error(const Row& row) { return row.tally.rms() * delta(row.cell); }  // [1] the same, root of the mean square
 
 struct Results {
   std::vector<Row> rows, lively;  ///< lively: at the highest restitution that was asked for, usually 1
   std::vector<BounceTest> tests;
   std::vector<Scenario> scenarios;
   std::vector<LongRow> long_rows, dropped;  ///< dropped: the one ball that begins with the drop itself
-  std::vector<WorkRow> work;
+  std::vector<Row> work;                    ///< timed: without loss, at evenly spaced phases, in turn with each other
 
   std::int64_t scenarios_passed() const { return std::ranges::count(scenarios, true, &Scenario::passed); }
 };
@@ -112,7 +101,7 @@ template <class R> std::vector<R> last_of_each(const std::vector<R>& rows) {
 // What the tables show.
 
 auto policy_column(auto policy) { return text("policy", "What is done in a step.", policy); }
-auto policy_and_step() { return together(policy_column(policy_of), bounce_factors().columns(cell_of, {"step"})); }
+auto policy_and_step() { return together(policy_column(policy_of), bounce_factors.columns(cell_of, {"step"})); }
 auto delta_column() {
   return value("delta", "1", "g h / V: what gravity adds in a step, over the impact speed V.", of(cell_of, delta));
 }
@@ -120,7 +109,7 @@ auto delta_column() {
 Columns<Row> row_columns() {
   const auto mean = [](const Row& r) { return normal_mean(r.tally.mean, r.tally.sigma(), r.tally.trials, normal_95); };
   return columns_of<Row>(
-      policy_and_step(), delta_column(), bounce_factors().columns(&Row::cell, {"restitution"}),
+      policy_and_step(), delta_column(), bounce_factors.columns(&Row::cell, {"restitution"}),
       fields(&Row::tally, {"bounces"}),
       measured("mean", unit, "Mean change of the flight's energy, beyond that of the restitution.", mean, "mean_"),
       value("theory", unit, "The same by theory.", [](const Row& r) { return r.theory.mean(); }),
@@ -137,7 +126,6 @@ Columns<Row> row_columns() {
 
 Table test_table(const std::vector<BounceTest>& tests) {
   using T = BounceTest;
-  const auto is_judged = [](const T& t) { return t.means.judged > 0; };
   return in_report(table(
       "self_test", "Means and variances of the change of energy against theory, over all cells of a policy at once.",
       tests, policy_column(&T::policy),
@@ -145,43 +133,43 @@ Table test_table(const std::vector<BounceTest>& tests) {
             &T::certain_cells),
       value("certain_wrong", "1", "Of those, cells in which one does not; must be 0.", &T::certain_wrong),
       value("judged_cells", "1", "Cells of at least 30 bounces in which they do.",
-            [](const T& t) { return t.means.judged; }),
+            of(&T::means, &ResidualTest::judged)),
       value("covered", "1", "Of those, cells whose 95 % interval holds the mean by theory.", &T::covered),
-      where(is_judged,
-            together(value("covered_lower", "1", "Least allowed: central 99.9 % of Binomial(judged_cells, 0.95).",
-                           [](const T& t) { return std::int64_t(t.covered_allowed().lower); }),
-                     value("covered_upper", "1", "Most allowed.",
-                           [](const T& t) { return std::int64_t(t.covered_allowed().upper); }))),
+      where(of(&T::means, &ResidualTest::judged),
+            allowed_columns<std::int64_t>("covered_", "Least allowed: central 99.9 % of Binomial(judged_cells, 0.95).",
+                                          &T::covered_allowed)),
       chi_square_columns("mean_chi_square", "Sum of squared residuals of the means.", &T::means, "mean_"),
       value("spread_cells", "1", "Cells of at least 100 bounces, whose variance is judged too.",
-            [](const T& t) { return t.variances.judged; }),
+            of(&T::variances, &ResidualTest::judged)),
       chi_square_columns("spread_chi_square", "Sum of squared residuals of the variances.", &T::variances, "spread_"),
       value("other_cells", "1", "Cells with too few bounces to judge.", &T::other_cells),
       value("passed", "", "All of the above hold.", &T::passed)));
 }
 
+auto bounces_column() {
+  return value("bounces", "1", "Bounces so far.", [](const LongRow& r) { return std::int64_t(r.bounces); });
+}
+
 Table dropped_table(const std::vector<LongRow>& rows) {
   return in_report(table(
       "dropped", "The same for one run that begins with the drop itself: its phase may lock where nothing is lost.",
-      rows, policy_and_step(), value("bounces", "1", "Bounces so far.", &LongRow::bounces),
+      rows, policy_and_step(), bounces_column(),
       value("energy", "1", "Energy after the last bounce over that of the first flight.",
             of(&LongRow::energy, &Tally::mean)),
-      value("random_mean", "1", "Its mean at random phases, to first order.",
-            of(&LongRow::random, &RandomPhases::mean))));
+      value("random_mean", "1", "Its mean at random phases, to first order.", &LongRow::random_mean)));
 }
 
 auto error_columns() {
-  return together(value("mean_error", "1", "Mean change of the energy a bounce, relative.", &WorkRow::mean_error),
-                  value("rms_error", "1", "Root of its mean square.", &WorkRow::rms_error));
+  return together(value("mean_error", "1", "Mean change of the energy a bounce, relative.", mean_error),
+                  value("rms_error", "1", "Root of its mean square.", rms_error));
 }
 
-Table timings_table(const std::vector<WorkRow>& work) {
-  return timing(
-      in_report(table("timings", "Time a bounce, from apex to apex, on this machine, the threads of the run at work.",
-                      work, policy_and_step(), error_columns(),
-                      measured("nanoseconds", "ns", "A bounce; median over the rounds.", &WorkRow::nanoseconds),
-                      value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
-                            [](const WorkRow& w) { return w.nanoseconds.value * delta(w.cell) / 2; }))));
+Table timings_table(const std::vector<Row>& work) {
+  return timing(in_report(table(
+      "timings", "Time a bounce, from apex to apex, on this machine, the threads of the run at work.", work,
+      policy_and_step(), error_columns(), measured("nanoseconds", "ns", "A bounce; median over the rounds.", time_of),
+      value("nanoseconds_per_step", "ns", "The median over the steps of a bounce, 2 V / (g h).",
+            [](const Row& w) { return time_of(w).value * delta(w.cell) / 2; }))));
 }
 
 // What the pictures show.
@@ -208,15 +196,14 @@ Figure energy_figure(const std::vector<Row>& rows, const Table& means) {
           .panels = {energies, residuals}};
 }
 
-Figure work_figure(const std::vector<WorkRow>& work) {
-  const auto panel = [&](std::string label, double (WorkRow::*error)() const) {
+Figure work_figure(const std::vector<Row>& work) {
+  const auto panel = [&](std::string label, double (*error)(const Row&)) {
     constexpr double least_error = 0x1p-60;  // drawn in place of an error that is less, down to 0
-    return joined(
-        plot(work, policy_column(policy_of), measured("nanoseconds", "ns", "", &WorkRow::nanoseconds),
-             value("error", "1", "", [=](const WorkRow& w) { return std::max(least_error, std::abs((w.*error)())); }))
-            .x("nanoseconds", Axis::log, "run time [ns a bounce]")
-            .y("error", Axis::log, std::move(label))
-            .by("policy"));
+    return joined(plot(work, policy_column(policy_of), measured("nanoseconds", "ns", "", time_of),
+                       value("error", "1", "", [=](const Row& w) { return std::max(least_error, std::abs(error(w))); }))
+                      .x("nanoseconds", Axis::log, "run time [ns a bounce]")
+                      .y("error", Axis::log, std::move(label))
+                      .by("policy"));
   };
   return {
       .name = "energy_against_time",
@@ -225,8 +212,8 @@ Figure work_figure(const std::vector<WorkRow>& work) {
           "Each policy from the coarsest step (left) to the finest, without loss. Above, the root of the mean square "
           "of the relative change of energy a bounce; below, its mean, which is what adds up. Bars: 95 % bootstrap "
           "intervals of the median time.",
-      .panels = {panel("rms energy error a bounce [1]", &WorkRow::rms_error),
-                 panel("|mean| of the energy error [1]", &WorkRow::mean_error)},
+      .panels = {panel("rms energy error a bounce [1]", rms_error),
+                 panel("|mean| of the energy error [1]", mean_error)},
       .is_timing = true};
 }
 
@@ -235,12 +222,12 @@ Figure long_figure(const std::vector<LongRow>& rows, const Table& runs, double s
   Plot means = Plot(both).y("mean", Axis::linear, "mean energy / first [1]");
   Plot sigmas = both.where("sigma", [](double x) { return x > 1e-9; }).y("sigma", Axis::log, "standard deviation [1]");
   for (const LongRow& last : last_of_each(rows)) {
-    const auto add = [&](Plot& panel, double RandomPhases::*part) {
-      const auto curve = [=](double n) { return at_random_phases(last.cell, n).*part; };
-      panel.curve("random phases", curve, 1, static_cast<double>(last.bounces));
+    const auto add = [&](Plot& panel, double (LongRow::*part)() const) {
+      const auto curve = [=](double n) { return (LongRow{last.cell, n}.*part)(); };
+      panel.curve("random phases", curve, 1, last.bounces);
     };
-    add(means, &RandomPhases::mean);
-    if (last.random.sigma > 0) add(sigmas, &RandomPhases::sigma);
+    add(means, &LongRow::random_mean);
+    if (last.random_sigma() > 0) add(sigmas, &LongRow::random_sigma);
   }
   return {.name = "long_runs",
           .title = "One ball that bounces on and on",
@@ -283,16 +270,16 @@ Figure heights_figure(const std::vector<Row>& rows) {
 // What it says.
 
 /// What is good at the least cost: rms error and time of the exact arc at its coarsest step beside the best of the others.
-std::string cost_sentence(const std::vector<WorkRow>& work) {
-  const auto is_arc = [](const WorkRow& w) { return policy_of(w) == "parabola_toi"; };
+std::string cost_sentence(const std::vector<Row>& work) {
+  const auto is_arc = [](const Row& w) { return policy_of(w) == "parabola_toi"; };
   const auto arcs = only(work, is_arc), others = only(work, std::not_fn(is_arc));
   if (arcs.empty() || others.empty()) return "";
-  const WorkRow& best = *std::ranges::min_element(others, {}, &WorkRow::rms_error);
+  const Row& best = *std::ranges::min_element(others, {}, rms_error);
   return fmt::format(
       "The exact arc is off by {:.1e} (rms) at its coarsest step, in {:.0f} ns a bounce; the nearest of the others, {} "
       "at {:.3g} s, by {:.1e} in {:.0f} ns. ",
-      arcs[0].rms_error(), arcs[0].nanoseconds.value, policy_of(best), best.cell.step, best.rms_error(),
-      best.nanoseconds.value);
+      rms_error(arcs[0]), time_of(arcs[0]).value, policy_of(best), best.cell.step, rms_error(best),
+      time_of(best).value);
 }
 
 std::string answer_of(const Results& results) {
@@ -342,14 +329,12 @@ Outcome outcome_of(const Results& results, double long_step) {
             "One ball that bounces on and on without loss: energy after a number of bounces over that of the first "
             "flight, and what it would be if every phase were random. Over runs that begin at random in the first "
             "step, as long as all last.",
-            results.long_rows, policy_and_step(), value("bounces", "1", "Bounces so far.", &LongRow::bounces),
+            results.long_rows, policy_and_step(), bounces_column(),
             value("runs", "1", "Balls.", of(&LongRow::energy, &Tally::trials)),
             value("mean", "1", "Mean energy over the first.", of(&LongRow::energy, &Tally::mean)),
-            value("random_mean", "1", "The same at random phases, to first order.",
-                  of(&LongRow::random, &RandomPhases::mean)),
+            value("random_mean", "1", "The same at random phases, to first order.", &LongRow::random_mean),
             value("sigma", "1", "Standard deviation over the runs.", of(&LongRow::energy, &Tally::sigma)),
-            value("random_sigma", "1", "The same at random phases, to first order.",
-                  of(&LongRow::random, &RandomPhases::sigma))));
+            value("random_sigma", "1", "The same at random phases, to first order.", &LongRow::random_sigma)));
   const Table dropped = dropped_table(results.dropped), timings = timings_table(results.work);
   const Table crowds = in_report(table("scenarios", "Impacts that come in crowds: what must happen, and what did.",
                                        results.scenarios, fields(std::identity())));
@@ -370,7 +355,7 @@ Outcome outcome_of(const Results& results, double long_step) {
                      "even_phases",
                      "Change of energy a bounce without loss at evenly spaced phases: the errors of the timed bounces.",
                      results.work, policy_and_step(), delta_column(),
-                     value("bounces", "1", "Phases.", of(&WorkRow::errors, &Tally::trials)), error_columns()),
+                     value("bounces", "1", "Phases.", of(&Row::tally, &Tally::trials)), error_columns()),
                  timings},
       .figures = {energy_figure(results.lively, means), work_figure(results.work),
                   long_figure(results.long_rows, runs, long_step), heights_figure(results.rows)},
@@ -378,18 +363,6 @@ Outcome outcome_of(const Results& results, double long_step) {
 }
 
 // What is run.
-
-/// `done` round by round.
-std::vector<WorkRow> work_of(std::vector<WorkRow> timed, const Done<Tally>& done) {
-  for (std::size_t i = 0; i < timed.size(); ++i) {
-    std::vector<double> rounds;
-    for (std::size_t k = i; k < done.seconds.size(); k += timed.size())
-      rounds.push_back(1e9 * done.seconds[k] / static_cast<double>(timed[i].bounces()));
-    timed[i].errors = done.results[i];
-    timed[i].nanoseconds = median_of_rounds(rounds);
-  }
-  return timed;
-}
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
   const std::vector<Cell> cells = make_bounce_cells(settings);
@@ -399,51 +372,47 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const std::vector<double> mass_ratios = settings.numbers("mass_ratio", {.lower = 1, .upper = 1e16});
   const int digits = static_cast<int>(settings.integer("digits", 0, 7));
   const double middle_step = cells[cells.size() / 2].step;
-  std::vector<WorkRow> timed;  // every policy at every step, without loss
-  std::vector<Cell> long_cells;
-  for (Cell cell : only(cells, [&](const Cell& c) { return c.restitution == cells[0].restitution; })) {
-    cell.restitution = 1;
-    timed.push_back({cell});
-    if (cell.step == middle_step) long_cells.push_back(cell);
-  }
+  // Every policy at every step, without loss.
+  std::vector<Cell> timed = only(cells, [&](const Cell& c) { return c.restitution == cells[0].restitution; });
+  for (Cell& cell : timed) cell.restitution = 1;
+  const std::vector<Cell> long_cells = only(timed, [=](const Cell& c) { return c.step == middle_step; });
 
-  const auto key_of = [](const Cell& c) { return fmt::format("{} {}", bounce_factors().key(c), c.policy.name); };
+  const auto key_of = [](const Cell& c) { return fmt::format("{} {}", bounce_factors.key(c), c.policy.name); };
+  const auto long_key = [](const Cell& c) { return fmt::format("long run {}", c.policy.name); };
   std::vector<Task<std::vector<Scenario>>> crowd_tasks;
-  std::vector<Task<Tally>> cell_tasks, timing_tasks;
-  std::vector<Task<std::vector<Tally>>> long_tasks;
   for (const std::string& group : settings.choices_as_asked("scenario", scenario_groups))
     crowd_tasks.push_back({"scenario " + group, 1, [=] { return bounce_scenarios(group, mass_ratios, digits); }});
-  for (const Cell& cell : cells) {
-    cell_tasks.push_back(
-        {key_of(cell), bounces, [=, seed = options.seed] { return random_bounces(cell, seed, bounces); }});
-  }
-  for (const Cell& cell : long_cells) {
-    long_tasks.push_back({fmt::format("long run {}", cell.policy.name), runs * run_bounces,
-                          [=, seed = options.seed] { return long_run(cell, seed, runs, run_bounces); }});
-  }
+  auto cell_tasks = tasks_of(cells, key_of, bounces,
+                             [=, seed = options.seed](const Cell& c) { return random_bounces(c, seed, bounces); });
+  auto long_tasks = tasks_of(long_cells, long_key, runs * run_bounces,
+                             [=, seed = options.seed](const Cell& c) { return long_run(c, seed, runs, run_bounces); });
+  std::vector<Task<Tally>> timing_tasks;
   for (std::int64_t round = 0; round < rounds; ++round) {
-    for (const WorkRow& row : timed) {
+    for (const Cell& cell : timed) {
       timing_tasks.push_back(
-          {fmt::format("time {} {}", round, key_of(row.cell)), row.bounces(), [row] { return row.bounce(); }});
+          {fmt::format("time {} {}", round, key_of(cell)), timed_bounces(cell), [cell] { return even_bounces(cell); }});
     }
   }
 
-  const auto finish = [=](const Done<std::vector<Scenario>>& crowds, const Done<Tally>& tallies,
-                          const Done<std::vector<Tally>>& long_runs, const Done<Tally>& times) {
+  const auto finish = [=](const auto& crowds, const auto& tallies, const auto& long_runs, const auto& times) {
     Results results;
     results.scenarios = flat(crowds.results);
-    results.work = work_of(timed, times);
+    for (std::size_t i = 0; i < times.results.size(); ++i) {
+      if (i < timed.size()) results.work.push_back({timed[i], times.results[i]});
+      Row& row = results.work[i % timed.size()];
+      row.nanoseconds.push_back(1e9 * times.seconds[i] / static_cast<double>(timed_bounces(row.cell)));
+    }
     for (std::size_t i = 0; i < cells.size(); ++i) results.rows.push_back({cells[i], tallies.results[i]});
     const double most = std::ranges::max(cells, {}, &Cell::restitution).restitution;
     results.lively = only(results.rows, [&](const Row& r) { return r.cell.restitution == most; });
     results.tests = bounce_tests(results.rows);
     for (std::size_t i = 0; i < long_cells.size(); ++i) {
-      for (std::int64_t n = 1; const Tally& energy : long_runs.results[i]) {
+      for (double n = 1; const Tally& energy : long_runs.results[i]) {
         results.long_rows.push_back({long_cells[i], n, energy});
         n *= 2;
       }
       const std::vector<double> kept = energies(long_cells[i], 0, run_bounces);
-      LongRow& last = results.dropped.emplace_back(LongRow{long_cells[i], std::ssize(kept), {}});
+      LongRow& last = results.dropped.emplace_back(LongRow{long_cells[i], static_cast<double>(kept.size())});
       if (!kept.empty()) last.energy.add(kept.back());
     }
     return outcome_of(results, middle_step);

@@ -4,7 +4,6 @@
 /// what was measured agrees. Only heights and vertical speeds differ from zero. Derived in docs/bouncing.md.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -197,16 +196,13 @@ struct BounceCell {
 };
 
 /// But for the policy.
-inline const Factors<BounceCell>& bounce_factors() {
-  using C = BounceCell;
-  static const Factors<C> all = factors<C>(
-      number("gravity", &C::gravity, {.lower = 1e-6, .upper = 1e6, .unit = "m/s^2"}, "Downward."),
-      number("height", &C::height, {.lower = 1e-6, .upper = 1e6, .unit = "m"}, "Of the gap that it is dropped from."),
-      number("radius", &C::radius, {.lower = 1e-6, .upper = 1e6, .unit = "m"}, "Of the ball."),
-      numbers("step", &C::step, {.lower = 0, .lower_open = true, .unit = "s"}, "Time step h."),
-      numbers("restitution", &C::restitution, {.lower = 0, .upper = 1}, "Speed after over speed before."));
-  return all;
-}
+inline const Factors<BounceCell> bounce_factors = factors<BounceCell>(
+    number("gravity", &BounceCell::gravity, {.lower = 1e-6, .upper = 1e6, .unit = "m/s^2"}, "Downward."),
+    number("height", &BounceCell::height, {.lower = 1e-6, .upper = 1e6, .unit = "m"},
+           "Of the gap that it is dropped from."),
+    number("radius", &BounceCell::radius, {.lower = 1e-6, .upper = 1e6, .unit = "m"}, "Of the ball."),
+    numbers("step", &BounceCell::step, {.lower = 0, .lower_open = true, .unit = "s"}, "Time step h."),
+    numbers("restitution", &BounceCell::restitution, {.lower = 0, .upper = 1}, "Speed after over speed before."));
 
 /// [m/s] V, of the true flight.
 inline double impact_speed(const BounceCell& c) { return std::sqrt(2 * c.gravity * c.height); }
@@ -214,11 +210,12 @@ inline double impact_speed(const BounceCell& c) { return std::sqrt(2 * c.gravity
 inline double fall_time(const BounceCell& c) { return impact_speed(c) / c.gravity; }
 /// [1] g h / V: speed that gravity adds in a step, over the impact's.
 inline double delta(const BounceCell& c) { return c.gravity * c.step / impact_speed(c); }
+
 /// Every combination of step, restitution and policy: steps from coarse to fine, policies fastest and in the order of the tables.
 /// Throws UsageError.
 inline std::vector<BounceCell> make_bounce_cells(const Settings& settings) {
   const std::vector<BouncePolicy> policies = chosen(settings, "policy", all_bounce_policies);
-  std::vector<BounceCell> drops = bounce_factors().cells(settings, policies.size(), {}, [&](const BounceCell& c) {
+  std::vector<BounceCell> drops = bounce_factors.cells(settings, policies.size(), {}, [&](const BounceCell& c) {
     if (c.radius < 1e-3 * c.height || c.radius > 10 * c.height)
       settings.complain("radius", "0.001 to 10 times the height, whose digits it shares");
     if (!(delta(c) >= 1e-4 && delta(c) <= 0.5)) {
@@ -292,7 +289,7 @@ inline double error_at(const BounceCell& cell, double phase) {
 
 /// `trials` bounces at random phases: independent, the same for every policy.
 inline BounceTally random_bounces(const BounceCell& cell, std::uint64_t seed, std::int64_t trials) {
-  const RandomStream stream = bounce_factors().stream(cell, seed);
+  const RandomStream stream = bounce_factors.stream(cell, seed);
   BounceTally tally;
   for (std::int64_t i = 0; i < trials; ++i) {
     const double phase = uniform(random_words(stream, static_cast<std::uint64_t>(i), 0)[0]) + 0x1p-54;  // never 0 or 1
@@ -351,9 +348,8 @@ struct BounceTheory {
   }
 };
 
-/// Requires one of the five policies' names.
-inline BounceTheory bounce_theory(std::string_view policy, double delta, double restitution) {
-  const double e = restitution;
+/// At restitution `e`. Requires one of the five policies' names.
+inline BounceTheory bounce_theory(std::string_view policy, double delta, double e) {
   // Speed after: e (V + g h u / 2), which the flight has half a step later than Euler says, so it has lost g h / 2.
   const Vec3<double> late_speed = {delta / 4 - e, e * e - e * delta / 2, e * e * delta / 4};
   // What the depth at the end of the step is worth: V s + g s^2 / 2 with s = (1 + u) h / 2.
@@ -373,6 +369,7 @@ struct BounceRow {
   BounceCell cell;
   BounceTally tally;
   BounceTheory theory = bounce_theory(cell.policy.name, delta(cell), cell.restitution);
+  std::vector<double> nanoseconds = {};  ///< a bounce, from apex to apex, round by round; of what is timed alone
 
   /// Phases differ by no more than rounding: every bounce is the same, and there are no residuals.
   bool is_certain() const { return theory.sigma() <= rounding_of(cell); }
@@ -447,8 +444,7 @@ struct BounceScenario {
 };
 
 /// What happens in each, and what must, is told in docs/bouncing.md.
-inline constexpr std::array<std::string_view, 7> scenario_groups = {"zeno",   "rest",   "walls", "gap",
-                                                                    "masses", "cradle", "digits"};
+inline constexpr std::string_view scenario_groups[] = {"zeno", "rest", "walls", "gap", "masses", "cradle", "digits"};
 
 /// All of one group: masses `mass_ratios` apart, and up to `digits` <= 7 digits of pi after its first, in float at most 5.
 std::vector<BounceScenario> bounce_scenarios(std::string_view group, const std::vector<double>& mass_ratios,

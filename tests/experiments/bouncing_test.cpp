@@ -194,7 +194,7 @@ TEST(BounceTheory, every_bounce_is_what_theory_says_at_its_phase) {
         const BounceTheory theory = bounce_theory(policy.name, delta(cell), e);
         for (const double phase : {1e-6, 0.1, 0.25, 0.5, 0.77, 1 - 1e-6}) {
           ASSERT_NEAR(error_at(cell, phase), theory.at(1 - 2 * phase), rounding_of(cell))
-              << policy.name << " " << bounce_factors().key(cell) << " phase " << phase;
+              << policy.name << " " << bounce_factors.key(cell) << " phase " << phase;
         }
       }
     }
