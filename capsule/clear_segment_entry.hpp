@@ -29,7 +29,8 @@ struct ClearSide {
     using Vectors = packed::Vectors<packed::Pair>;
     const Vectors pv = {firsts(ends.x, v.x), firsts(ends.y, v.y), firsts(ends.z, v.z)}, across = cross(pv, d);
     const Vectors w = {seconds(across.x), seconds(across.y), seconds(across.z)};
-    const packed::Pair squares = dot(across, across), beside = dot(ends, w);
+    const Vectors k = {firsts(across.x), firsts(across.y), firsts(across.z)};
+    const packed::Pair squares = dot(across, across), beside = dot(k, v);
     along = dot(pv, d), k_w = firsts(dot(across, w)), k_k = firsts(squares), w_w = seconds(squares);
     off = beside * beside, reach = w_w * RR;
   }

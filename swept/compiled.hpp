@@ -41,17 +41,12 @@ THINWALL_OF_SCALARS(float, float);
 THINWALL_OF_SCALARS(double, double);
 THINWALL_OF_SCALARS(long double, long double);
 #undef THINWALL_OF_SCALARS
+
+THINWALL_OF_PAIR(long double, long double, Sphere, Sphere);
+THINWALL_OF_PAIR(long double, long double, Aabb, Sphere);
+THINWALL_OF_PAIR(long double, long double, Aabb, Aabb);
+THINWALL_OF_PAIR(long double, long double, Obb, Sphere);
 #undef THINWALL_OF_PAIR
-
-#define THINWALL_SETTLED(A, B)                                                \
-  THINWALL_INSTANTIATION Entry<double> settled<A<double>, B<double>, double>( \
-      const Moving<A<double>>&, const Moving<B<double>>&, const double&, Entry<double>, int)
-
-THINWALL_SETTLED(Sphere, Sphere);
-THINWALL_SETTLED(Aabb, Sphere);
-THINWALL_SETTLED(Aabb, Aabb);
-THINWALL_SETTLED(Obb, Sphere);
-#undef THINWALL_SETTLED
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace thinwall

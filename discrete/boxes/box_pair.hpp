@@ -139,7 +139,7 @@ template <Scalar S> FacePolygon<S> facing_polygon(const BoxPair<S>& pair, int ax
   Vec3<S> middle = over_face(pair.between) + (outward[2] < S(0) ? Vec3<S>(-outward) : outward);
   middle[2] += pair.half_a[axis];
   return parallelogram_over_face<S>(middle, half_edge((incident + 1) % 3), half_edge((incident + 2) % 3),
-                                    pair.half_a[u], pair.half_a[v]);
+                                    pair.half_a[u], pair.half_a[v], box_noise(pair));
 }
 
 /// A point of such a polygon, on B, and the point of A's face above it.
@@ -152,6 +152,23 @@ template <Scalar S> BoxPoints<S> points_at(const BoxPair<S>& pair, int axis, boo
   points.on_a[axis] = side * pair.half_a[axis];
   points.on_b[axis] = side * (pair.half_a[axis] - over_face[2]);
   return points;
+}
+
+/// The same two points along A's face, brought nearer to where either box has a part: of a sliver that the two share, no wider than a rounding,
+/// the middle is off them by as much. Along a side of A they go on until they are within B, if that is not far.
+template <Scalar S> void hold_to_both(const BoxPair<S>& pair, int axis, BoxPoints<S>& points) {
+  const auto held = [](const Vec3<S>& x, const Vec3<S>& half) -> Vec3<S> { return x.cwiseMin(half).cwiseMax(-half); };
+  for (int turn = 0; turn < 3; ++turn) {
+    const Vec3<S> in_b = pair.axes.transpose() * (points.on_b - pair.between);
+    Vec3<S> wanted = pair.axes * (held(in_b, pair.half_b) - in_b);
+    wanted[axis] = 0;
+    if (wanted == Vec3<S>::Zero()) return;
+    const Vec3<S> along = held(points.on_a + wanted, pair.half_a) - points.on_a;
+    const S cosine = safe_unit(along).dot(safe_unit(wanted)), farther = std::min(S(16), S(1 / (cosine * cosine)));
+    const Vec3<S> step = held(points.on_a + along * farther, pair.half_a) - points.on_a;
+    points.on_a += step;
+    points.on_b += step;
+  }
 }
 
 /// The deepest points of boxes that part along the face of A across `axis`: the corner of B that is farthest inside, or
@@ -174,7 +191,9 @@ template <Scalar S> BoxPoints<S> deepest_points_on_face(const BoxPair<S>& pair, 
   const FacePolygon<S> polygon = facing_polygon(scaled(pair, -e), axis, negative);
   if (polygon.count > 0) {
     const Vec3<S> middle = middle_of_deepest(polygon, times_power_of_two(noise, -e));
-    return points_at<S>(pair, axis, negative, times_power_of_two(middle, e));
+    points = points_at<S>(pair, axis, negative, times_power_of_two(middle, e));
+    hold_to_both(pair, axis, points);
+    return points;
   }
   points.on_a = points.on_a.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
   return points;

@@ -27,12 +27,11 @@ template <Scalar S> struct FacePolygon {
 };
 
 /// The parallelogram middle +- e1 +- e2, clipped to |x| <= half_x and |y| <= half_y. A corner beyond a side by no more than rounding is on it,
-/// so that faces that touch in a point keep that point; corners nearer to each other than that are one. Requires lengths whose products of two
-/// are in range.
+/// `noise` [length], so that faces that touch in a point keep that point; corners nearer to each other than that are one. Requires lengths whose
+/// products of two are in range.
 template <Scalar S>
 FacePolygon<S> parallelogram_over_face(const Vec3<S>& middle, const Vec3<S>& e1, const Vec3<S>& e2, const S& half_x,
-                                       const S& half_y) {
-  const S noise = gap_noise(largest(middle, e1, e2));
+                                       const S& half_y, const S& noise) {
   const auto smaller = [](S x, S y) { return x < y ? x : y; };  // by value: of references compilers make jumps
   const auto greater = [](S x, S y) { return x > y ? x : y; };
   FacePolygon<S> polygon;

@@ -83,7 +83,7 @@ struct ClearFlatEntry {
     const Vectors<Lanes>& D = core.edge;
 
     const Vectors<Lanes> k = cross(P, D), w = cross(V, D);
-    const Lanes length = dot(D, D), k_k = dot(k, k), w_w = dot(w, w), k_w = dot(k, w), beside = dot(P, w);
+    const Lanes length = dot(D, D), k_k = dot(k, k), w_w = dot(w, w), k_w = dot(k, w), beside = dot(k, V);
     const Lanes start = dot(P, D) * core.ahead, by = dot(V, D) * core.ahead;
     const Lanes RR_d = RR * length, reach = w_w * RR, off = beside * beside;
     const Lanes side = (k_k - RR_d) / (root(max((reach - off) * length, zero)) - k_w), at = start + by * side;

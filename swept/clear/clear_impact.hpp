@@ -98,6 +98,7 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   Lanes normal = frame.out_of(entry.normal * frame.per_length());  // a face's
   Pair time = entry.time;
   PairMask sure = clear_of_end(time);
+  Lanes point = (center + path * all(time)) - normal * all(r + gap / 2);
   if (entry.rounds > 1) {
     const Lanes turned = frame.out_of(entry.normal), own = frame.into(turned), none = all(0);
     const packed::LanesMask along = abs(entry.normal) <= none;  // across its axis: what it leans there is rounding
@@ -110,10 +111,13 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
     sure = misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= R * both(0x1p-26)));
     time = select(misses, time, max(plane, both(0)));
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
+    const Lanes on = held_within(frame.into(p + v * all(time)), h);
+    point =
+        ((lanes(box.shape.center) + lanes(box.displacement) * all(time)) + frame.out_of(on)) + normal * all(gap / 2);
   }
   return {both(both(entry.clear, all_of(frame.clear() & (all(0) <= h) & (h <= all(packed::most_length)))),
                all_of(clear_sizes(r, r, gap) & sure)),
-          time, normal, (center + path * all(time)) - normal * all(r + gap / 2), entry.rounds};
+          time, normal, point, entry.rounds};
 }
 
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Sphere<double>>& sphere,

@@ -10,7 +10,7 @@
 /// rounding, and decides whether a contact near the end of the step is still in it.
 ///
 /// Not for a graze: where the motion hardly closes the gap, the second order is not small. Nor where it would move the shapes by
-/// more than `trust`: a corner met without a radius has an answer but no plane of its own, a face that hardly closes would be
+/// more than roundings: a corner met without a radius has an answer but no plane of its own, a face that hardly closes would be
 /// reached when another has passed, and the plane of a normal that is not quite a long face's is early by what it is off. Nor to where
 /// it is not behind the body's other planes.
 /// Source: derived in docs/closed_forms.md.
@@ -28,10 +28,10 @@
 namespace thinwall {
 
 /// An entry's time as settled by its normal (unit, from A to B), or as it was, with `graze` set, where that may not be done.
-/// `trust`: by how much the plane may move the shapes, in roundings of their size as `std::numeric_limits` names one: of that along the normal,
-/// or where nothing wider has the last word of all of it, by which what was turned is off.
+/// The plane may move the shapes by two roundings of their size along the normal; or, where nothing wider has the last word, of all of it, by
+/// which what was turned is off.
 template <class A, class B, Scalar T>
-Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry, int trust) {
+Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry) {
   using W = Wider<T>;
   const auto a = cast<W>(narrow_a);
   const auto b = cast<W>(narrow_b);
@@ -47,10 +47,12 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
   constexpr int tiny = has_wider<T> ? -40 : -20;
   const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap;
-  const T trusted = T(trust) * std::numeric_limits<T>::epsilon() * size;
+  const T trusted = 2 * std::numeric_limits<T>::epsilon() * size;
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
+  // where the wider scalar can say which, no other plane is nearer than a rounding of the time, which may be a better known one's
+  const W spare = has_wider<T> ? W(std::numeric_limits<T>::epsilon() * entry.time) * largest(motion) : W(trusted);
   const bool by_rounding = shift <= W(entry.time * constant_power_of_two<T, tiny>()) &&
-                           std::max(W(shift * closing), W(outside * largest(motion))) <= W(trusted);
+                           W(shift * closing) <= W(trusted) && outside * largest(motion) <= spare;
   entry.graze = !(closing > W(0)) || !second_order_is_small || !by_rounding;
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));
@@ -78,28 +80,6 @@ template <Scalar S> struct ClosedForm {
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };
 
-/// Whether an entry near the end of the step comes in time must not be decided by roundings. Its time keeps its bits, which do
-/// not depend on where a step ends.
-template <class A, class B, Scalar T>
-THINWALL_COLD T settled_near_end(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
-  if (skin_radius(a.shape) + skin_radius(b.shape) + gap == T(0))
-    return entry.time;                                       // found without roundings, or settled
-  const Entry<T> last_word = settled(a, b, gap, entry, 16);  // round-off has moved it by less
-  if (last_word.graze) return entry.time;
-  return last_word.time <= T(1) ? std::min(T(1), entry.time) : last_word.time;
-}
-
-/// Turns an entry (its normal from A to B, `gap` the minimal separation) into the answer; point(time) says where they touch.
-template <class A, class B, Scalar T, class Point>
-Toi<T> toi_of(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& found, const Point& point) {
-  if (found.inside) return overlapping_at_start(a, b, found.rounds);
-  if (found.gave_up) return {ToiStatus::gave_up, found.rounds, std::min(T(1), found.time)};
-  const auto end_is_near = [&] { return largest(T(found.time - T(1))) <= constant_power_of_two<T, -10>(); };
-  const T time = has_wider<T> && end_is_near() ? settled_near_end(a, b, gap, found) : found.time;
-  if (!(time <= T(1))) return {ToiStatus::apart, found.rounds};
-  return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
-}
-
 /// The whole question in the wider scalar.
 template <class Method, class A, class B, Scalar T>
 THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
@@ -107,16 +87,65 @@ THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, cons
   return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, widened<W>(a), widened<W>(b)));
 }
 
+/// Whether roundings may decide that an entry near the end of the step comes in time.
+template <class A, class B, Scalar T>
+bool is_end_in_doubt(const Moving<A>& a, const Moving<B>& b, const T& gap, const Entry<T>& entry) {
+  const T from_end = largest(T(entry.time - T(1)));
+  if (!(from_end <= constant_power_of_two<T, -10>()) || skin_radius(a.shape) + skin_radius(b.shape) + gap == T(0))
+    return false;  // of what is not round times are found without roundings, or settled
+  const Vec3<T> paths = a.displacement.cwiseAbs() + b.displacement.cwiseAbs();
+  const T size = (coordinate_sizes(a.shape) + coordinate_sizes(b.shape) + paths).sum() + gap;
+  const T closing = entry.normal.dot(relative_displacement(a, b));
+  return !(16 * std::numeric_limits<T>::epsilon() * size < from_end * closing);
+}
+
+/// Turns an entry (its normal from A to B) into the answer; point(time) says where they touch. Near the end of the step the wider scalar says
+/// whether they do; the time keeps its bits, which do not depend on where a step ends.
+template <class Method, class A, class B, Scalar T, class Point>
+Toi<T> toi_of(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found, const Point& point) {
+  if (found.inside) return overlapping_at_start(a, b, found.rounds);
+  if (found.gave_up) return {ToiStatus::gave_up, found.rounds, std::min(T(1), found.time)};
+  T time = found.time;
+  if constexpr (has_wider<T>) {
+    if (is_end_in_doubt(a, b, T(method.min_separation), found)) {
+      const bool comes = toi_by_wider<Method, A, B, T>(method, a, b).status != ToiStatus::apart;
+      time = comes ? std::min(T(1), time) : std::numeric_limits<T>::infinity();
+    }
+  }
+  if (!(time <= T(1))) return {ToiStatus::apart, found.rounds};
+  return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
+}
+
+/// The answer where they touch at the start; from the wider scalar where that is for roundings to say.
+template <class Method, class A, class B, Scalar T>
+THINWALL_COLD Toi<T> touching_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, int rounds) {
+  const Separation<T> deepest = separation_unchecked(a.shape, b.shape);
+  if constexpr (has_wider<T>) {
+    const T gap(method.min_separation), size = coordinate_sizes(a.shape).sum() + coordinate_sizes(b.shape).sum() + gap;
+    if (!(deepest.distance < gap - 8 * std::numeric_limits<T>::epsilon() * size))
+      return toi_by_wider<Method, A, B, T>(method, a, b);
+  }
+  return overlapping_at_start(deepest, rounds);
+}
+
+/// Whether it slides along the plane that it is told to meet.
+template <class A, class B, Scalar T>
+bool hardly_closes(const Moving<A>& a, const Moving<B>& b, const Entry<T>& found) {
+  const Vec3<T> motion = relative_displacement(a, b);
+  return found.may_hit() && !(found.normal.dot(motion) > constant_power_of_two<T, -20>() * largest(motion));
+}
+
 /// The answer of a pair whose coordinates are not turned; from the wider scalar where a miss by little leaves it in doubt, or which of two
-/// parts is met slowly, but not where that is long after the step.
+/// parts is met slowly, or it hardly closes; but not where that is long after the step.
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                     const Point& point) {
+  if (found.inside) return touching_or_wider<Method, A, B, T>(method, a, b, found.rounds);
   if constexpr (has_wider<T>) {
     const bool is_late = is_finite(found.time) && found.time > T(2);
-    if (found.graze && !is_late) return toi_by_wider<Method, A, B, T>(method, a, b);
+    if ((found.graze && !is_late) || hardly_closes(a, b, found)) return toi_by_wider<Method, A, B, T>(method, a, b);
   }
-  return toi_of(a, b, T(method.min_separation), found, point);
+  return toi_of(method, a, b, found, point);
 }
 
 /// The same for a pair whose coordinates were turned into a box's axes: three roundings more each, and axes that are
@@ -125,13 +154,13 @@ Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                      const Point& point) {
-  const T gap(method.min_separation);
-  if (found.inside || found.gave_up) return toi_of(a, b, gap, found, point);
-  const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, gap, found, 2) : found;
+  if (found.inside) return touching_or_wider<Method, A, B, T>(method, a, b, found.rounds);
+  if (found.gave_up) return toi_of(method, a, b, found, point);
+  const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, T(method.min_separation), found) : found;
   if constexpr (has_wider<T>) {
     if (entry.graze) return toi_by_wider<Method, A, B, T>(method, a, b);
   }
-  return toi_of(a, b, gap, entry, point);
+  return toi_of(method, a, b, entry, point);
 }
 
 /// Where a moving sphere touches something that lies along `outward` at `time`; the middle of the gap if there is one.

@@ -14,7 +14,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Sphere<T>>& a, const Mov
   const T gap(method.min_separation);
   const Entry<T> entry = ball_entry<T>(b.shape.center - a.shape.center, relative_displacement(b, a),
                                        a.shape.radius + b.shape.radius + gap);
-  return toi_of(a, b, gap, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
+  return toi_of(method, a, b, entry, [&](const T& time) { return sphere_point<T>(a, time, entry.normal, gap); });
 }
 
 /// When B, a sphere or an upright box of half extents `half_b`, comes within R of an upright box. By which face, where plain times cannot

@@ -202,8 +202,9 @@ template <class S> void expect_what_both_hold(int runs) {
     const Faces<S> faces(draw);
     SCOPED_TRACE("run " + std::to_string(run));
     const Vec3<S>&m = faces.middle, &e1 = faces.e1, &e2 = faces.e2;
-    const FacePolygon<S> found = parallelogram_over_face<S>(m, e1, e2, faces.half_x, faces.half_y);
-    const Real noise = 2 * Real(gap_noise(largest(m, e1, e2))), x1(e1[0]), y1(e1[1]), x2(e2[0]), y2(e2[1]);
+    const S rounding = gap_noise(largest(m, e1, e2));
+    const FacePolygon<S> found = parallelogram_over_face<S>(m, e1, e2, faces.half_x, faces.half_y, rounding);
+    const Real noise = 2 * Real(rounding), x1(e1[0]), y1(e1[1]), x2(e2[0]), y2(e2[1]);
     const std::vector<HalfPlane> all = faces.half_planes();
     const Real area = x1 * y2 - x2 * y1;
     for (int i = 0; i < found.count; ++i) {
