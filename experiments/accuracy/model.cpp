@@ -83,10 +83,9 @@ template <class R, class S> R conditioning_of(const Vec3<S>& normal, const oracl
   return closing > 0 ? R(problem.scale(time, n) / closing) : R(0);
 }
 
-template <class R> void note_worst(double& worst, const R& error) {
-  const auto rounded = static_cast<double>(error);
-  worst = std::max(worst, rounded);
-  if (std::isnan(rounded)) worst = std::numeric_limits<double>::infinity();  // no direction at all
+void note_worst(double& worst, double error) {
+  worst = std::max(worst, error);
+  if (std::isnan(error)) worst = std::numeric_limits<double>::infinity();  // no direction at all
 }
 
 /// Time, verdict, normal and point against the oracle at 50 digits; and at 110 where those find a verdict wrong, as they are too few for
@@ -113,26 +112,26 @@ void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, Acc
     return;
   }
   if (!timed) return;
-  const R u = R(std::numeric_limits<S>::epsilon()) / 2, time(toi.time);
+  const R u = R(std::numeric_limits<S>::epsilon()) / 2, time(toi.time), unit = u * size_of(problem, time);
+  const auto there = oracle::gap_at(problem, time, tolerance);
+  const auto normal =
+      static_cast<double>(R(overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem)))));
   const R late = abs(R(time - truth.time)) / u;
   double forward = static_cast<double>(R(late / truth.conditioning));
   // Where a corner is met, by several planes at once, any of them may be told, with the error that is its own.
-  if (forward > accuracy_goal) {
+  if (forward > accuracy_goal && normal <= accuracy_goal) {
     const R told = conditioning_of(toi.normal, problem, time);
     if (told > truth.conditioning) forward = static_cast<double>(R(late / told));
   }
-  const auto there = oracle::gap_at(problem, time, tolerance);
   const double backward =
       there.core > 0 ? static_cast<double>(R(abs(R(there.core - problem.reach)) / (u * there.scale))) : forward;
   tally.forward.add(forward);
   tally.backward.add(backward);
-  const R unit = u * size_of(problem, time);
   const R moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
   const R farther = std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
   const R off = abs(R(farther - R(min_separation) / 2));  // the middle of the gap
-  note_worst(tally.worst_normal,
-             R(overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem)))));
-  note_worst(tally.worst_point, R(off / (unit + moved)));
+  note_worst(tally.worst_normal, normal);
+  note_worst(tally.worst_point, static_cast<double>(R(off / (unit + moved))));
 }
 
 /// The verdict alone, first against the oracle in long double, and at 50 digits where that is too close to call.
