@@ -35,12 +35,7 @@ struct Row {
 bool is_timed(const Row& row) { return row.inquiry != Inquiry::verdicts; }
 
 /// The goal is the front door's; the float kernel is shown beside it.
-bool is_within_goal(const Row& row) {
-  const Tally& t = row.tally;
-  return row.inquiry == Inquiry::float_kernel ||
-         (std::max({t.forward.largest(), t.backward.largest(), t.worst_normal, t.worst_point}) <= accuracy_goal &&
-          t.largest_wrong <= accuracy_goal_wrong && t.gave_up == 0);
-}
+bool is_within_goal(const Row& row) { return row.inquiry == Inquiry::float_kernel || is_within_goal(row.tally); }
 
 std::string full_name(const Row& row) { return fmt::format("{} {}", row.pair->name, name(row.inquiry)); }
 

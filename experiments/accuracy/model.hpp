@@ -55,6 +55,8 @@ struct AccuracyTally {
   }
 };
 
+bool is_within_goal(const AccuracyTally& tally);
+
 enum class Inquiry { in_double, in_float, float_kernel, verdicts, along_edges, upright };
 inline constexpr std::array all_inquiries{Inquiry::in_double, Inquiry::in_float,    Inquiry::float_kernel,
                                           Inquiry::verdicts,  Inquiry::along_edges, Inquiry::upright};
