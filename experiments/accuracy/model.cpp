@@ -118,14 +118,17 @@ AccuracyTally judged_in(const Moving<A>& a, const Moving<B>& b, const Toi<S>& to
       static_cast<double>(R(overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem)))));
   const R late = abs(R(time - truth.time)) / u;
   double forward = static_cast<double>(R(late / truth.conditioning));
-  // Where a corner is met, by several planes at once, any of them may be told, with the error that is its own.
   if (forward > accuracy_goal && normal <= accuracy_goal) {
-    const R told = conditioning_of(toi.normal, problem, time);
-    if (told > truth.conditioning) forward = static_cast<double>(R(late / told));
+    // A corner is met by several planes at once: any of them may be told, with the error that is its own.
+    forward = static_cast<double>(R(late / std::max(truth.conditioning, conditioning_of(toi.normal, problem, time))));
   }
   const double backward =
       there.core > 0 ? static_cast<double>(R(abs(R(there.core - problem.reach)) / (u * there.scale))) : forward;
-  tally.forward.add(forward);
+  const auto is_graze = [&] {  // by few roundings: the time is not linear in the input
+    const R depth = -least_margin(problem, tolerance, R(u / 64));
+    return depth > 0 && depth <= 64 * u;
+  };
+  tally.forward.add(forward > accuracy_goal && is_graze() ? std::min(forward, backward) : forward);
   tally.backward.add(backward);
   const R moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
   const R farther = std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
