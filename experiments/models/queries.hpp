@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/swept/reach_along.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
