@@ -35,6 +35,11 @@ double ErrorHistogram::quantile(double share) const {
   return 0;
 }
 
+bool is_within_goal(const AccuracyTally& t) {
+  return std::max({t.forward.largest(), t.backward.largest(), t.worst_normal, t.worst_point}) <= accuracy_goal &&
+         t.largest_wrong <= accuracy_goal_wrong && t.gave_up == 0;
+}
+
 namespace {
 
 /// By how much the input would have to change, in u, to make a wrong verdict right.
@@ -75,46 +80,70 @@ R off_surface(const Moving<A>& a, const Vec3<S>& point, const R& time, const R& 
   return abs(oracle::signed_gap_at(problem, time, tolerance).core - problem.reach);
 }
 
-void note_worst(double& worst, const Digits50& error) {
-  const auto rounded = static_cast<double>(error);
-  worst = std::max(worst, rounded);
-  if (std::isnan(rounded)) worst = std::numeric_limits<double>::infinity();  // no direction at all
+/// [1] kappa t of the plane that was told.
+template <class R, class S> R conditioning_of(const Vec3<S>& normal, const oracle::Problem<R>& problem, const R& time) {
+  auto n = oracle::lift<R>(normal);
+  const R length = sqrt(oracle::dot(n, n)), closing = -oracle::dot(n, problem.motion) / length;
+  n = oracle::combination(R(1 / length), n, R(0), {});
+  return closing > 0 ? R(problem.scale(time, n) / closing) : R(0);
 }
 
-/// Time, verdict, normal and point against the oracle at 50 digits.
-template <class A, class B, class S = typename A::Scalar>
-void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, AccuracyTally& tally,
-                  S min_separation = 0) {
-  const Digits50 tolerance = ldexp(Digits50(1), -140);
-  auto problem = oracle::pose<Digits50>(a, b);
-  problem.reach += Digits50(min_separation);
+void note_worst(double& worst, double error) {
+  worst = std::max(worst, error);
+  if (std::isnan(error)) worst = std::numeric_limits<double>::infinity();  // no direction at all
+}
+
+/// Time, verdict, normal and point against the oracle in R.
+template <class R, class A, class B, class S>
+AccuracyTally judged_in(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, S min_separation) {
+  AccuracyTally tally;
+  const R tolerance = ldexp(R(1), -140);
+  auto problem = oracle::pose<R>(a, b);
+  problem.reach += R(min_separation);
   const bool timed = toi.status == ToiStatus::hit;
-  const auto truth = oracle::first_contact(problem, guess_from<Digits50>(toi), tolerance);
+  const auto truth = oracle::first_contact(problem, guess_from<R>(toi), tolerance);
   ++tally.queries;
   tally.hits += truth.verdict == oracle::Verdict::hit ? 1 : 0;
   tally.overlapping += truth.verdict == oracle::Verdict::overlapping ? 1 : 0;
   tally.gave_up += toi.status == ToiStatus::gave_up ? 1 : 0;
   if (toi.status != truth.verdict) {
     ++tally.wrong_verdicts;
-    tally.largest_wrong = std::max(tally.largest_wrong, wrongness(problem, toi, truth, tolerance));
-    return;
+    tally.largest_wrong = wrongness(problem, toi, truth, tolerance);
+    return tally;
   }
-  if (!timed) return;
-  const Digits50 u = Digits50(std::numeric_limits<S>::epsilon()) / 2;
-  const double forward = static_cast<double>(abs(Digits50(toi.time) - truth.time) / (u * truth.conditioning));
-  const auto there = oracle::gap_at(problem, Digits50(toi.time), tolerance);
+  if (!timed) return tally;
+  const R u = R(std::numeric_limits<S>::epsilon()) / 2, time(toi.time), unit = u * size_of(problem, time);
+  const auto there = oracle::gap_at(problem, time, tolerance);
+  const auto normal =
+      static_cast<double>(R(overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem)))));
+  const R late = abs(R(time - truth.time)) / u;
+  double forward = static_cast<double>(R(late / truth.conditioning));
+  if (forward > accuracy_goal && normal <= accuracy_goal) {
+    // A corner is met by several planes at once: any of them may be told, with the error that is its own.
+    forward = static_cast<double>(R(late / std::max(truth.conditioning, conditioning_of(toi.normal, problem, time))));
+  }
   const double backward =
-      there.core > 0 ? static_cast<double>(abs(there.core - problem.reach) / (u * there.scale)) : forward;
-  tally.forward.add(forward);
+      there.core > 0 ? static_cast<double>(R(abs(R(there.core - problem.reach)) / (u * there.scale))) : forward;
+  const auto is_graze = [&] {  // by few roundings: the time is not linear in the input
+    const R depth = -least_margin(problem, tolerance, R(u / 64));
+    return depth > 0 && depth <= 64 * u;
+  };
+  tally.forward.add(forward > accuracy_goal && is_graze() ? std::min(forward, backward) : forward);
   tally.backward.add(backward);
-  const Digits50 time(toi.time), unit = u * size_of(problem, time);
-  const Digits50 moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
-  const Digits50 farther =
-      std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
-  const Digits50 off = abs(Digits50(farther - Digits50(min_separation) / 2));  // the middle of the gap
-  note_worst(tally.worst_normal,
-             overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem))));
-  note_worst(tally.worst_point, off / (unit + moved));
+  const R moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
+  const R farther = std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
+  const R off = abs(R(farther - R(min_separation) / 2));  // the middle of the gap
+  note_worst(tally.worst_normal, normal);
+  note_worst(tally.worst_point, static_cast<double>(R(off / (unit + moved))));
+  return tally;
+}
+
+/// At 50 digits, and at 110 where those find it over the goal: beside what is flat but for roundings they are too few.
+template <class A, class B, class S = typename A::Scalar>
+void judge_answer(const Moving<A>& a, const Moving<B>& b, const Toi<S>& toi, AccuracyTally& tally,
+                  S min_separation = 0) {
+  const AccuracyTally judged = judged_in<Digits50>(a, b, toi, min_separation);
+  tally += is_within_goal(judged) ? judged : judged_in<Digits110>(a, b, toi, min_separation);
 }
 
 /// The verdict alone, first against the oracle in long double, and at 50 digits where that is too close to call.
@@ -136,13 +165,15 @@ template <class A, class B> void judge_verdict(const Moving<A>& a, const Moving<
 template <template <class> class A, template <class> class B>
 AccuracyTally ask_pair(Inquiry inquiry, std::uint64_t seed, std::int64_t first, std::int64_t count) {
   const bool in_float = inquiry == Inquiry::in_float || inquiry == Inquiry::float_kernel;
-  const double set = inquiry == Inquiry::along_edges ? 2 : inquiry == Inquiry::verdicts ? 1 : 0;
+  const bool is_random = in_float || inquiry == Inquiry::in_double;
+  const double set = is_random ? 0 : inquiry == Inquiry::verdicts ? 1 : inquiry == Inquiry::along_edges ? 2 : 3;
   const std::array<double, 3> factors{double{A<double>::rank}, double{B<double>::rank}, set};
   const RandomStream stream{seed, stream_of(factors)};
   AccuracyTally tally;
   for (std::int64_t i = first; i < first + count; ++i) {
     QueryNumbers numbers(stream, static_cast<std::uint64_t>(i));
     const auto query = inquiry == Inquiry::along_edges ? draw_query_along_edge<A<double>, B<double>>(numbers)
+                       : inquiry == Inquiry::upright   ? draw_upright_query<A<double>, B<double>>(numbers)
                                                        : draw_query<A<double>, B<double>>(numbers, in_float ? 3 : 8);
     const ClosedForm<double> front_door{query.min_separation};
     if (inquiry == Inquiry::verdicts) {

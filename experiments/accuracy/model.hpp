@@ -29,6 +29,9 @@ class ErrorHistogram {
   double largest_ = 0;
 };
 
+/// The goal: [u kappa t] or [u] of a time, a normal and a point; [u] of a wrong verdict.
+inline constexpr double accuracy_goal = 4, accuracy_goal_wrong = 1;
+
 struct AccuracyTally {
   std::int64_t queries = 0, hits = 0, overlapping = 0, wrong_verdicts = 0, gave_up = 0;
   double largest_wrong = 0, worst_normal = 0, worst_point = 0;
@@ -51,12 +54,15 @@ struct AccuracyTally {
   }
 };
 
-enum class Inquiry { in_double, in_float, float_kernel, verdicts, along_edges };
-inline constexpr std::array all_inquiries{Inquiry::in_double, Inquiry::in_float, Inquiry::float_kernel,
-                                          Inquiry::verdicts, Inquiry::along_edges};
+bool is_within_goal(const AccuracyTally& tally);
+
+enum class Inquiry { in_double, in_float, float_kernel, verdicts, along_edges, upright };
+inline constexpr std::array all_inquiries{Inquiry::in_double, Inquiry::in_float,    Inquiry::float_kernel,
+                                          Inquiry::verdicts,  Inquiry::along_edges, Inquiry::upright};
 
 constexpr std::string_view name(Inquiry inquiry) {
-  constexpr std::array<std::string_view, 5> names{"double", "float", "float kernel", "verdicts", "along edges"};
+  constexpr std::array<std::string_view, 6> names{"double",   "float",       "float kernel",
+                                                  "verdicts", "along edges", "upright"};
   return names[static_cast<std::size_t>(inquiry)];
 }
 

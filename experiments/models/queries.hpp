@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <thinwall/experiments/lab/random.hpp>
+#include <thinwall/swept/reach_along.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
@@ -131,7 +133,19 @@ template <class A, class B> struct MovingPair {
   Moving<A> a;
   Moving<B> b;
   double min_separation = 0;  ///< [length]
+
+  void move(const Vec3<double>& by) {
+    a.shape = moved(a.shape, by);
+    b.shape = moved(b.shape, by);
+  }
 };
+
+/// B rests about the origin, and A passes `place` after that share of its path.
+template <class A, class B>
+MovingPair<A, B> passing(const A& a, const B& b, const Vec3<double>& place, const Vec3<double>& path, double share,
+                         double min_separation) {
+  return {{moved(a, Vec3<double>(place - path * share)), path}, at_rest(b), min_separation};
+}
 
 /// One query. `digits` [1] is how many decades of distance and offset the scalar can take: 8 for double, 3 for float.
 template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double digits) {
@@ -167,9 +181,7 @@ template <class A, class B> MovingPair<A, B> draw_query(QueryNumbers& u, double 
   MovingPair<A, B> query = aimed(share);
   if (u.one_in(5)) {
     const double length = reach * u.decades(0, digits);
-    const Vec3<double> origin = u.vector(length);
-    query.a.shape = moved(query.a.shape, origin);
-    query.b.shape = moved(query.b.shape, origin);
+    query.move(u.vector(length));
   }
   return query;
 }
@@ -208,7 +220,102 @@ template <class A, class B> MovingPair<A, B> draw_query_along_edge(QueryNumbers&
   const double tilt = u.decades(-5, 0), skew = u.decades(-5, 0), side = u.between(-1, 1);
   const double speed = reach * u.decades(-1, 3);
   const Vec3<double> path = (edge + aside * (skew * side) - out * tilt) * speed;
-  return {{moved(a, Vec3<double>(place - path * u())), path}, at_rest(b), min_separation};
+  return passing(a, b, place, path, u(), min_separation);
+}
+
+/// What a scene built by hand is made of: round numbers, many of them one number, its half or its double; and axes along the
+/// coordinates or turned about one of them by a multiple of 15 degrees, many by the same.
+class UprightNumbers {
+ public:
+  explicit UprightNumbers(QueryNumbers& u) : u_(u), parts_(u.one_in(2) ? 4 : 10), up_(any(3)), turns_(any(24)) {
+    common_ = round_size();
+  }
+
+  /// From 0 to n - 1.
+  int any(int n) { return static_cast<int>(u_.between(0, n)); }
+  double sign() { return u_.one_in(2) ? 1 : -1; }
+  /// [length] > 0.
+  double size() {
+    const int kind = any(8);
+    return kind < 4 ? round_size() : kind < 6 ? common_ : kind < 7 ? common_ / 2 : common_ * 2;
+  }
+  Vec3<double> sizes() {
+    const double x = size(), y = size(), z = size();
+    return {x, y, z};
+  }
+  Mat3<double> axes() {
+    const int kind = any(8);
+    const int up = kind < 7 ? up_ : any(3), turns = kind < 3 ? 0 : kind < 6 ? turns_ : any(24);
+    Mat3<double> axes = Mat3<double>::Identity();
+    if (turns == 0) return axes;
+    const double yaw = turns * std::numbers::pi / 12;  // rounded, as sine and cosine are
+    const Vec3<double> x = axes.col((up + 1) % 3), y = axes.col((up + 2) % 3);
+    axes.col((up + 1) % 3) = x * std::cos(yaw) + y * std::sin(yaw);
+    axes.col((up + 2) % 3) = y * std::cos(yaw) - x * std::sin(yaw);
+    return axes;
+  }
+
+ private:
+  double round_size() { return std::max(1.0, std::round(std::exp2(u_.between(-4, 10)) * parts_)) / parts_; }
+
+  QueryNumbers& u_;
+  double parts_;  ///< [1] of a unit of length
+  int up_, turns_;
+  double common_ = 0;  ///< [length]
+};
+
+/// About the origin. One ball or capsule in eight has no radius.
+template <class A> A draw_upright_shape(UprightNumbers& numbers) {
+  const Vec3<double> middle = Vec3<double>::Zero(), sizes = numbers.sizes();
+  const Mat3<double> axes = numbers.axes();
+  const int any = numbers.any(3);
+  const Vec3<double> along = axes.col(any) * sizes[0], across = axes.col((any + 1) % 3) * sizes[1];
+  const double radius = numbers.any(8) > 0 ? sizes[2] : 0;
+  if constexpr (std::is_same_v<A, Sphere<double>>) {
+    return {middle, radius};
+  } else if constexpr (std::is_same_v<A, Aabb<double>>) {
+    return {middle, sizes};
+  } else if constexpr (std::is_same_v<A, Obb<double>>) {
+    return {middle, sizes, axes};
+  } else if constexpr (std::is_same_v<A, Capsule<double>>) {
+    return {-along, along, radius};
+  } else {
+    return {-along - across, along * 2 - across, across * 2 - along};
+  }
+}
+
+/// A query of which random numbers draw none: shapes of a scene built by hand, with faces, edges or middles level but for roundings,
+/// along an axis or from one round place to another. Two in three pass a place where a face of a box around the one touches the other's.
+template <class A, class B> MovingPair<A, B> draw_upright_query(QueryNumbers& u) {
+  UprightNumbers numbers(u);
+  const A a = draw_upright_shape<A>(numbers);
+  const B b = draw_upright_shape<B>(numbers);
+  const double min_separation = u.one_in(3) ? numbers.size() : 0;
+  const Mat3<double> axes = numbers.axes();
+  const bool ends_within = u.one_in(3), slides = u.one_in(10);
+  const int first = numbers.any(3);
+  Vec3<double> place = Vec3<double>::Zero(), path = Vec3<double>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<double> axis = axes.col((first + i) % 3) * numbers.sign();
+    const double of_a = reach_along<double>(a, -axis), of_b = reach_along(b, axis);
+    const double touching = of_a + of_b + min_separation, beside = numbers.size(), way = numbers.size();
+    const int kind = i > 0 ? numbers.any(10) : ends_within ? 9 : 0;
+    const double level = kind == 0 ? touching : kind < 3 ? of_b - of_a : kind < 5 ? beside : 0;
+    place += axis * level;
+    if (i == 0 ? !slides : u.one_in(2)) path -= axis * (i == 0 ? touching - level + way : way);
+  }
+  MovingPair<A, B> query = passing(a, b, place, path, ends_within ? 1 : numbers.any(9) / 8.0, min_separation);
+  if (u.one_in(4)) {
+    const Vec3<double> drift = axes * numbers.sizes();
+    query.a.displacement += drift;
+    query.b.displacement += drift;
+  }
+  if (u.one_in(5)) {
+    const double far = std::pow(10.0, 1 + numbers.any(7));
+    const int x = numbers.any(3), y = numbers.any(3), z = numbers.any(3);
+    query.move(Vec3<double>(x - 1, y - 1, z - 1) * far);
+  }
+  return query;
 }
 
 /// A method's kernel itself, in the shapes' own scalar: what the front door calls, without the promotion to double.
