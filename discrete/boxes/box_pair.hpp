@@ -160,10 +160,10 @@ template <Scalar S> void hold_to_both(const BoxPair<S>& pair, int axis, BoxPoint
   const auto held = [](const Vec3<S>& x, const Vec3<S>& half) -> Vec3<S> { return x.cwiseMin(half).cwiseMax(-half); };
   for (int turn = 0; turn < 3; ++turn) {
     const Vec3<S> in_b = pair.axes.transpose() * (points.on_b - pair.between);
-    Vec3<S> wanted = pair.axes * (held(in_b, pair.half_b) - in_b);
-    wanted[axis] = 0;
-    if (wanted == Vec3<S>::Zero()) return;
-    const Vec3<S> along = held(points.on_a + wanted, pair.half_a) - points.on_a;
+    const Vec3<S> wanted = pair.axes * (held(in_b, pair.half_b) - in_b);
+    Vec3<S> along = held(points.on_a + wanted, pair.half_a) - points.on_a;
+    along[axis] = 0;
+    if (along == Vec3<S>::Zero()) return;
     const S cosine = safe_unit(along).dot(safe_unit(wanted)), farther = std::min(S(16), S(1 / (cosine * cosine)));
     const Vec3<S> step = held(points.on_a + along * farther, pair.half_a) - points.on_a;
     points.on_a += step;

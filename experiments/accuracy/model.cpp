@@ -60,7 +60,8 @@ template <class R> R size_of(const oracle::Problem<R>& problem, const R& time) {
 }
 
 /// [length] By how much shapes a separation `core` apart overlap along the direction that was told. Told from places it is off by u size / R,
-/// where the shapes are round by R, and tilts their cores by that: over their length in R more, `flatness`.
+/// and what they move by in the time that u is worth, where the shapes are round by R, and tilts their cores by that: over their length in R
+/// more, `flatness`.
 template <class R, class S>
 R overlap_along(const Vec3<S>& normal, const oracle::Problem<R>& problem, const R& time, const R& core) {
   const auto n = oracle::lift<R>(normal);
@@ -114,8 +115,9 @@ AccuracyTally judged_in(const Moving<A>& a, const Moving<B>& b, const Toi<S>& to
   if (!timed) return tally;
   const R u = R(std::numeric_limits<S>::epsilon()) / 2, time(toi.time), unit = u * size_of(problem, time);
   const auto there = oracle::gap_at(problem, time, tolerance);
-  const auto normal =
-      static_cast<double>(R(overlap_along(toi.normal, problem, time, there.core) / (unit * (1 + flatness(problem)))));
+  const R moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
+  const R tilted = unit + (unit + moved) * flatness(problem);
+  const auto normal = static_cast<double>(R(overlap_along(toi.normal, problem, time, there.core) / tilted));
   const R late = abs(R(time - truth.time)) / u;
   double forward = static_cast<double>(R(late / truth.conditioning));
   if (forward > accuracy_goal && normal <= accuracy_goal) {
@@ -130,7 +132,6 @@ AccuracyTally judged_in(const Moving<A>& a, const Moving<B>& b, const Toi<S>& to
   };
   tally.forward.add(forward > accuracy_goal && is_graze() ? std::min(forward, backward) : forward);
   tally.backward.add(backward);
-  const R moved = u * truth.conditioning * sqrt(oracle::dot(problem.motion, problem.motion));
   const R farther = std::max(off_surface(a, toi.point, time, tolerance), off_surface(b, toi.point, time, tolerance));
   const R off = abs(R(farther - R(min_separation) / 2));  // the middle of the gap
   note_worst(tally.worst_normal, normal);

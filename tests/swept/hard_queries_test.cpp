@@ -297,6 +297,68 @@ const std::vector<Finding> findings = {
                                         V(0x1.2e83e6c75da1ap-1, 0x1.7daf017fb9bb8p-6, -0x1.9ce65a9ddebep-1),
                                         V(0x1.0bbeb6a7923b4p-1, -0x1.8b6185267e4a5p-1, 0x1.717d336e5dfb2p-2))})),
      {{hit}, 0x1.3f6733d5f8ed1p-1, 3e-16}},
+    {"a long box is not met where its plane's rounding has it, before a short one's that is met at the same time",
+     asking(Moving{Obb<double>{V(0x1.eccccccccccccp+0, 0x1.1605cece556f2p+7, 0x1.f47d99f453723p+8),
+                               V(0x1.6666666666666p-1, 0x1.6666666666666p-2, 0x1.6p+2),
+                               leaning(V(1, 0, 0), V(0, -0x1.0907dc193068ep-2, 0x1.ee8dd4748bf15p-1),
+                                       V(0, -0x1.ee8dd4748bf15p-1, -0x1.0907dc193068ep-2))},
+                   V(-0x1.6666666666666p+0, -0x1.730b00f01092dp-3, -0x1.5a3014b7fb8f5p-1)},
+            at_rest(Obb<double>{V(0, 0, 0), V(0x1.6666666666666p-1, 0x1.020cccccccccdp+9, 0x1.999999999999ap-3),
+                                leaning(V(1, 0, 0), V(0, -0x1.0907dc193068ep-2, -0x1.ee8dd4748bf15p-1),
+                                        V(0, 0x1.ee8dd4748bf15p-1, -0x1.0907dc193068ep-2))})),
+     {{hit}, 0x1.7ffffffffffffp-2, 2e-16}},
+    {"nor is it met at all where the short one's plane is reached after the step",
+     asking(Moving{Obb<double>{V(0x1.999999999999ap-4, 0x1.00000000000c2p+1, -0x1.5fcp+9),
+                               V(0x1.999999999999ap-3, 0x1.999999999999ap-4, 0x1.5f8p+9),
+                               leaning(V(1, 0, 0), V(0, -1, 0x1.1a62633145c07p-53), V(0, -0x1.1a62633145c07p-53, -1))},
+                   V(0, -1.5, 0x1.999999999999ap-4)},
+            at_rest(Obb<double>{V(0, 0, 0), V(0x1.999999999999ap+0, 0x1.999999999999ap-2, 0x1.999999999999ap-2),
+                                Mat3<double>::Identity()})),
+     {{apart}, 1, 0}},
+    {"boxes a rounding apart at the start do not overlap there",
+     asking(Moving{Obb<double>{V(-0x1.41b291908f24ep+6, 0x1.28a110f731efbp+7, 0), V(3.25, 103, 0.5),
+                               leaning(V(0x1.0000000000001p-1, 0x1.bb67ae8584caap-1, 0),
+                                       V(-0x1.bb67ae8584caap-1, 0x1.0000000000001p-1, 0), V(0, 0, 1))},
+                   V(0x1.9bffffffffffap+5, -0x1.b08p+7, -0x1.d78p+8)},
+            at_rest(Obb<double>{V(0, 0, 0), V(171.25, 94, 51.5), Mat3<double>::Identity()})),
+     {{hit}, 0x1.b43c5fe396a3fp-53, 1e-18}},
+    {"a core that leans by 2^-50 is met after the step by what of it is beside the box",
+     asking(
+         Moving{Capsule<double>{V(16.25, 0x1.0000000000008p+0, 4.875), V(16.25, 1, -4.125), 0.25}, V(0, -0.25, -0.25)},
+         at_rest(Obb<double>{V(0, 0, 0), V(16.5, 0.5, 0.25), Mat3<double>::Identity()})),
+     {{apart}, 1, 0}},
+    {"and by a core that it crosses",
+     asking(Moving{Capsule<double>{V(610.25, 1208, 1208), V(0x1.3120000000002p+9, 1208, 0), 6}, V(-604, -1208, 0)},
+            at_rest(Capsule<double>{V(0, -0.25, 0), V(0, 0.25, 0), 0.25})),
+     {{apart}, 1, 0}},
+    {"a core all but level with a triangle's face is met by the face",
+     asking(Moving{Capsule<double>{V(-0x1.300000000008dp+1, -92, -93.25), V(-0x1.300000000008dp+1, 94.5, -93.25), 1.5},
+                   V(3.5, 0, 0)},
+            at_rest(Triangle<double>{V(0x1.1a1bca98796fp-45, 170.5, -93.25), V(0x1.1a1bca98796fp-45, 170.5, 186.5),
+                                     V(-0x1.1a1bca98796fp-44, -341, -93.25)})),
+     {{hit}, 0x1.00000000000ebp-2, 5e-16}},
+    {"a long core across the coordinates is met across them: what rounds along it moves all of it alike",
+     asking(Moving{Sphere<double>{V(0x1.3333333333334p-5, -0x1.b333333333334p-2, -0x1.0ccccccccccccp-2),
+                                  0x1.999999999999ap-3},
+                   V(-0x1.999999999999ap-4, 0x1.999999999999ap-3, 0x1.6666666666666p-1)},
+            at_rest(Capsule<double>{V(0x1.4818f8ce34e34p+6, 0, -0x1.4818f8ce34e2ep+6),
+                                    V(-0x1.4818f8ce34e34p+6, 0, 0x1.4818f8ce34e2ep+6), 0.15})),
+     {{hit}, 0x1.8p-2, 1e-15}},
+    {"and so is a long triangle",
+     asking(Moving{Sphere<double>{V(-0x1.2cf1d45335ce8p+0, -2.8125, 0x1.57efce15f4584p-3), 0x1.e666666666666p+0},
+                   V(-0x1.57efce15f45ap-1, 8, 0x1.57efce15f4598p-1)},
+            Moving{Triangle<double>{V(0x1.cf03761158518p+8, -0x1.999999999999ap-3, -0x1.cf0376115850fp+8),
+                                    V(-0x1.cf03761158518p+9, -0x1.999999999999ap-3, 0x1.cf0376115850fp+9),
+                                    V(0x1.cf03761158518p+8, 0x1.999999999999ap-2, -0x1.cf0376115850fp+8)},
+                   V(-0x1.01f3da9077434p+1, 0x1.8666666666666p+2, -0x1.57efce15f45a6p-1)}),
+     {{hit}, 0x1.7ffffffffffffp-2, 1e-15}},
+    {"a point within a triangle's plane comes in by its edge",
+     asking(Moving{Sphere<double>{V(0x1.12ec515d56b03p+3, 0x1.b566666666667p+7, -0x1.12ec515d56b02p+3), 0},
+                   V(-0x1.12ec515d56b03p+6, -0x1.84ccccccccccdp+7, 0x1.12ec515d56b02p+6)},
+            at_rest(Triangle<double>{V(-0x1.12ec515d56b03p+6, -0x1.84ccccccccccdp+6, 0x1.12ec515d56b02p+6),
+                                     V(0x1.12ec515d56b03p+7, -0x1.84ccccccccccdp+6, -0x1.12ec515d56b02p+7),
+                                     V(-0x1.12ec515d56b03p+6, 0x1.84ccccccccccdp+7, 0x1.12ec515d56b02p+6)})),
+     {{hit}, 0x1.d555555555556p-2, 1e-15}},
 };
 
 TEST(HardQueries, motions_have_the_answers_of_the_table) {
@@ -441,6 +503,40 @@ TEST(HardQueries, a_chip_within_a_gap_is_met_along_the_plates_normal_and_not_its
                           leaning(V(1, s, 0), V(-s, 1, 0), V(0, 0, 1))};
   const auto toi = time_of_impact(ClosedForm<double>{0x1.eaa2cbec8b764p-15}, chip, at_rest(plate));
   EXPECT_NEAR(toi.time, 0.49903740175911931, 1.2e-16);
+}
+
+// What two faces share may be a sliver that roundings part; and the place of a ball is moved where its time is settled.
+TEST(HardQueries, where_shapes_touch_lies_on_both) {
+  const auto expect_on = [](const V& point, const V& center, const V& half, const Mat3<double>& axes, double within) {
+    const V own = axes.transpose() * (point - center);
+    for (int i = 0; i < 3; ++i) EXPECT_LE(std::abs(own[i]), half[i] + within) << i;
+  };
+  const Mat3<double> upright = Mat3<double>::Identity();
+  const Obb<double> chip{V(0x1.1ca999999999ap+9, -0x1.3d9cccccccccdp+8, 0),
+                         V(0x1.999999999999ap-4, 0x1.999999999999ap-4, 0x1.999999999999ap-3), upright};
+  const Obb<double> rod{V(0, 0, 0), V(0x1.729999999999ap+8, 0.5, 0x1.999999999999ap-3), upright};
+  const V across(-453.5, 0x1.6a4cccccccccdp+8, 0);
+  const auto corner = time_of_impact(Moving{chip, across}, at_rest(rod));
+  expect_on(corner.point, rod.center, rod.half_extents, upright, 4e-13);
+  expect_on(corner.point, chip.center + across * corner.time, chip.half_extents, upright, 4e-13);
+
+  const double lean = 0x1.a79394c9e8a0ap-53;
+  const Moving<Aabb<double>> plank{{V(100.5, -0x1.d7a19f786b0e3p+8, -0x1.d7219f786b0e1p+8), V(41.75, 0.75, 0.125)},
+                                   V(1.25, 0x1.d4604a6ece284p+8, 0x1.dabd76fba1f0fp+8)};
+  const Moving<Obb<double>> brick{
+      {V(100, 0, 0), V(0.25, 0.125, 0.5), leaning(V(-lean, 0, 1), V(0, 1, 0), V(-1, 0, -lean))},
+      V(1.75, -0x1.80aa84ce72f89p+1, 0x1.adebc19b71704p+1)};
+  const auto edge = time_of_impact(plank, brick);
+  expect_on(edge.point, pose_at(plank, edge.time).center, plank.shape.half_extents, upright, 4e-13);
+  expect_on(edge.point, pose_at(brick, edge.time).center, brick.shape.half_extents, brick.shape.axes, 4e-13);
+
+  const Moving ball{Sphere<double>{V(-0x1.5bb06d2fad93p+8, 0x1.31c399bcecb28p+2, 0), 1.25},
+                    V(0x1.125999999999ap+9, -0x1.999999999999ap-4, 0)};
+  const Obb<double> block{V(0, 0, 0), V(2.5, 0x1.4cccccccccccdp+1, 0x1.a666666666666p+1),
+                          leaning(V(0x1.0000000000001p-1, 0x1.bb67ae8584caap-1, 0),
+                                  V(-0x1.bb67ae8584caap-1, 0x1.0000000000001p-1, 0), V(0, 0, 1))};
+  const auto beside = time_of_impact(ball, at_rest(block));
+  expect_on(beside.point, block.center, block.half_extents, block.axes, 1e-14);
 }
 
 // Edges 2^-50 from parallel, crossed by the roundings of their numbers, say nothing of the plane that the time is of.
