@@ -17,12 +17,6 @@ template <Scalar T> Capsule<T> nearer_end_first(const Capsule<T>& capsule, const
   return swaps ? Capsule<T>{capsule.b, capsule.a, capsule.radius} : capsule;
 }
 
-/// An entry of a segment and a shape with edges, in doubt if neither is round: whatever parts are met at once are the wider scalar's to tell.
-template <Scalar T> Entry<T> doubted_if_sharp(Entry<T> entry, const T& reach) {
-  entry.graze = entry.graze || (has_wider<T> && reach == T(0));
-  return entry;
-}
-
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Sphere<T>>& sphere) {
   const T gap(method.min_separation);
@@ -65,7 +59,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
   Entry<T> entry = flipped(own);
   entry.come_later(path.base_time);
-  return toi_or_wider(method, capsule, box, doubted_if_sharp(entry, reach), [&](const T& time) -> Vec3<T> {
+  return toi_or_wider(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
            (point_on_box<T>(path.start + motion * own.time, core, h) + own.normal * (gap / 2));
   });
@@ -92,9 +86,10 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
                                                   : freed_of_lean<T>(freed_of_leans(n, box.shape), edge);
   }
   entry.normal = -entry.normal;
-  return toi_of_turned(method, capsule, box, doubted_if_sharp(entry, reach), [&](const T& time) -> Vec3<T> {
+  return toi_of_turned(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {
     return (box.shape.center + box.displacement * time) +
-           out_of<T>(box.shape, point_on_box<T>(start + own_motion * own.time, core, h) + own.normal * (gap / 2));
+           out_of<T>(box.shape, point_on_box<T>(start + own_motion * (own.time + (time - entry.time)), core, h) +
+                                    own.normal * (gap / 2));
   });
 }
 
@@ -113,7 +108,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
     entry = capsule_triangle_entry<T>(path.start, motion, reach, core, e1, e2);
     entry.come_later(path.base_time);
   }
-  return toi_of_turned(method, capsule, triangle, doubted_if_sharp(flipped(entry), reach),
+  entry.graze = entry.graze || (has_wider<T> && reach == T(0));  // the parts met at once are the wider scalar's to tell
+  return toi_of_turned(method, capsule, triangle, flipped(entry),
                        [&](const T& time) { return middle_point(capsule, triangle, time); });
 }
 

@@ -116,13 +116,14 @@ Toi<T> toi_of(const Method& method, const Moving<A>& a, const Moving<B>& b, cons
   return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
 }
 
-/// The answer where they touch at the start; from the wider scalar where that is for roundings to say.
+/// The answer where they touch at the start; in doubt the wider scalar says whether they do.
 template <class Method, class A, class B, Scalar T>
 THINWALL_COLD Toi<T> touching_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, int rounds) {
   const Separation<T> deepest = separation_unchecked(a.shape, b.shape);
   if constexpr (has_wider<T>) {
     const T gap(method.min_separation), size = coordinate_sizes(a.shape).sum() + coordinate_sizes(b.shape).sum() + gap;
-    if (!(deepest.distance < gap - 8 * std::numeric_limits<T>::epsilon() * size))
+    const bool is_deep = deepest.distance < gap - 8 * std::numeric_limits<T>::epsilon() * size;
+    if (!is_deep && !overlaps_unchecked(widened<Wider<T>>(a.shape), widened<Wider<T>>(b.shape), Wider<T>(gap)))
       return toi_by_wider<Method, A, B, T>(method, a, b);
   }
   return overlapping_at_start(deepest, rounds);
@@ -140,10 +141,13 @@ bool hardly_closes(const Moving<A>& a, const Moving<B>& b, const Entry<T>& found
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                     const Point& point) {
-  if (found.inside) return touching_or_wider<Method, A, B, T>(method, a, b, found.rounds);
+  if constexpr (requires { a.shape.radius; }) {  // a sum of radii and a gap is rounded twice
+    if (found.inside) return touching_or_wider<Method, A, B, T>(method, a, b, found.rounds);
+  }
   if constexpr (has_wider<T>) {
     const bool is_late = is_finite(found.time) && found.time > T(2);
-    if ((found.graze && !is_late) || hardly_closes(a, b, found)) return toi_by_wider<Method, A, B, T>(method, a, b);
+    if ((found.graze && !is_late) || (!found.inside && hardly_closes(a, b, found)))
+      return toi_by_wider<Method, A, B, T>(method, a, b);
   }
   return toi_of(method, a, b, found, point);
 }
