@@ -98,6 +98,9 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const Triangle<T>& t = triangle.shape;
   const Vec3<T> e1 = t.b - t.a, e2 = t.c - t.a, motion = relative_displacement(capsule, triangle);
   const T reach = capsule.shape.radius + T(method.min_separation);
+  if constexpr (has_wider<T>) {  // nothing is round: which of the parts that are met at once is for more digits to tell
+    if (reach == T(0)) return toi_by_wider(method, capsule, triangle);
+  }
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, t.a, reach + largest(e1, e2));
   const Vec3<T> core = shape.b - shape.a;
   const NearPath<T> path(shape.a - t.a, motion, reach + largest(core) + largest(e1, e2));
@@ -108,7 +111,6 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
     entry = capsule_triangle_entry<T>(path.start, motion, reach, core, e1, e2);
     entry.come_later(path.base_time);
   }
-  entry.graze = entry.graze || (has_wider<T> && reach == T(0));  // the parts met at once are the wider scalar's to tell
   return toi_of_turned(method, capsule, triangle, flipped(entry),
                        [&](const T& time) { return middle_point(capsule, triangle, time); });
 }

@@ -49,10 +49,10 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap;
   const T trusted = 2 * std::numeric_limits<T>::epsilon() * size;
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
-  // where the wider scalar can say which, no other plane is nearer than a rounding of the time, which may be a better known one's
-  const W spare = has_wider<T> ? W(std::numeric_limits<T>::epsilon() * entry.time) * largest(motion) : W(trusted);
-  const bool by_rounding = shift <= W(entry.time * constant_power_of_two<T, tiny>()) &&
-                           W(shift * closing) <= W(trusted) && outside * largest(motion) <= spare;
+  // where a wider scalar can say which, no other plane is nearer than a rounding of the time: it may be a better known one
+  const W spare = has_wider<T> ? W(std::numeric_limits<T>::epsilon() * entry.time) : W(trusted) / largest(motion);
+  const bool by_rounding =
+      shift <= W(entry.time * constant_power_of_two<T, tiny>()) && W(shift * closing) <= W(trusted) && outside <= spare;
   entry.graze = !(closing > W(0)) || !second_order_is_small || !by_rounding;
   if (!entry.graze)
     entry.time = time > W(1) ? std::numeric_limits<T>::infinity() : static_cast<T>(std::max(W(0), time));
@@ -81,7 +81,7 @@ template <Scalar S> struct ClosedForm {
 };
 
 /// The whole question in the wider scalar.
-template <class Method, class A, class B, Scalar T>
+template <class Method, class A, class B, Scalar T = typename A::Scalar>
 THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   using W = Wider<T>;
   return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, widened<W>(a), widened<W>(b)));
@@ -108,7 +108,7 @@ Toi<T> toi_of(const Method& method, const Moving<A>& a, const Moving<B>& b, cons
   T time = found.time;
   if constexpr (has_wider<T>) {
     if (is_end_in_doubt(a, b, T(method.min_separation), found)) {
-      const bool comes = toi_by_wider<Method, A, B, T>(method, a, b).status != ToiStatus::apart;
+      const bool comes = toi_by_wider(method, a, b).status != ToiStatus::apart;
       time = comes ? std::min(T(1), time) : std::numeric_limits<T>::infinity();
     }
   }
@@ -117,14 +117,14 @@ Toi<T> toi_of(const Method& method, const Moving<A>& a, const Moving<B>& b, cons
 }
 
 /// The answer where they touch at the start; in doubt the wider scalar says whether they do.
-template <class Method, class A, class B, Scalar T>
+template <class Method, class A, class B, Scalar T = typename A::Scalar>
 THINWALL_COLD Toi<T> touching_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, int rounds) {
   const Separation<T> deepest = separation_unchecked(a.shape, b.shape);
   if constexpr (has_wider<T>) {
     const T gap(method.min_separation), size = coordinate_sizes(a.shape).sum() + coordinate_sizes(b.shape).sum() + gap;
     const bool is_deep = deepest.distance < gap - 8 * std::numeric_limits<T>::epsilon() * size;
     if (!is_deep && !overlaps_unchecked(widened<Wider<T>>(a.shape), widened<Wider<T>>(b.shape), Wider<T>(gap)))
-      return toi_by_wider<Method, A, B, T>(method, a, b);
+      return toi_by_wider(method, a, b);
   }
   return overlapping_at_start(deepest, rounds);
 }
@@ -142,12 +142,11 @@ template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                     const Point& point) {
   if constexpr (requires { a.shape.radius; }) {  // a sum of radii and a gap is rounded twice
-    if (found.inside) return touching_or_wider<Method, A, B, T>(method, a, b, found.rounds);
+    if (found.inside) return touching_or_wider(method, a, b, found.rounds);
   }
   if constexpr (has_wider<T>) {
     const bool is_late = is_finite(found.time) && found.time > T(2);
-    if ((found.graze && !is_late) || (!found.inside && hardly_closes(a, b, found)))
-      return toi_by_wider<Method, A, B, T>(method, a, b);
+    if ((found.graze && !is_late) || (!found.inside && hardly_closes(a, b, found))) return toi_by_wider(method, a, b);
   }
   return toi_of(method, a, b, found, point);
 }
@@ -158,11 +157,11 @@ Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                      const Point& point) {
-  if (found.inside) return touching_or_wider<Method, A, B, T>(method, a, b, found.rounds);
+  if (found.inside) return touching_or_wider(method, a, b, found.rounds);
   if (found.gave_up) return toi_of(method, a, b, found, point);
   const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, T(method.min_separation), found) : found;
   if constexpr (has_wider<T>) {
-    if (entry.graze) return toi_by_wider<Method, A, B, T>(method, a, b);
+    if (entry.graze) return toi_by_wider(method, a, b);
   }
   return toi_of(method, a, b, entry, point);
 }
