@@ -111,8 +111,12 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
     entry = capsule_triangle_entry<T>(path.start, motion, reach, core, e1, e2);
     entry.come_later(path.base_time);
   }
-  return toi_of_turned(method, capsule, triangle, flipped(entry),
-                       [&](const T& time) { return middle_point(capsule, triangle, time); });
+  const auto point = [&](const T& time) { return middle_point(capsule, triangle, time); };
+  if constexpr (has_wider<T>) {  // as if it were turned: a core all but level with a face is met by either's plane
+    return toi_of_turned(method, capsule, triangle, flipped(entry), point);
+  } else {
+    return toi_or_wider(method, capsule, triangle, flipped(entry), point);
+  }
 }
 
 }  // namespace thinwall

@@ -49,7 +49,7 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap;
   const T trusted = 2 * std::numeric_limits<T>::epsilon() * size;
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
-  // where a wider scalar can say which, no other plane is nearer than a rounding of the time: it may be a better known one
+  // another plane's time may be known better than this one's: where a wider scalar can say which comes first, this may not pass it
   const W spare = has_wider<T> ? W(std::numeric_limits<T>::epsilon() * entry.time) : W(trusted) / largest(motion);
   const bool by_rounding =
       shift <= W(entry.time * constant_power_of_two<T, tiny>()) && W(shift * closing) <= W(trusted) && outside <= spare;
@@ -116,34 +116,18 @@ Toi<T> toi_of(const Method& method, const Moving<A>& a, const Moving<B>& b, cons
   return {ToiStatus::hit, found.rounds, time, found.normal, point(time)};
 }
 
-/// The answer where they touch at the start; in doubt the wider scalar says whether they do.
-template <class Method, class A, class B, Scalar T = typename A::Scalar>
-THINWALL_COLD Toi<T> touching_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, int rounds) {
-  const Separation<T> deepest = separation_unchecked(a.shape, b.shape);
-  if constexpr (has_wider<T>) {
-    const T gap(method.min_separation), size = coordinate_sizes(a.shape).sum() + coordinate_sizes(b.shape).sum() + gap;
-    const bool is_deep = deepest.distance < gap - 8 * std::numeric_limits<T>::epsilon() * size;
-    if (!is_deep && !overlaps_unchecked(widened<Wider<T>>(a.shape), widened<Wider<T>>(b.shape), Wider<T>(gap)))
-      return toi_by_wider(method, a, b);
-  }
-  return overlapping_at_start(deepest, rounds);
-}
-
-/// Whether it slides along the plane that it is told to meet.
+/// Whether it slides along the plane that it is told to meet, but for roundings.
 template <class A, class B, Scalar T>
 bool hardly_closes(const Moving<A>& a, const Moving<B>& b, const Entry<T>& found) {
   const Vec3<T> motion = relative_displacement(a, b);
-  return found.may_hit() && !(found.normal.dot(motion) > constant_power_of_two<T, -20>() * largest(motion));
+  return found.may_hit() && !(found.normal.dot(motion) > constant_power_of_two<T, -40>() * largest(motion));
 }
 
-/// The answer of a pair whose coordinates are not turned; from the wider scalar where a miss by little leaves it in doubt, or which of two
-/// parts is met slowly, or it hardly closes; but not where that is long after the step.
+/// The answer of a pair whose coordinates are not turned; from the wider scalar where it slides along what it is told to meet, or where a miss by
+/// little leaves it in doubt, or which of two parts is met slowly, but not where that is long after the step.
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                     const Point& point) {
-  if constexpr (requires { a.shape.radius; }) {  // a sum of radii and a gap is rounded twice
-    if (found.inside) return touching_or_wider(method, a, b, found.rounds);
-  }
   if constexpr (has_wider<T>) {
     const bool is_late = is_finite(found.time) && found.time > T(2);
     if ((found.graze && !is_late) || (!found.inside && hardly_closes(a, b, found))) return toi_by_wider(method, a, b);
@@ -157,8 +141,7 @@ Toi<T> toi_or_wider(const Method& method, const Moving<A>& a, const Moving<B>& b
 template <class Method, class A, class B, Scalar T, class Point>
 Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& b, const Entry<T>& found,
                      const Point& point) {
-  if (found.inside) return touching_or_wider(method, a, b, found.rounds);
-  if (found.gave_up) return toi_of(method, a, b, found, point);
+  if (found.inside || found.gave_up) return toi_of(method, a, b, found, point);
   const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, T(method.min_separation), found) : found;
   if constexpr (has_wider<T>) {
     if (entry.graze) return toi_by_wider(method, a, b);
