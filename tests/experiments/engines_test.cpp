@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -313,10 +311,7 @@ TEST(Engines, of_npm_follow_theory_where_they_look_at_poses) {
 
 TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
   const TemporaryFolder scripts;
-  const auto write = [&](const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::create_directories((scripts.path() / file).parent_path());
-    std::ofstream(scripts.path() / file) << text;
-  };
+  const auto write = [&](const char* file, const std::string& text) { write_text(scripts / file, text); };
   const auto jolt_is_there = [&] { return engine_called(npm_engines(scripts.path()), "jolt").is_there(); };
   EXPECT_FALSE(jolt_is_there());
   write("package.json", R"({"dependencies": {"jolt-physics": "2.0.0"}})");
