@@ -21,10 +21,6 @@ namespace thinwall {
 
 namespace {
 
-const BouncePolicy& policy_of(std::string_view name) {
-  return *std::ranges::find(all_bounce_policies, name, &BouncePolicy::name);
-}
-
 TEST(Bouncing, agrees_with_theory) {
   const Outcome& outcome = small_outcome(bouncing_experiment());
   EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
@@ -110,7 +106,7 @@ BounceCell drop(const BouncePolicy& policy, double step, double restitution) {
   return {9.81, 1, 0.1, step, restitution, policy};
 }
 BounceCell drop(std::string_view policy, double step, double restitution) {
-  return drop(policy_of(policy), step, restitution);
+  return drop(called(all_bounce_policies, policy), step, restitution);
 }
 
 /// The failure is specified too: one who only turns its speed ends in the floor, one who is pushed out of exact arcs climbs.

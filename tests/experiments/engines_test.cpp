@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -189,10 +187,6 @@ std::vector<EngineRow> fired(const EnginePlan& plan) {
   return rows;
 }
 
-const Engine& engine_called(const std::vector<Engine>& engines, const std::string& name) {
-  return *std::find_if(engines.begin(), engines.end(), [&](const Engine& e) { return e.name == name; });
-}
-
 /// The rows of one engine in one mode, from the shortest path to the longest; none if it is not in the program.
 struct EngineRows {
   EngineRows(const std::string& engine, const std::string& label)
@@ -202,10 +196,10 @@ struct EngineRows {
   std::vector<EngineRow> rows;
 };
 
-#define SKIP_WITHOUT(name)                                                                          \
-  if (!engine_called(engine_list(), name).is_there()) {                                             \
-    GTEST_SKIP() << name << " is not in this build: " << engine_called(engine_list(), name).package \
-                 << " and -DTHINWALL_PEERS=ON bring it";                                            \
+#define SKIP_WITHOUT(name)                                                                   \
+  if (!called(engine_list(), name).is_there()) {                                             \
+    GTEST_SKIP() << name << " is not in this build: " << called(engine_list(), name).package \
+                 << " and -DTHINWALL_PEERS=ON bring it";                                     \
   }
 
 /// Calls `use` with each engine of npm that is in this build. Says which are not, and what brings them.
@@ -313,11 +307,8 @@ TEST(Engines, of_npm_follow_theory_where_they_look_at_poses) {
 
 TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
   const TemporaryFolder scripts;
-  const auto write = [&](const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::create_directories((scripts.path() / file).parent_path());
-    std::ofstream(scripts.path() / file) << text;
-  };
-  const auto jolt_is_there = [&] { return engine_called(npm_engines(scripts.path()), "jolt").is_there(); };
+  const auto write = [&](const char* file, const std::string& text) { write_text(scripts / file, text); };
+  const auto jolt_is_there = [&] { return called(npm_engines(scripts.path()), "jolt").is_there(); };
   EXPECT_FALSE(jolt_is_there());
   write("package.json", R"({"dependencies": {"jolt-physics": "2.0.0"}})");
   EXPECT_FALSE(jolt_is_there());
@@ -327,10 +318,10 @@ TEST(Engines, of_npm_are_there_in_the_version_that_is_asked_for) {
   EXPECT_FALSE(jolt_is_there());
   write("node_modules/jolt-physics/package.json", R"({"version": "2.0.0"})");
   EXPECT_TRUE(jolt_is_there());
-  EXPECT_EQ(engine_called(npm_engines(scripts.path()), "jolt").integrity, "");
+  EXPECT_EQ(called(npm_engines(scripts.path()), "jolt").integrity, "");
   write("node_modules/.package-lock.json", R"({"packages": {"node_modules/jolt-physics": {"integrity": "sha512-x"}}})");
   const std::vector<Engine> engines = npm_engines(scripts.path());
-  const Engine& jolt = engine_called(engines, "jolt");
+  const Engine& jolt = called(engines, "jolt");
   EXPECT_EQ(jolt.version, "2.0.0");
   EXPECT_EQ(jolt.integrity, "sha512-x");
   const EngineSetup setup = {jolt, jolt.modes.front()};
@@ -423,8 +414,7 @@ TEST(Engines, says_what_is_missing_and_does_the_rest) {
     EXPECT_FALSE(holds(outcome.summary, note));  // said before the run
     EXPECT_TRUE(holds(outcome.sections[0].text, note));
   }
-  EXPECT_EQ(engine_called(engine_list(), "bullet").remedy,
-            "install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
+  EXPECT_EQ(called(engine_list(), "bullet").remedy, "install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
 }
 
 TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {
@@ -501,8 +491,6 @@ TEST(EnginesConfig, an_engine_with_no_path_that_it_can_do_is_refused) {
 
 // ---- The stages: what is right on each, on flights made up by hand and in our world, and what passes where only poses are looked at.
 
-const StageKind& stage_called(std::string_view name) { return *std::ranges::find(stage_kinds, name, &StageKind::name); }
-
 constexpr const char* one_cell = "\npath = [1]\nwall_size = [250]";
 
 std::vector<StageRow> played(const EnginePlan& plan) {
@@ -544,7 +532,7 @@ TEST(EngineStages, tell_who_passes_from_who_flies_away) {
 }
 
 TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
-  const StageKind& kind = stage_called("near_miss");
+  const StageKind& kind = called(stage_kinds, "near_miss");
   const EngineShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
   const auto off_by = [&](double share) {
     StageTally tally;
@@ -562,7 +550,7 @@ TEST(EngineStages, count_what_is_off_by_more_than_a_hundredth) {
 }
 
 TEST(EngineStages, along_a_wall_count_what_is_lost_along_it) {
-  const StageKind& kind = stage_called("tiles");
+  const StageKind& kind = called(stage_kinds, "tiles");
   const EngineShot shot = kind.shot(meter_cell, random_words({3, 4}, 0, 0));
   StageTally tally;
   EngineFlights::Flight flight = {shot.start};

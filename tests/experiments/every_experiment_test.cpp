@@ -22,7 +22,7 @@ namespace {
 
 class EveryExperiment : public testing::TestWithParam<std::string_view> {
  protected:
-  const Experiment& experiment() const { return experiment_called(GetParam()); }
+  const Experiment& experiment() const { return called(experiments(), GetParam()); }
   std::string small() const { return small_toml(GetParam()); }
   std::unique_ptr<thinwall::Run> configured(const std::string& text,
                                             RunOptions options = {.seed = 1, .trials = {}}) const {

@@ -42,7 +42,7 @@ TEST(ExtremeSettings, are_refused_by_key_and_with_what_is_allowed) {
       {"crossing_bullets", "radius = 1e-300\nstep = 1\nspeed = [1e-300]", "radius'"},
       {"stiff_contact", "thickness = 1e-300\nradius = 0\nspeed = 1e-300", "thickness'"}};
   for (const Refused& c : all) {
-    const std::string complaint = refusal_of(experiment_called(c.experiment), c.text);
+    const std::string complaint = refusal_of(called(experiments(), c.experiment), c.text);
     EXPECT_TRUE(complaint.starts_with("test.toml:1: key '" + c.refusal)) << complaint;
   }
 }
@@ -62,7 +62,8 @@ TEST(ExtremeSettings, of_too_many_cells_are_refused_before_they_are_built) {
         Crowded{"broad_phase", "count", "speed"}, Crowded{"engines", "path", "wall_size"},
         Crowded{"bouncing", "step", "restitution"}, Crowded{"plan", "shot_path", "shot_gate"},
         Crowded{"stiff_contact", "stiffness", "step"}}) {
-    const std::string complaint = refusal_of(experiment_called(name), list_of(longest, 200000) + list_of(other, 20000));
+    const std::string complaint =
+        refusal_of(called(experiments(), name), list_of(longest, 200000) + list_of(other, 20000));
     EXPECT_TRUE(complaint.starts_with(fmt::format("test.toml:1: key '{}'", longest))) << complaint.substr(0, 200);
     EXPECT_TRUE(holds(complaint, fmt::format("{} (200,000)", longest)));
     EXPECT_TRUE(holds(complaint, fmt::format("{} (20,000)", other)));
@@ -89,7 +90,7 @@ using enum Precision;
 std::vector<ExtremeRow> extreme_rows(std::string_view pair_name, Precision precision, ExtremeAxis axis,
                                      const std::vector<double>& values, std::int64_t queries,
                                      const std::vector<std::string>& methods) {
-  const ExtremePair& pair = *std::ranges::find(extreme_pairs(), pair_name, &ExtremePair::name);
+  const ExtremePair& pair = called(extreme_pairs(), pair_name);
   std::vector<ExtremeRow> rows;
   for (const double value : values) {
     const Place place = {axis, value};
@@ -214,7 +215,7 @@ TEST(Extremes, asks_every_method_of_the_list_and_the_foil) {
 
 /// Where a method breaks along an arm, on rows as none is.
 Survival survival_of(std::string_view arm, const std::vector<std::pair<double, ExtremeTally>>& tallies) {
-  const Arm& along = *std::ranges::find(all_arms, arm, &Arm::name);
+  const Arm& along = called(all_arms, arm);
   std::vector<ExtremeRow> rows;
   for (const auto& [value, tally] : tallies)
     rows.push_back({extreme_pairs().data(), in_double, {along.axis, value}, tally});
@@ -413,12 +414,8 @@ TEST(ExtremesConfig, refuses_what_cannot_be_asked) {
 
 // ---- Queries of the experiment accuracy that once missed its contract, each of them alone.
 
-AccuracyTally ask(std::string_view pair_name, Inquiry inquiry, std::int64_t number) {
-  for (const AccuracyPair& pair : accuracy_pairs()) {
-    if (pair.name == pair_name) return pair.ask(inquiry, 0, number, 1);
-  }
-  ADD_FAILURE() << "no pair is called " << pair_name;
-  return {};
+AccuracyTally ask(std::string_view pair, Inquiry inquiry, std::int64_t number) {
+  return called(accuracy_pairs(), pair).ask(inquiry, 0, number, 1);
 }
 
 TEST(AccuracyHardQueries, graze_in_turned_axes_is_asked_again) {

@@ -2,7 +2,6 @@
 /// Benchmark programs that are not, and runs of the experiment speed over them.
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -15,17 +14,15 @@
 
 namespace thinwall {
 
-/// Writes a script FOLDER/NAME that runs `body`; $out is the file that --benchmark_out names.
-inline void write_script(const std::filesystem::path& folder, const std::string& name, const std::string& body) {
-  std::ofstream(folder / name)
-      << "#!/bin/sh\nfor word in \"$@\"; do case $word in --benchmark_out=*) out=${word#*=} ;; esac; done\n"
-      << body << "\n";
-  std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+/// A program FOLDER/NAME that runs `body`; $out is the file that --benchmark_out names.
+inline void write_program(const std::filesystem::path& folder, const std::string& name, const std::string& body) {
+  write_script(folder / name,
+               "for word in \"$@\"; do case $word in --benchmark_out=*) out=${word#*=} ;; esac; done\n" + body);
 }
 
-/// A program that writes `json` and succeeds.
+/// It writes `json` and succeeds.
 inline void write_bench(const std::filesystem::path& folder, const std::string& name, const std::string& json) {
-  write_script(folder, name, "cat >\"$out\" <<'END'\n" + json + "\nEND");
+  write_program(folder, name, "cat >\"$out\" <<'END'\n" + json + "\nEND");
 }
 
 inline std::string bench_row(std::string_view name, double nanoseconds, int missed, int false_hits, double length) {

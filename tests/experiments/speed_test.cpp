@@ -98,7 +98,7 @@ TEST_F(Speed, takes_no_ratio_of_a_cast_that_took_less_than_its_call) {
 TEST_F(Speed, keeps_what_a_call_takes_out_of_the_errors_that_must_agree) {
   const std::string row = R"({"run_name": "time_of_impact/sphere_aabb/jolt_cast_shape/iterations:1/manual_time", )"
                           R"("cpu_time": 5e8, "time_unit": "ns", "ns_row": 1400, "call_ns": 5$$, "missed": 0})";
-  write_script(folder.path(), "peers", "cat >\"$out\" <<END\n" + bench_json(row) + "\nEND");
+  write_program(folder.path(), "peers", "cat >\"$out\" <<END\n" + bench_json(row) + "\nEND");
   const Outcome outcome = result();
   EXPECT_TRUE(outcome.self_test_passed);  // though it was another number in each round
   const Table& timings = table_of(outcome, "timings");
@@ -123,10 +123,11 @@ TEST_F(Speed, names_the_programs_and_libraries_that_are_missing_and_does_the_res
 TEST_F(Speed, self_test_fails_a_wrong_verdict_of_ours_and_errors_that_change) {
   write_bench(folder.path(), "pairs", bench_json(bench_row("time_of_impact/sphere_aabb/front_door", 40, 1, 0, 1e-15)));
   EXPECT_FALSE(result().self_test_passed);
-  write_script(folder.path(), "pairs",
-               "cat >\"$out\" <<END\n" +
-                   bench_json(R"({"run_name": "raycast/aabb/plain", "cpu_time": 1, "time_unit": "ns", "missed": $$})") +
-                   "\nEND");
+  write_program(
+      folder.path(), "pairs",
+      "cat >\"$out\" <<END\n" +
+          bench_json(R"({"run_name": "raycast/aabb/plain", "cpu_time": 1, "time_unit": "ns", "missed": $$})") +
+          "\nEND");
   const Outcome outcome = result();  // the number of the process, in every round another
   EXPECT_FALSE(outcome.self_test_passed);
   EXPECT_TRUE(holds(outcome.summary, "FAILED"));
@@ -180,7 +181,7 @@ TEST_F(Speed, says_which_program_failed_and_how_in_one_line) {
        {"echo '{\"context\": {}, \"benchmarks\": [{\"run_name\": \"a/b/c\", \"error_occurred\": true, \"error_message\": "
         "\"no core\"}]}' >\"$out\"",
         "a/b/c: no core"}}) {
-    write_script(folder.path(), "pairs", body);
+    write_program(folder.path(), "pairs", body);
     const std::string failure = error_of<std::runtime_error>([&] { run_bench_program(folder.path(), "pairs", {}); });
     EXPECT_TRUE(holds(failure, said)) << body << ": " << failure;
     EXPECT_TRUE(holds(failure, (folder.path() / "pairs").string()));
@@ -189,7 +190,7 @@ TEST_F(Speed, says_which_program_failed_and_how_in_one_line) {
 }
 
 TEST_F(Speed, a_filter_may_leave_a_program_without_a_row) {
-  write_script(folder.path(), "pairs", "true");
+  write_program(folder.path(), "pairs", "true");
   EXPECT_TRUE(run_bench_program(folder.path(), "pairs", {.filter = "nothing"}).rows.empty());
   EXPECT_TRUE(holds(result("filter = \"nothing\"").answer, "no race"));
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,8 +59,11 @@ inline void expect_readable(const Outcome& outcome) {
 
 // ---- Runs of an experiment.
 
-inline const Experiment& experiment_called(std::string_view name) {
-  return *std::ranges::find(experiments(), name, &Experiment::name);
+/// The first of the list that has that name.
+template <class List> const auto& called(const List& list, std::string_view name) {
+  const auto found = std::ranges::find_if(list, [&](const auto& one) { return one.name == name; });
+  if (found == std::ranges::end(list)) throw std::out_of_range("none is called " + std::string(name));
+  return *found;
 }
 
 /// Configured by `text`, laid over the experiment's defaults. Throws UsageError.
@@ -120,9 +124,7 @@ inline const Outcome& small_outcome(const Experiment& experiment) {
 
 // ---- What is in a result.
 
-inline const Table& table_of(const Outcome& outcome, const std::string& name) {
-  return *std::ranges::find(outcome.tables, name, &Table::name);
-}
+inline const Table& table_of(const Outcome& outcome, std::string_view name) { return called(outcome.tables, name); }
 
 inline const Value& value_of(const Table& table, std::size_t row, const std::string& column) {
   return table.rows[row][place_of(table, column)];

@@ -2,7 +2,6 @@
 /// The program as its users start it: in a process, in a folder of its own.
 
 #include <chrono>
-#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -50,7 +49,9 @@ inline std::string read_text(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// In a folder that is made if it is not there.
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
   std::ofstream out(file, std::ios::binary);
   out << text;
   ASSERT_TRUE(out.flush()) << file;
@@ -65,6 +66,11 @@ inline std::map<std::string, std::string> files_in(const std::filesystem::path& 
     files[entry.path().lexically_relative(folder).generic_string()] = read_text(entry.path());
   }
   return files;
+}
+
+inline void write_script(const std::filesystem::path& file, const std::string& body) {
+  write_text(file, "#!/bin/sh\n" + body + "\n");
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
 }
 
 inline bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null") == 0; }
@@ -93,10 +99,10 @@ class ProgramProcess : boost::noncopyable {
 
   void signal(int number) const { ::kill(child_, number); }
 
-  /// Its status as waitpid says it.
+  /// Its exit code, or minus the signal that ended it.
   int wait() {
     if (!ended_) ended_ = ::waitpid(child_, &status_, 0) == child_;
-    return status_;
+    return WIFSIGNALED(status_) ? -WTERMSIG(status_) : WEXITSTATUS(status_);
   }
 
   int end_with(int number) {

@@ -24,7 +24,7 @@ namespace thinwall {
 
 /// What the toy does beside its work; not part of its configuration.
 struct ToyControl {
-  static inline std::atomic<int> computed = 0;         ///< units computed since a test set it to 0
+  static inline std::atomic<int> computed = 0;         ///< units computed by the last call of the program
   static inline std::atomic<int> interrupt_after = 0;  ///< > 0: that many units from now SIGINT is raised
   static inline std::atomic<int> fail_at = 0;          ///< > 0: the unit of that number throws
   static inline std::atomic<bool> pass = true;         ///< of its self-test
@@ -99,13 +99,21 @@ struct ToyProgram : ::testing::Test {
   std::string out = folder / "out";
 
   ToyProgram() {
-    ToyControl::computed = ToyControl::interrupt_after = ToyControl::fail_at = 0;
+    ToyControl::interrupt_after = ToyControl::fail_at = 0;
     ToyControl::pass = true;
     ToyControl::removes.clear();
   }
 
-  static Reply call(const Words& words) { return call_program(words, {toy_experiment()}); }
+  static Reply call(const Words& words) {
+    ToyControl::computed = 0;
+    return call_program(words, {toy_experiment()});
+  }
   Reply run(const Words& more = {}) const { return call(joined({"run", "toy", "--out", out}, more)); }
+  /// On one thread, and interrupted after so many units.
+  void interrupt(int units) const {
+    ToyControl::interrupt_after = units;
+    ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  }
 
   /// In one line that holds every part of `said`, and nothing below `folder` is changed.
   void expect_refused(const Words& words, const Words& said = {}) const {
@@ -115,6 +123,11 @@ struct ToyProgram : ::testing::Test {
   }
 
   nlohmann::json manifest() const { return nlohmann::json::parse(read_text(out + "/manifest.json")); }
+  void change_manifest(const std::string& pointer, const nlohmann::json& value) const {
+    nlohmann::json json = manifest();
+    json[nlohmann::json::json_pointer(pointer)] = value;
+    write_text(out + "/manifest.json", json.dump());
+  }
 };
 
 }  // namespace thinwall

@@ -19,7 +19,6 @@ TEST_F(ResultFolderTest, goes_on_after_an_interruption_and_ends_with_the_same_by
   ASSERT_EQ(run({"--threads", "1"}).status, 0);
   const auto whole = files_in(out);
   out = folder / "interrupted";
-  ToyControl::computed = 0;
   ToyControl::interrupt_after = 8;
   const Reply reply = run({"--threads", "1"});
   EXPECT_EQ(reply.status, 130);
@@ -27,7 +26,7 @@ TEST_F(ResultFolderTest, goes_on_after_an_interruption_and_ends_with_the_same_by
   EXPECT_TRUE(holds(reply.err, "to continue:\nthinwall run toy --out " + out + " --threads 1\n"));
   EXPECT_EQ(files_in(out).size(), 1u) << "the journal alone";
   expect_reply(run({"--threads", "1"}), 0, {"8 of 20 units were read from the journal\n"});
-  EXPECT_EQ(ToyControl::computed, 20);
+  EXPECT_EQ(ToyControl::computed, 12);
   EXPECT_EQ(read_text(out + "/data/cells.csv"), whole.at("data/cells.csv"));
   EXPECT_EQ(read_text(out + "/datapackage.json"), whole.at("datapackage.json"));
   EXPECT_EQ(manifest().at("resumed_units"), 8);
@@ -37,14 +36,12 @@ TEST_F(ResultFolderTest, keeps_what_was_finished_when_a_unit_fails) {
   ToyControl::fail_at = 5;
   expect_reply(run({"--threads", "1"}), 1, {"failed: unit 'cell 4' failed: no luck\n"});
   ToyControl::fail_at = 0;
-  ToyControl::computed = 0;
   EXPECT_EQ(run({"--threads", "1"}).status, 0);
   EXPECT_EQ(ToyControl::computed, 16) << "but for the four before it";
 }
 
 TEST_F(ResultFolderTest, computes_a_damaged_row_again_and_says_so) {
-  ToyControl::interrupt_after = 8;
-  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  interrupt(8);
   std::string journal = read_text(out + "/journal.tsv");
   journal[journal.find("cell 3\t") + 8] ^= 1;
   write_text(out + "/journal.tsv", journal);
@@ -57,7 +54,6 @@ TEST_F(ResultFolderTest, computes_a_damaged_row_again_and_says_so) {
 TEST_F(ResultFolderTest, answers_at_once_where_the_result_lies_already) {
   const Reply first = run();
   const auto files = files_in(out);
-  ToyControl::computed = 0;
   const Reply second = run({"--threads", "1"});
   EXPECT_EQ(second.status, 0);
   EXPECT_EQ(second.out, first.out);
@@ -70,7 +66,6 @@ TEST_F(ResultFolderTest, mends_a_result_that_lost_a_file_but_overwrites_no_chang
   const auto files = files_in(out);
   for (const char* file : {"/data/cells.csv", "/data/timings.csv"}) {
     std::filesystem::remove(out + file);
-    ToyControl::computed = 0;
     EXPECT_EQ(run().status, 0);
     EXPECT_EQ(ToyControl::computed, 20);
     EXPECT_TRUE(std::filesystem::exists(out + file));
@@ -94,8 +89,7 @@ TEST_F(ResultFolderTest, refuses_the_folder_of_another_run) {
             "--out " + out + ": holds another run (seed = 1, not 2); name another folder, or delete this one\n");
   EXPECT_EQ(files_in(out), files);
   out = folder / "unfinished";
-  ToyControl::interrupt_after = 3;
-  ASSERT_EQ(run().status, 130);
+  interrupt(3);
   EXPECT_EQ(run({"--trials", "5"}).status, 2);
 }
 
@@ -121,24 +115,20 @@ TEST_F(ResultFolderTest, starts_over_where_another_build_of_the_program_was_at_w
   EXPECT_FALSE(std::filesystem::exists(out + "/journal.old.tsv"));
 }
 
+/// Which has begun a run of its own there, or nothing yet.
 TEST_F(ResultFolderTest, goes_on_with_its_own_journal_that_another_build_has_set_aside) {
-  ToyControl::interrupt_after = 8;
-  ASSERT_EQ(run({"--threads", "1"}).status, 130);
-  std::filesystem::rename(out + "/journal.tsv", out + "/journal.old.tsv");
-  begin_by("another", out + "/journal.tsv");
-  ToyControl::interrupt_after = 1;
-  ASSERT_EQ(run({"--threads", "1"}).status, 130);
-  EXPECT_TRUE(holds(read_text(out + "/journal.old.tsv"), "777000")) << "the other's";
-  expect_reply(run({"--threads", "1"}), 0, {"9 of 20 units were read from the journal\n"});
-  EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
-}
-
-TEST_F(ResultFolderTest, goes_on_with_its_own_journal_where_the_build_that_set_it_aside_has_begun_nothing) {
-  ToyControl::interrupt_after = 8;
-  ASSERT_EQ(run({"--threads", "1"}).status, 130);
-  std::filesystem::rename(out + "/journal.tsv", out + "/journal.old.tsv");
-  expect_reply(run({"--threads", "1"}), 0, {"8 of 20 units were read from the journal\n"});
-  EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
+  for (const bool has_begun : {true, false}) {
+    interrupt(8);
+    std::filesystem::rename(out + "/journal.tsv", out + "/journal.old.tsv");
+    if (has_begun) {
+      begin_by("another", out + "/journal.tsv");
+      interrupt(1);
+      EXPECT_TRUE(holds(read_text(out + "/journal.old.tsv"), "777000")) << "the other's";
+    }
+    expect_reply(run(), 0, {(has_begun ? "9" : "8") + std::string(" of 20 units were read from the journal\n")});
+    EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
+    std::filesystem::remove_all(out);
+  }
 }
 
 TEST_F(ResultFolderTest, refuses_to_set_aside_a_journal_in_the_place_of_a_third_builds) {
@@ -177,8 +167,7 @@ TEST_F(ResultFolderTest, leaves_a_journal_alone_whose_run_it_cannot_read) {  // 
 }
 
 TEST_F(ResultFolderTest, starts_over_where_the_first_row_of_the_journal_is_damaged) {
-  ToyControl::interrupt_after = 3;
-  ASSERT_EQ(run().status, 130);
+  interrupt(3);
   std::string journal = read_text(out + "/journal.tsv");
   journal[journal.find("toy")] ^= 1;
   write_text(out + "/journal.tsv", journal);
@@ -187,10 +176,8 @@ TEST_F(ResultFolderTest, starts_over_where_the_first_row_of_the_journal_is_damag
 }
 
 TEST_F(ResultFolderTest, clears_what_a_run_left_that_was_killed_while_it_wrote) {
-  ToyControl::interrupt_after = 3;
-  ASSERT_EQ(run().status, 130);
+  interrupt(3);
   const std::string left = out + "/" + temporary_name();
-  std::filesystem::create_directories(left + "/data");
   write_text(left + "/data/half.csv", "half");
   write_text(out + "/" + temporary_name(), "half a journal");
   EXPECT_EQ(run().status, 0);
@@ -279,7 +266,6 @@ struct ForeignFiles : ToyProgram {
 TEST_F(ForeignFiles, under_our_names_are_refused_and_kept) {
   for (const char* name : {"journal.tsv", "journal.old.tsv", "manifest.json", "manifest.old.json", "report.html"}) {
     SCOPED_TRACE(name);
-    fs::create_directories(out + "/.staging");
     write_text(out + "/" + name, "mine\n");
     write_text(out + "/.staging/also", "mine\n");
     expect_refused_run();
@@ -308,44 +294,33 @@ TEST_F(ForeignFiles, that_a_manifest_names_outside_its_folder_are_no_files_of_a_
 
 TEST_F(ForeignFiles, in_the_way_of_a_rerun_are_not_removed_with_it) {
   ASSERT_EQ(run().status, 0);
-  fs::create_directories(out + ".again");
   write_text(out + ".again/notes.txt", "mine\n");
   expect_refused({"reproduce", out});
   expect_refused({"reproduce", out, "--out", out});
   expect_refused({"reproduce", out, "--out", out + "/deeper"});
 }
 
-struct MineBesideOurs : ForeignFiles {
+TEST_F(ForeignFiles, beside_ours_stay_whatever_a_run_does) {
+  ASSERT_EQ(run().status, 0);
   const std::vector<std::string> names = {
       ".staging/notes",         ".drawing/notes", "journal.tsv.new", "journal.rank-my",
       "journal.rank-notes.tsv", "notes",          "data/notes",      ".thinwall-0123456789/notes",
       "plots/mine.gp",          "plots/mine.pdf"};
-
-  void put() const {
-    for (const std::string& name : names) {
-      fs::create_directories(fs::path(out + "/" + name).parent_path());
-      write_text(out + "/" + name, "mine\n");
-    }
-  }
-  void expect_kept(const std::string& where) const {
-    for (const std::string& name : names) EXPECT_EQ(read_text(where + "/" + name), "mine\n") << name;
-  }
-};
-
-TEST_F(MineBesideOurs, stay_whatever_a_run_does) {
-  ASSERT_EQ(run().status, 0);
-  put();
+  for (const std::string& name : names) write_text(out + "/" + name, "mine\n");
+  const auto expect_kept = [&] {
+    for (const std::string& name : names) EXPECT_EQ(read_text(out + "/" + name), "mine\n") << name;
+  };
   EXPECT_TRUE(holds(run().err, "complete already"));
-  expect_kept(out);
+  expect_kept();
   fs::remove(out + "/data/cells.csv");
   EXPECT_EQ(run().status, 0) << "it is replaced";
   EXPECT_TRUE(fs::exists(out + "/data/cells.csv"));
-  expect_kept(out);
+  expect_kept();
   EXPECT_FALSE(holds(call({"report", out, "--figures", "pdf"}).err, "mine"));
-  expect_kept(out);
+  expect_kept();
 }
 
-TEST_F(MineBesideOurs, stay_in_a_rerun_that_went_on) {
+TEST_F(ForeignFiles, beside_ours_stay_in_a_rerun_that_went_on) {
   ASSERT_EQ(run().status, 0);
   ToyControl::interrupt_after = 8;
   ASSERT_EQ(call({"reproduce", out, "--threads", "1"}).status, 130);
@@ -356,9 +331,7 @@ TEST_F(MineBesideOurs, stay_in_a_rerun_that_went_on) {
 
 TEST_F(ForeignFiles, that_a_run_would_write_over_are_refused_while_it_is_unfinished) {
   for (const char* name : {"report.html", "trace.jsonl", "data/mine.csv", "journal.rank-1.tsv"}) {
-    ToyControl::interrupt_after = 3;
-    ASSERT_EQ(run({"--threads", "1"}).status, 130);
-    fs::create_directories(fs::path(out + "/" + name).parent_path());
+    interrupt(3);
     write_text(out + "/" + name, "mine\n");
     expect_refused_run();
     fs::remove_all(out);
@@ -381,7 +354,6 @@ TEST_F(ForeignFiles, that_come_while_a_run_is_at_work_are_not_written_over) {
     if (is_link) {
       fs::create_directory_symlink(folder / "mine", out + "/tables");
     } else {
-      fs::create_directory(out + "/tables");
       write_text(out + "/tables/cells.md", "mine\n");
     }
     EXPECT_TRUE(holds(error_of<UsageError>([&] { result.publish(); }), "'tables' has come while the run was at work"));
@@ -392,21 +364,18 @@ TEST_F(ForeignFiles, that_come_while_a_run_is_at_work_are_not_written_over) {
 }
 
 TEST_F(ForeignFiles, in_the_place_of_a_shards_seal_are_kept) {
-  fs::create_directories(out);
   write_text(out + "/shard.json", "{\"mine\": 1}\n");
   expect_refused({"run", "toy", "--out", out, "--shard", "1/2"}, {"holds 'shard.json', which is not ours"});
 }
 
 TEST_F(ForeignFiles, are_not_followed_where_they_are_links) {
-  fs::create_directories(folder / "mine");
   write_text(folder / "mine/cells.csv", "mine\n");
   const auto mine = files_in(folder / "mine");
   fs::create_directories(out);
   fs::create_directory_symlink(folder / "mine", out + "/data");
   EXPECT_EQ(run().err, "--out " + out + ": holds 'data', which is not ours; name another folder\n");
   fs::remove_all(out);
-  ToyControl::interrupt_after = 3;
-  ASSERT_EQ(run({"--threads", "1"}).status, 130);
+  interrupt(3);
   fs::create_symlink(folder / "none", out + "/report.html");
   expect_refused_run();
   fs::remove(out + "/report.html");

@@ -20,18 +20,11 @@ struct ReproduceTest : ToyProgram {
   std::string again = out + ".again";
 
   Reply reproduce(const Words& more = {}) const { return call(joined({"reproduce", out}, more)); }
-
-  void change_manifest(const std::string& pointer, const nlohmann::json& value) const {
-    nlohmann::json json = manifest();
-    json[nlohmann::json::json_pointer(pointer)] = value;
-    write_text(out + "/manifest.json", json.dump());
-  }
 };
 
 TEST_F(ReproduceTest, finds_the_same_and_leaves_no_trace) {
   ASSERT_EQ(run({"--seed", "5", "--trials", "7"}).status, 0);
   const auto files = files_in(folder.path());
-  ToyControl::computed = 0;
   const Reply reply = reproduce({"--threads", "1"});
   EXPECT_EQ(reply.status, 0) << reply.out << reply.err;
   const auto count = std::to_string(manifest().at("files").size());
@@ -45,7 +38,6 @@ TEST_F(ReproduceTest, runs_the_configuration_of_the_manifest) {
   write_text(folder / "my.toml", "experiment = \"toy\"\ncells = 5\nspeed = [2.5, 1e300]\n");
   ASSERT_EQ(call({"run", folder / "my.toml", "--out", out}).status, 0);
   EXPECT_EQ(manifest().at("reproduce"), "thinwall run resolved.toml --seed 0 --out ../again");
-  ToyControl::computed = 0;
   EXPECT_EQ(reproduce().status, 0);
   EXPECT_EQ(ToyControl::computed, 5);
 }
@@ -103,7 +95,6 @@ TEST_F(ReproduceTest, goes_on_after_an_interruption) {
   ASSERT_EQ(run().status, 0);
   ToyControl::interrupt_after = 8;
   expect_reply(reproduce({"--threads", "1"}), 130, {"to continue:\nthinwall reproduce " + out});
-  ToyControl::computed = 0;
   EXPECT_EQ(reproduce({"--threads", "1"}).status, 0);
   EXPECT_EQ(ToyControl::computed, 12);
 }

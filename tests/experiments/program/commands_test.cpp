@@ -164,12 +164,9 @@ TEST_F(CiteTest, replies_in_json) {
 
 TEST_F(CiteTest, keeps_the_version_and_date_of_the_program_that_made_the_result) {
   ASSERT_EQ(run().status, 0);
-  auto json = manifest();
-  json["program"]["version"] = "9.8.7";
-  json["program"]["release_date"] = "2031-02-03";
-  write_text(out + "/manifest.json", json.dump());
-  const std::string cited = call({"cite", out}).out;
-  EXPECT_TRUE(holds(cited, "  version = {9.8.7},\n  date    = {2031-02-03},\n  year    = {2031},\n"));
+  change_manifest("/program/version", "9.8.7");
+  change_manifest("/program/release_date", "2031-02-03");
+  EXPECT_TRUE(holds(call({"cite", out}).out, "  version = {9.8.7},\n  date    = {2031-02-03},\n  year    = {2031},\n"));
 }
 
 TEST_F(CiteTest, escapes_every_field) {
@@ -287,24 +284,20 @@ struct MannersTest : ToyProgram {
   std::string scene = folder / "scene.toml";
 
   MannersTest() { write_text(scene, bullet_text("policy = 'discrete'\n")); }
-
-  std::vector<Words> calls() const {
-    const std::string there = folder / "there";
-    return {{"list"},
-            {"run", "toy", "--out", out, "--threads", "1"},
-            {"run", "toy", "--out", out},  // complete already
-            {"run", "toy", "--dry-run"},
-            {"run", "toy", "--list-cells"},
-            {"run", scene, "--out", folder / "scene"},
-            {"compare", scene, "--out", folder / "compare"},
-            {"plan", scene},
-            {"reproduce", out, "--out", there},
-            {"completion", "bash"}};
-  }
 };
 
 TEST_F(MannersTest, json_is_one_value_on_stdout_and_all_else_is_text_on_stderr) {
-  for (const Words& words : calls()) {
+  const std::vector<Words> calls = {{"list"},
+                                    {"run", "toy", "--out", out, "--threads", "1"},
+                                    {"run", "toy", "--out", out},  // complete already
+                                    {"run", "toy", "--dry-run"},
+                                    {"run", "toy", "--list-cells"},
+                                    {"run", scene, "--out", folder / "scene"},
+                                    {"compare", scene, "--out", folder / "compare"},
+                                    {"plan", scene},
+                                    {"reproduce", out, "--out", folder / "there"},
+                                    {"completion", "bash"}};
+  for (const Words& words : calls) {
     const Reply reply = call(joined(words, {"--json"}));
     EXPECT_EQ(reply.status, 0) << words[0] << reply.err;
     EXPECT_TRUE(nlohmann::json::accept(reply.out)) << words[0] << ": " << reply.out;
@@ -356,6 +349,7 @@ TEST_F(MannersTest, lists_every_unit_and_writes_nothing) {
   EXPECT_EQ(reply.status, 0);
   EXPECT_TRUE(reply.out.starts_with("          10  cell 0\n          10  cell 1\n")) << reply.out;
   EXPECT_EQ(std::ranges::count(reply.out, '\n'), 20);
+  EXPECT_EQ(ToyControl::computed, 0);
   const auto json = nlohmann::json::parse(run({"--list-cells", "--json", "--trials", "7"}).out);
   expect_members(json, {{"units", 20}, {"trials", 140}});
   EXPECT_EQ(json.at("cells").size(), 20u);
@@ -442,10 +436,9 @@ struct BenchmarksTest : ::testing::Test {
   std::string config = folder / "speed.toml", out = folder / "out";
 
   BenchmarksTest() {
-    std::filesystem::create_directory(folder / "theirs");
-    write_script(folder / "theirs", "pairs",
-                 "touch " + folder / "started" + "\ncat >\"$out\" <<'END'\n" +
-                     bench_json(bench_row("raycast/aabb/front_door", 30, 0, 0, 1e-15)) + "\nEND");
+    write_program(folder / "theirs", "pairs",
+                  "touch " + folder / "started" + "\ncat >\"$out\" <<'END'\n" +
+                      bench_json(bench_row("raycast/aabb/front_door", 30, 0, 0, 1e-15)) + "\nEND");
   }
 
   static Reply call(const Words& words) { return call_program(words, {speed_experiment(), toy_experiment()}); }

@@ -253,7 +253,6 @@ TEST_F(ReportTest, draws_figures_for_print_that_are_no_part_of_the_result) {
   EXPECT_TRUE(read_text(out + "/plots/squares.pdf").starts_with("%PDF-"));
   EXPECT_TRUE(holds(read_text(out + "/plots/squares-latex.tex"), "{squares-latex}"));
   EXPECT_EQ(call({"report", out, "--check"}).status, 0);
-  ToyControl::computed = 0;
   EXPECT_TRUE(holds(run({"--seed", "3"}).err, "complete already")) << "the result is still complete";
   EXPECT_EQ(ToyControl::computed, 0);
 }
@@ -304,16 +303,15 @@ TEST_F(ReportTest, does_not_draw_what_a_run_is_replacing) {
 }
 
 TEST_F(ReportTest, prints_no_control_character_of_a_manifest) {
-  auto json = manifest();
-  json["question"] = "What\x1b]0;is\x07 a square\xc2\x9b?";
-  json["summary"] = "cells:\t20\x7f";
-  write_text(out + "/manifest.json", json.dump());
+  const char* const summary = "cells:\t20\x7f";
+  change_manifest("/question", "What\x1b]0;is\x07 a square\xc2\x9b?");
+  change_manifest("/summary", summary);
   const std::string said = call({"report", out}).out;
   EXPECT_TRUE(said.starts_with("What\\x1b]0;is\\x07 a square\\u009b?\n")) << said;
   EXPECT_TRUE(holds(said, "cells:\t20\\u007f\n"));
   const std::string reply = call({"report", out, "--json"}).out;
   EXPECT_TRUE(std::ranges::none_of(reply, [](char letter) { return letter == 0x7f || letter == 0x1b; }));
-  EXPECT_EQ(nlohmann::json::parse(reply).at("summary"), json["summary"]);
+  EXPECT_EQ(nlohmann::json::parse(reply).at("summary"), summary);
 }
 
 TEST_F(ReportTest, sees_a_link_where_a_file_should_be) {

@@ -49,10 +49,8 @@ struct ValidateTest : ::testing::Test {
   TemporaryFolder folder;
 
   std::string write(const std::string& below, const std::string& text) const {
-    const path file = folder / below;
-    std::filesystem::create_directories(file.parent_path());
-    write_text(file, text);
-    return file.string();
+    write_text(folder / below, text);
+    return folder / below;
   }
   void expect_refusal(const std::string& text, const std::string& said) const {
     const std::string file = write("bad/vertex-face/a.csv", text);
