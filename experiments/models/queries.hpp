@@ -227,9 +227,8 @@ template <class A, class B> MovingPair<A, B> draw_query_along_edge(QueryNumbers&
 /// coordinates or turned about one of them by a multiple of 15 degrees, many by the same.
 class UprightNumbers {
  public:
-  explicit UprightNumbers(QueryNumbers& u) : u_(u), parts_(u.one_in(2) ? 4 : 10), up_(any(3)), turns_(any(24)) {
-    common_ = round_size();
-  }
+  explicit UprightNumbers(QueryNumbers& u)
+      : u_(u), parts_(u.one_in(2) ? 4 : 10), up_(any(3)), turns_(any(24)), common_(round_size()) {}
 
   /// From 0 to n - 1.
   int any(int n) { return static_cast<int>(u_.between(0, n)); }
@@ -261,7 +260,7 @@ class UprightNumbers {
   QueryNumbers& u_;
   double parts_;  ///< [1] of a unit of length
   int up_, turns_;
-  double common_ = 0;  ///< [length]
+  double common_;  ///< [length]
 };
 
 /// About the origin. One ball or capsule in eight has no radius.
