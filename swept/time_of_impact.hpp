@@ -34,8 +34,8 @@ THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const 
   }
 }
 
-/// The careful rung, out of the way of the clear one; which is asked once more, at a size near 1, what it left for its size alone, so that the
-/// unit of length changes no bit.
+/// The careful rung, out of the way of the clear one; which is asked once more, at a size near 1, what it may have left for its size alone (that
+/// of the smallest part of a question counts, the largest is known), so that the unit of length changes no bit.
 template <Shape A, Shape B>
 [[gnu::noinline]] Toi<double> careful_impact(const ClosedForm<double>& method, const Moving<A>& a, const Moving<B>& b) {
   const double lengths = extent(a.shape) + extent(b.shape),
@@ -44,7 +44,7 @@ template <Shape A, Shape B>
   const bool alike = 0x1p-60 * size < std::min(lengths, paths);  // what a power of two flushes is nothing beside them
   // asked before, as a size below zero might be flushed
   const bool is_question = valid(a) && valid(b) && method.min_separation >= 0;
-  if (is_question && alike && (size < 0x1p-50 || size > 0x1p50)) {
+  if (is_question && alike && (size < 0x1p-20 || size > 0x1p20)) {
     const int e = binary_exponent(size);
     const ClearToi answer = clear_impact(scaled(a, -e), scaled(b, -e), times_power_of_two(method.min_separation, -e));
     Toi<double> toi = answer.toi();

@@ -199,6 +199,24 @@ TYPED_TEST(Ladder, the_front_door_climbs_it) {  // from either side
   }
 }
 
+TYPED_TEST(Ladder, the_unit_of_length_changes_no_bit) {  // of what comes from afar, either
+  Shaker<double> draw(23);
+  for (int i = 0; i < 500; ++i) {
+    auto motion = drawn_motion<typename TypeParam::A, typename TypeParam::B>(draw);
+    const V by = motion.b.displacement - motion.a.displacement;
+    const double farther = power<double>(draw.pick(0, 12));
+    motion = {motion.a,
+              {moved<double>(motion.b.shape, by * (0.5 - 0.5 * farther)), motion.a.displacement + by * farther}};
+    const Toi<double> here = time_of_impact(motion.a, motion.b);
+    for (const int exponent : {-75, -60, -48, -30, 60}) {
+      const Toi<double> there = time_of_impact(scaled(motion.a, exponent), scaled(motion.b, exponent));
+      EXPECT_EQ(there.status, here.status) << exponent;
+      EXPECT_EQ(there.time, here.time) << exponent;
+      EXPECT_EQ(there.normal, here.normal) << exponent;
+    }
+  }
+}
+
 // ---- Which rung decides what: doubt, and beside it none.
 
 const Moving<Ball> unit_ball = at_rest(Ball{{0, 0, 0}, 1});
