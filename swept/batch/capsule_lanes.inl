@@ -3,7 +3,7 @@
 // The center enters the endless cylinder around the axis beside the segment, and touches there, or beyond one end, and then it can
 // touch only the ball around that end. With m the place from end a, d the axis, w = v x d:
 //
-//   t = (|m x d|^2 - R^2 d.d) / (-(m x d).w + sqrt(d.d (R^2 w.w - (m.w)^2))).
+//   t = (|m x d|^2 - R^2 d.d) / (-(m x d).w + sqrt(d.d (R^2 w.w - ((m x d).v)^2))).
 //
 // Columns of a capsule: 0-2 a, 3-5 b, 6 radius, 7-9 displacement; of a sphere: 0-2 center, 3 radius, 4-6 displacement.
 
@@ -36,7 +36,7 @@ struct CapsuleSphere {
 
     // The endless cylinder. A place is known to a rounding of the whole capsule, as the scalar code sees it from the middle of the segment.
     const Vector k = cross(m, axis), w = cross(v, axis);
-    const auto kk = dot(k, k), ww = dot(w, w), offset = dot(m, w), path = sum(v);
+    const auto kk = dot(k, k), ww = dot(w, w), offset = dot(k, v), path = sum(v);
     const auto whole = hn::Add(sum(m), sum(axis)), place = hn::Mul(hn::Mul(whole, whole), dd);
     const auto reach = hn::Mul(RR, ww), discriminant = hn::NegMulAdd(offset, offset, reach);
     const auto noise =

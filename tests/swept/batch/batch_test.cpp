@@ -476,6 +476,20 @@ template <class S> void judge_paths_along_an_axis() {
 TEST(BatchVerdicts, of_paths_along_an_axis_have_times_to_rounding_in_double) { judge_paths_along_an_axis<double>(); }
 TEST(BatchVerdicts, of_paths_along_an_axis_have_times_to_rounding_in_float) { judge_paths_along_an_axis<float>(); }
 
+TEST(BatchVerdicts,
+     of_a_long_core_across_the_coordinates_have_times_to_rounding) {  // its roundings move all of it alike
+  using V = Vec3<double>;
+  const V end(0x1.4818f8ce34e34p+6, 0, -0x1.4818f8ce34e2ep+6), path(-0x1.999999999999ap-4, 0x1.999999999999ap-3, 0.7);
+  const V center(0x1.3333333333334p-5, -0x1.b333333333334p-2, -0x1.0ccccccccccccp-2);
+  const auto capsules = repeated(at_rest(Capsule<double>{end, -end, 0.15}), 1);
+  const auto balls = repeated(Moving<Sphere<double>>{{center, 0x1.999999999999ap-3}, path}, 1);
+  for_each_target([&](const std::string&) {
+    Answers<double> answers(1);
+    time_of_impact(capsules.rows(), balls.rows(), answers.rows());
+    EXPECT_NEAR(answers.time[0], 0.375, 1e-15);
+  });
+}
+
 // ---- A table of spheres, certified: every row is proven, at every width of vector, on the worst motions.
 
 struct CertifiedAnswers {
