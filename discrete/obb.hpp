@@ -80,6 +80,12 @@ template <Scalar S> Vec3<S> out_of(const Obb<S>& box, const Vec3<S>& own) { retu
 /// A normal in the box's own axes, in the world's: it may be an axis, which is only as near unit as valid() asks, so it is made unit.
 template <Scalar S> Vec3<S> normal_out_of(const Obb<S>& box, const Vec3<S>& own) { return safe_unit(out_of(box, own)); }
 
+/// The normal of a box's i-th face, of a length near 1: across its edges, to which the axis is at right angles but for roundings, that count by
+/// all of the face.
+template <Scalar S> Vec3<S> face_normal(const Mat3<S>& axes, int i) {
+  return accurate_cross<S>(axes.col((i + 1) % 3), axes.col((i + 2) % 3));
+}
+
 /// A gap given in the box's own axes, in the world's.
 template <Scalar S> CoreGap<S> out_of(const Obb<S>& box, const CoreGap<S>& gap) {
   return {gap.distance, normal_out_of(box, gap.normal), out_of(box, gap.local_a), out_of(box, gap.local_b),

@@ -16,8 +16,8 @@ namespace thinwall {
                                                        const Vec3<S>&);                                              \
   THINWALL_INSTANTIATION Entry<S> sphere_triangle_entry<S>(const Vec3<S>&, const Vec3<S>&, const S&, const Vec3<S>&, \
                                                            const Vec3<S>&);                                          \
-  THINWALL_INSTANTIATION SharedTime<S> segment_and_box_share<S>(const Vec3<S>&, const Vec3<S>&, const Vec3<S>&,      \
-                                                                const Vec3<S>&, const S&, const Mat3<S>&)
+  THINWALL_INSTANTIATION SharedTime<S> segment_and_box_share<S>(                                                     \
+      const Vec3<S>&, const Vec3<S>&, const Vec3<S>&, const Vec3<S>&, const S&, const Mat3<S>&, const Mat3<S>&)
 
 THINWALL_OF_SCALAR(float);
 THINWALL_OF_SCALAR(double);

@@ -149,6 +149,7 @@ struct ClearAxis {
   double own, its;          ///< 1 if it is one of a's own, or of b's
   unsigned edge_a, edge_b;  ///< the bits of a's axis and of b's for a product, else 0
   int a, b;                 ///< the axes of a and of b, from 0
+  int first, second;        ///< the two edges it is across: both a's or b's, or one of each
   bool alone;               ///< not of the last, which stands for several at once
 
   /// The axis of the one bit set in `axes`; not `alone` if there are more, or none.
@@ -164,6 +165,8 @@ struct ClearAxis {
                    product ? 1U << j : 0U,
                    static_cast<int>(i),
                    static_cast<int>(j),
+                   static_cast<int>(product ? i : (i + 1) % 3),
+                   static_cast<int>(product ? j : (j + 2) % 3),
                    true};
       }
       return of_k;

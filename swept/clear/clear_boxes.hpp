@@ -65,11 +65,12 @@ struct ClearBoxes {
     const bool meets = all_of((first_most <= last_least) & (both(0) < first));
     const ClearAxis& k = ClearAxis::of(axes);
 
-    // once more along its normal n: g and f in the axes of b and a
+    // Once more along its normal n, across two edges: an axis leans to its face by roundings, which count by all of the face. f and g are
+    // n in the axes of a and b.
     const LanesMask is_own = zero < all(k.own), is_its = zero < all(k.its);
     const LanesMask along_a = packed::lowest(k.edge_a), along_b = packed::lowest(k.edge_b);
-    const Lanes edge_a = of_a.axis(k.a), edge_b = of_b.axis(k.b);
-    const Lanes n = select(is_own, edge_a, select(is_its, edge_b, cross(edge_a, edge_b)));
+    const Lanes edge_a = select(is_its, of_b.axis(k.first), of_a.axis(k.first));
+    const Lanes edge_b = select(is_own, of_a.axis(k.second), of_b.axis(k.second)), n = cross(edge_a, edge_b);
     const Lanes f = of_a.into(n), g = of_b.into(n);
     const Pair cw = two_sums(n * between, n * v), nn = dot(n, n), c = firsts(cw);
     time = (abs(c) - (dot(ha, abs(f)) + dot(hb, abs(g)))) / abs(seconds(cw));

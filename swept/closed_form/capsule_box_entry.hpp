@@ -4,6 +4,7 @@
 /// time is the answer: the six axes are the normals of the sum's faces.
 
 #include <thinwall/capsule/segment_box.hpp>
+#include <thinwall/discrete/obb.hpp>
 #include <thinwall/swept/closed_form/core_entry.hpp>
 #include <thinwall/swept/closed_form/shared_time.hpp>
 
@@ -13,14 +14,14 @@ namespace thinwall {
 /// their products with d: all there are where R is zero.
 template <Scalar S>
 SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h, const S& R,
-                                    const Mat3<S>& axes) {
+                                    const Mat3<S>& axes, const Mat3<S>& faces) {
   const Vec3<S> middle = p + d / S(2);
   SharedTime<S> shared(p.cwiseAbs().sum() + d.cwiseAbs().sum() + h.sum() + R);
   const auto narrow = [&](int number, const Vec3<S>& n, const S& reach_of_segment) {
     const S reach = h.dot(Vec3<S>(axes.transpose() * n).cwiseAbs()) + reach_of_segment;
     shared.narrow(number, middle.dot(n), v.dot(n), reach, n.cwiseAbs().sum());
   };
-  for (int i = 0; i < 3; ++i) narrow(i, axes.col(i), largest(S(d.dot(axes.col(i)))) / S(2) + R);
+  for (int i = 0; i < 3; ++i) narrow(i, faces.col(i), largest(S(d.dot(faces.col(i)))) / S(2) + R);
   if (!shared.ever()) return shared;
   for (int i = 0; i < 3; ++i) {
     const Vec3<S> n = accurate_cross<S>(axes.col(i), d);
@@ -40,14 +41,16 @@ Entry<S> sharp_segment_box_entry(const Vec3<S>& p, const Vec3<S>& v, const Vec3<
   const CorePart<S> part = closest_on_swept_box<S>(Vec3<S>(axes.transpose() * p), Vec3<S>(axes.transpose() * d), h);
   entry.inside = part.contains_point() || part.gap == Vec3<S>::Zero();
   if (entry.inside) return entry;
-  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(0), axes);
+  Mat3<S> faces;
+  for (int i = 0; i < 3; ++i) faces.col(i) = face_normal(axes, i);
+  const SharedTime<S> shared = segment_and_box_share(p, v, d, h, S(0), axes, faces);
   entry.graze = shared.close();
   if (!shared.ever() || shared.decided_by < 0) return entry;
   entry.time = shared.time();
   entry.not_before = shared.second;
   entry.not_after = shared.last;
-  const Vec3<S> axis = axes.col(shared.decided_by % 3);
-  const Vec3<S> n = safe_unit(shared.decided_by < 3 ? axis : accurate_cross(axis, d));
+  const int i = shared.decided_by % 3;
+  const Vec3<S> n = safe_unit<S>(shared.decided_by < 3 ? Vec3<S>(faces.col(i)) : accurate_cross<S>(axes.col(i), d));
   entry.normal = v.dot(n) > S(0) ? Vec3<S>(-n) : n;
   return entry;
 }
@@ -58,8 +61,9 @@ Entry<S> capsule_box_entry_in_range(const Vec3<S>& p, const Vec3<S>& v, const S&
                                     const Vec3<S>& h) {
   const S size = largest(p, R, d, h), noise = gap_noise(largest(p, d, S(h.sum() + R)));
   if (R == S(0)) return sharp_segment_box_entry<S>(p, v, d, h, Mat3<S>::Identity());
+  const Mat3<S> upright = Mat3<S>::Identity();
   const SharedTime<S> shared =
-      segment_and_box_share<S>(p, v, d, h, S(R + noise), Mat3<S>::Identity());  // no contact lies outside
+      segment_and_box_share<S>(p, v, d, h, S(R + noise), upright, upright);  // no contact lies outside
   if (!shared.ever()) return {};
   const bool starts_apart = shared.first > S(0) && R > 4 * gap_noise(size);
   return core_entry(

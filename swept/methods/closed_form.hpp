@@ -91,10 +91,9 @@ Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& m
     const bool a_is_longer = largest(b.half_extents) <= largest(a.half_extents);
     return a_is_longer ? freed_of_leans(freed_of_leans(turned, b), a) : freed_of_leans(freed_of_leans(turned, a), b);
   }
-  const auto edge = [](const Obb<T>& box, int k) -> Vec3<T> { return box.axes.col(k % 3); };
-  const Vec3<T> n = j < 0   ? accurate_cross(edge(a, i + 1), edge(a, i + 2))
-                    : i < 0 ? accurate_cross(edge(b, j + 1), edge(b, j + 2))
-                            : accurate_cross(edge(a, i), edge(b, j));
+  const Vec3<T> n = j < 0   ? face_normal(a.axes, i)
+                    : i < 0 ? face_normal(b.axes, j)
+                            : accurate_cross<T>(a.axes.col(i), b.axes.col(j));
   if (largest(n) <= gap_noise(T(1))) return turned;  // parallel edges, crossed by rounding alone
   return safe_unit(n.dot(turned) < T(0) ? Vec3<T>(-n) : n);
 }
