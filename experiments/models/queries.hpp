@@ -224,7 +224,7 @@ template <class A, class B> MovingPair<A, B> draw_query_along_edge(QueryNumbers&
 }
 
 /// What a scene built by hand is made of: round numbers, many of them one number, its half or its double; and axes along the
-/// coordinates or turned about one of them by a multiple of 15 degrees, many by the same.
+/// coordinates or turned about one of them by a multiple of 15 degrees, many by the same, or, one in eight, turned any way.
 class UprightNumbers {
  public:
   explicit UprightNumbers(QueryNumbers& u)
@@ -243,14 +243,14 @@ class UprightNumbers {
     return {x, y, z};
   }
   Mat3<double> axes() {
-    const int kind = any(8);
-    const int up = kind < 7 ? up_ : any(3), turns = kind < 3 ? 0 : kind < 6 ? turns_ : any(24);
+    const int kind = any(8), turns = kind < 3 ? 0 : kind < 6 ? turns_ : any(24);
+    if (kind == 7) return random_axes(u_);
     Mat3<double> axes = Mat3<double>::Identity();
     if (turns == 0) return axes;
     const double yaw = turns * std::numbers::pi / 12;  // rounded, as sine and cosine are
-    const Vec3<double> x = axes.col((up + 1) % 3), y = axes.col((up + 2) % 3);
-    axes.col((up + 1) % 3) = x * std::cos(yaw) + y * std::sin(yaw);
-    axes.col((up + 2) % 3) = y * std::cos(yaw) - x * std::sin(yaw);
+    const Vec3<double> x = axes.col((up_ + 1) % 3), y = axes.col((up_ + 2) % 3);
+    axes.col((up_ + 1) % 3) = x * std::cos(yaw) + y * std::sin(yaw);
+    axes.col((up_ + 2) % 3) = y * std::cos(yaw) - x * std::sin(yaw);
     return axes;
   }
 

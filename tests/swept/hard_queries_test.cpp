@@ -520,6 +520,21 @@ TEST(HardQueries, a_chip_within_a_gap_is_met_along_the_plates_normal_and_not_its
   EXPECT_NEAR(toi.time, 0.49903740175911931, 1.2e-16);
 }
 
+// A gap that counts as contact is asked of the larger box in its own axes: in a small one's its face would lean by a rounding of all its length.
+TEST(HardQueries, the_gap_above_a_large_box_is_its_own) {
+  const Obb<double> stone{V(-0x1.1fffffffffffep+0, 0.25, -0x1.681cb1a1c62c8p+2), V(2.25, 4.5, 1.125),
+                          leaning(V(0x1.171e57d4f3846p-1, 0x1.141f5094733e1p-1, -0x1.489f944124213p-1),
+                                  V(0x1.7bb69195192aep-1, 0x1.7eeb5dcc1a72fp-5, 0x1.569efa4a785d2p-1),
+                                  V(0x1.90461312d9806p-2, -0x1.ae7f3de392befp-1, -0x1.7f774932aefdap-2))};
+  const Obb<double> ground{V(0, 0, 0), V(228, 275.75, 0.25), Mat3<double>::Identity()};
+  const Moving falling{stone, V(-0x1.3daeaf976e788p-54, 0, 1.125)};
+  const ClosedForm<double> within_gap{0.5};
+  const auto toi = time_of_impact(within_gap, falling, at_rest(ground));
+  EXPECT_EQ(toi.status, hit);
+  EXPECT_NEAR(toi.time, 1.200274447733641459814e-14, 8e-16);
+  EXPECT_EQ(time_of_impact(within_gap, at_rest(ground), falling).time, toi.time);
+}
+
 // What two faces share may be a sliver that roundings part; and the place of a ball is moved where its time is settled.
 TEST(HardQueries, where_shapes_touch_lies_on_both) {
   const auto expect_on = [](const V& point, const V& center, const V& half, const Mat3<double>& axes, double within) {
