@@ -88,7 +88,9 @@ template <Shape A, Shape B> [[gnu::noinline]] Manifold<typename A::Scalar> caref
 template <Shape A, Shape B> Manifold<typename A::Scalar> manifold(const A& a, const B& b) {
   using S = typename A::Scalar;
   static_assert(std::same_as<S, typename B::Scalar>, "both shapes must have the same scalar");
-  static_assert(serves_manifold<A, B>, "no manifold of these two shapes: include its header, or it is not served yet");
+  static_assert(serves_manifold<A, B>,
+                "no manifold of these two shapes: of boxes include <thinwall/discrete/boxes/box_manifold.hpp>, of "
+                "capsules <thinwall/capsule/capsule_manifold.hpp>; docs/pairs.md says which are served");
   if constexpr (A::rank < B::rank) {
     return flipped(manifold(b, a));
   } else {

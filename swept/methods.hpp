@@ -12,6 +12,7 @@
 #include <thinwall/swept/methods/substeps.hpp>
 #include <thinwall/swept/methods/sweep_then_confirm.hpp>
 #include <thinwall/swept/methods/swept_volume_ray.hpp>
+#include <thinwall/swept/time_of_impact.hpp>
 
 namespace thinwall {
 

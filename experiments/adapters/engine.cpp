@@ -18,7 +18,7 @@ std::vector<Engine> engine_list(const EngineChoices& choices) {
     for (const auto& [library, version] : build.libraries) {
       if (library == engine.called) engine.version = version;
     }
-    engine.remedy = fmt::format("install {} and configure with -DTHINWALL_PEERS=ON", engine.package);
+    engine.remedy = fmt::format("install {}, if it is missing, and configure with -DTHINWALL_PEERS=ON", engine.package);
   }
   engines.back().version = build.version;
   const std::vector<Engine> others = npm_engines();

@@ -166,7 +166,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates) {
   std::string_view nearest;
-  std::size_t fewest = (word.size() + 2) / 3 + 1;  // a third of the letters may be wrong
+  const std::size_t letters = word.size() - std::min(word.size(), word.find_first_not_of('-'));
+  std::size_t fewest = (letters + 1) / 3 + 1;  // a third of them may be wrong
   for (const std::string_view candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < fewest && distance < candidate.size()) {

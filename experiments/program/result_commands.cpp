@@ -86,7 +86,7 @@ int check(const ReportText& text, const Call& call) try {
   refuse_place(error.path1(), "cannot be read: " + error.code().message());
 }
 
-int report(const ReportText& text, const Call& call) {
+int report(const ReportText& text, const Call& call) try {
   if (text.target.empty()) throw UsageError("report: the folder of a result is missing; see thinwall report --help");
   const std::vector<std::string> formats = parse_figures(text.figures);
   DrawnFigures drawn;
@@ -111,6 +111,8 @@ int report(const ReportText& text, const Call& call) {
       call.out << "drawn: " << one_line((result.folder / file).string()) << "\n";
   }
   return drawing;
+} catch (const fs::filesystem_error& error) {
+  refuse_place(error.path1(), "cannot be written: " + error.code().message());
 }
 
 void add_report(CLI::App& self, ReportText& text) {

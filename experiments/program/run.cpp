@@ -106,7 +106,8 @@ std::string read_config(const std::string& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
   if (!fs::status_known(status)) throw UsageError(name + ": cannot be read: " + error.message());
-  if (!fs::exists(status)) throw UsageError(name + ": there is no such file");
+  if (!fs::exists(status))
+    throw UsageError(name + ": there is no such file; the TOML file of an experiment or a scene is needed");
   if (!fs::is_regular_file(status)) throw UsageError(name + ": is not a file; a TOML file is needed");
   if (fs::file_size(file, error) > most) throw UsageError(name + ": is too long for a configuration; 16 MiB at most");
   errno = 0;

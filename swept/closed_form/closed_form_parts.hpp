@@ -75,7 +75,7 @@ template <Scalar T> Vec3<T> freed_of_leans(const Vec3<T>& n, const Obb<T>& box) 
 /// Claims: exact to rounding.
 /// Error: forward at most 4 u kappa t, backward at most 4 u; the time is late as often as early (docs/closed_forms.md).
 /// Degenerate: no relative motion is `apart`, or `overlapping` if they touch.
-template <Scalar S> struct ClosedForm {
+template <Scalar S = double> struct ClosedForm {
   static constexpr std::string_view name = "closed_form";
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };

@@ -18,7 +18,7 @@ namespace thinwall {
 /// Error: late by at most the tolerance, and by rounding; a contact shorter than epsilon of the step may be missed.
 /// Degenerate: no relative motion is `apart`, or `overlapping` if they touch.
 /// Source: derived in docs/methods.md.
-template <Scalar S> struct Bisection {
+template <Scalar S = double> struct Bisection {
   static constexpr std::string_view name = "bisection";
   S tolerance = half_digits<S>();  ///< [1] epsilon to 1: how late a hit may be, in steps
   S min_separation = 0;            ///< [length] >= 0: a gap this small counts as contact

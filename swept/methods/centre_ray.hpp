@@ -23,7 +23,7 @@ template <Shape A, Shape B> bool first_shoots(const Moving<A>& a, const Moving<B
 
 /// Claims: nothing. Misses what the radius would have hit, and is late by the radius over the cosine of incidence.
 /// The ray starts at the center of the body that travels farther and is cast against the other's true shape.
-template <Scalar S> struct CentreRay {
+template <Scalar S = double> struct CentreRay {
   static constexpr std::string_view name = "centre_ray";
   S min_separation = 0;  ///< [length] >= 0: at the start only, a gap this small counts as contact
 };

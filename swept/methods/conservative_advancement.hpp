@@ -17,7 +17,7 @@ namespace thinwall {
 /// Degenerate: no relative motion is `apart`, or `overlapping` if they touch; out of evaluations is `gave_up`.
 /// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, for the idea; the bound is derived in
 /// docs/methods.md.
-template <Scalar S> struct ConservativeAdvancement {
+template <Scalar S = double> struct ConservativeAdvancement {
   static constexpr std::string_view name = "conservative_advancement";
   S tolerance = half_digits<S>();  ///< [1] epsilon to 1: a gap this fraction of the relative displacement is a hit
   int max_evaluations = 64;        ///< [1] >= 1 separations; then: gave_up, with the largest time proven free

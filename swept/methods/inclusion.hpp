@@ -20,7 +20,7 @@ namespace thinwall {
 /// Degenerate: no relative motion is `apart`, or `overlapping` if they touch; out of evaluations is `gave_up`.
 /// Source: derived in docs/methods.md; the search is that of interval root finders, as in Tight-Inclusion (Wang et al.,
 /// "A Large-Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection", 2021).
-template <Scalar S> struct Inclusion {
+template <Scalar S = double> struct Inclusion {
   static constexpr std::string_view name = "inclusion";
   S tolerance = half_digits<S>();  ///< [1] epsilon to 1: how short an interval of the step is a hit
   int max_evaluations = 1024;      ///< [1] >= 1 separations; then: gave_up, with the largest time proven free

@@ -17,7 +17,7 @@ namespace thinwall {
 /// Degenerate: no relative motion is `apart`, or `overlapping` if they touch; a gap that rounding hides is a hit at 0.
 /// Source: Firth, "Speculative Contacts - a Continuous Collision Engine Approach", 2011, for the contact before contact;
 /// the bound is derived in docs/methods.md.
-template <Scalar S> struct Speculative {
+template <Scalar S = double> struct Speculative {
   static constexpr std::string_view name = "speculative";
   S margin = 1;          ///< [1] >= 0, finite: how far to look, in relative displacements
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact

@@ -21,7 +21,7 @@ concept Sweepable = Shape<A> && requires(const Moving<A>& moving) { swept_volume
 /// the surface is missed.
 /// Degenerate: shapes that touch at the start are `overlapping`; no relative motion is `apart` if they do not.
 /// Source: a tutorial's rule for two fast objects; what it misses is derived in docs/methods.md.
-template <Scalar S> struct SweepThenConfirm {
+template <Scalar S = double> struct SweepThenConfirm {
   static constexpr std::string_view name = "sweep_then_confirm";
   S min_separation = 0;  ///< [length] >= 0: at the start and in the second test, a gap this small counts as contact
 };

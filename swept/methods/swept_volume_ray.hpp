@@ -14,7 +14,7 @@ namespace thinwall {
 /// Claims: approximate. The verdict is right to rounding; the time is late by the radius over the cosine of incidence,
 /// at most until the closest approach.
 /// Degenerate: of two spheres the one that travels farther is swept.
-template <Scalar S> struct SweptVolumeRay {
+template <Scalar S = double> struct SweptVolumeRay {
   static constexpr std::string_view name = "swept_volume_ray";
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };

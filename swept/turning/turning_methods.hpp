@@ -18,7 +18,7 @@ namespace thinwall {
 /// detection of most engines asks.
 /// Claims: nothing. Misses what comes round within the step, hits what has turned away, early or late by any time.
 /// Error: none in the straight motion.
-template <Scalar S> struct LinearSweep {
+template <Scalar S = double> struct LinearSweep {
   static constexpr std::string_view name = "linear_sweep";
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
 };

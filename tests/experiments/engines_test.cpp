@@ -414,7 +414,8 @@ TEST(Engines, says_what_is_missing_and_does_the_rest) {
     EXPECT_FALSE(holds(outcome.summary, note));  // said before the run
     EXPECT_TRUE(holds(outcome.sections[0].text, note));
   }
-  EXPECT_EQ(called(engine_list(), "bullet").remedy, "install libbullet-dev and configure with -DTHINWALL_PEERS=ON");
+  EXPECT_EQ(called(engine_list(), "bullet").remedy,
+            "install libbullet-dev, if it is missing, and configure with -DTHINWALL_PEERS=ON");
 }
 
 TEST(Engines, tell_whoever_starts_them_what_is_missing_before_they_run) {

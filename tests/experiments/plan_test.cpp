@@ -156,7 +156,8 @@ TEST(Plan, says_of_a_whole_run_what_its_units_found) {
 TEST(Plan, is_an_experiment_after_run_and_a_command_alone) {
   const auto call = [](const Words& words) { return call_program(words, {plan_experiment()}); };
   EXPECT_EQ(refusal(call({"run", "plan", "--trace"})), "--trace: only a scene has a trace\n");  // it was found
-  EXPECT_EQ(refusal(call({"plan", "no_such_file.toml"})), "no_such_file.toml: there is no such file\n");
+  EXPECT_EQ(refusal(call({"plan", "no_such_file.toml"})),
+            "no_such_file.toml: there is no such file; the TOML file of an experiment or a scene is needed\n");
 }
 
 TEST(Plan, refuses_a_path_that_is_a_gate) {

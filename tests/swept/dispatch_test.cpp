@@ -125,6 +125,14 @@ TEST(MovingDispatch, asks_the_shapes_that_are_held_by_any_method_in_either_order
   }
 }
 
+TEST(MovingDispatch, methods_are_of_double_where_no_scalar_is_named) {
+  const Moving<Sphere<double>> ball{{{-4, 0, 0}, 1}, {8, 0, 0}};
+  const auto wall = at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(time_of_impact(EndOfStep{}, ball, wall).status, ToiStatus::apart);
+  EXPECT_EQ(time_of_impact(Substeps{4}, ball, wall).time, 0.25);
+  EXPECT_EQ(time_of_impact(ClosedForm{}, ball, wall).time, 0.25);
+}
+
 TEST(MovingDispatch, grouped_answers_are_those_of_one_by_one_calls_in_the_order_asked) {
   Shaker<double> draw(1);
   std::vector<Moving<AnyThatMoves>> bodies;
