@@ -236,6 +236,8 @@ TEST(Text, of_a_mistyped_word_names_the_nearest_and_all) {
   EXPECT_EQ(spelling_hint("raduis", names), "did you mean 'radius'? (allowed: angle, radius)");
   EXPECT_EQ(spelling_hint("frequency", names), "allowed: angle, radius");
   EXPECT_EQ(spelling_hint("", names), "allowed: angle, radius");
+  EXPECT_EQ(spelling_hint("--bogus", std::vector<std::string_view>{"--out"}), "allowed: --out")
+      << "dashes are not letters";
   EXPECT_EQ(spelling_hint("x", std::vector<std::string_view>{"a"}), "allowed: a") << "no letter is right";
 }
 
