@@ -245,24 +245,6 @@ Plot points(const Rows& rows, const Abscissa& along, std::string_view y, std::st
   return plot(rows, columns).x("x", Axis::log, along.label).y(y, Axis::linear, std::move(y_label)).by("method");
 }
 
-/// Methods that never tunnel would hide each other on the zero line: they take turns on it.
-Panel taking_turns(Panel panel) {
-  std::vector<Series*> sharing;
-  for (Series& series : panel.series) {
-    const bool is_zero = std::ranges::all_of(series.y, [](double y) { return y == 0; });
-    if (series.mark == Mark::points && is_zero) sharing.push_back(&series);
-  }
-  for (std::size_t turn = 0; turn < sharing.size(); ++turn) {
-    Series& series = *sharing[turn];
-    for (std::vector<double>* column : {&series.x, &series.y, &series.lower, &series.upper}) {
-      std::vector<double> kept;
-      for (std::size_t i = turn; i < column->size(); i += sharing.size()) kept.push_back((*column)[i]);
-      *column = kept;
-    }
-  }
-  return panel;
-}
-
 /// y = curve(x / n) for every number of poses n that was fired.
 Plot with_theory(Plot plot, const Rows& rows, double (*curve)(double), const char* label = "theory",
                  Mark mark = Mark::line) {
