@@ -184,7 +184,7 @@ Figure energy_figure(const std::vector<Row>& rows, const Table& means) {
       return bounce_theory(policy_of(row), delta(row.cell) * step / row.cell.step, row.cell.restitution).mean();
     });
   }
-  Plot residuals = over_step("residual", "deviation from theory [standard errors]").height(0.6);
+  Plot residuals = over_step("residual", "deviation [standard errors]").height(0.6);
   for (const double at : {-1.96, 1.96}) residuals.level("95 % of chance", at, Mark::dashes);
   return {.name = "energy_per_bounce",
           .title = "What a bounce at random phase does to the energy",
