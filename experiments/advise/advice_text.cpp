@@ -163,14 +163,20 @@ std::string step_text(const std::optional<double>& step) {
   return *step == allowed_step.upper ? "any" : rounded_down_text(*step, 4) + " s";
 }
 
-std::string row_text(const AdviceRow& row, const char* mark, double step_length) {
+/// Poses may do at the wish's spin and step and not at every slower spin.
+bool does_at_its_spin_alone(const AdviceRow& row, const Wish& wish) {
+  return row.meets && row.longest_step.value_or(0) < wish.cell.step;
+}
+
+std::string row_text(const AdviceRow& row, const char* mark, const Wish& wish) {
   const std::optional<double>& chance = row.theory.probability;
   const bool never_seen = chance && *chance == 1;
   const std::optional<double> latest = never_seen ? std::nullopt : row.theory.largest_lateness();
-  return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}\n", mark, row.method.name,
+  return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}{}\n", mark, row.method.name,
                      chance ? in_percent(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
-                     latest ? rounded_text(*latest / step_length, 3) : "-", time_text(row.cost.clear),
-                     time_text(row.cost.contact), step_text(row.longest_step));
+                     latest ? rounded_text(*latest / step_length(wish.cell), 3) : "-", time_text(row.cost.clear),
+                     time_text(row.cost.contact), step_text(row.longest_step),
+                     does_at_its_spin_alone(row, wish) ? " *" : "");
 }
 
 std::string table_text(const Advice& advice) {
@@ -181,8 +187,10 @@ std::string table_text(const Advice& advice) {
     if (met && !row.meets) text += "These do not meet the wish at this step:\n";
     met = row.meets;
     truly = row.may_be_advised();
-    text += row_text(row, &row == advice.advised() ? ">" : " ", step_length(advice.wish.cell));
+    text += row_text(row, &row == advice.advised() ? ">" : " ", advice.wish);
   }
+  if (std::ranges::any_of(advice.rows, [&](const AdviceRow& row) { return does_at_its_spin_alone(row, advice.wish); }))
+    text += "* At this spin it meets the wish at this step; at every slower spin, at the step given.\n";
   return text;
 }
 

@@ -184,7 +184,7 @@ Figure energy_figure(const std::vector<Row>& rows, const Table& means) {
       return bounce_theory(policy_of(row), delta(row.cell) * step / row.cell.step, row.cell.restitution).mean();
     });
   }
-  Plot residuals = over_step("residual", "from theory [standard errors]").height(0.6);
+  Plot residuals = over_step("residual", "deviation [standard errors]").height(0.6);
   for (const double at : {-1.96, 1.96}) residuals.level("95 % of chance", at, Mark::dashes);
   return {.name = "energy_per_bounce",
           .title = "What a bounce at random phase does to the energy",
@@ -289,11 +289,15 @@ std::string answer_of(const Results& results) {
     means.push_back(fmt::format("{} {:+.2f}", policy_of(row), mean));
   }
   const Cell& last = results.lively.back().cell;
+  const auto was_asked = [](const BounceTest& t) { return t.certain_cells + t.means.judged > 0; };
+  const char* const verdict = !all_passed(results.tests)                      ? "DISAGREES"
+                              : std::ranges::all_of(results.tests, was_asked) ? "agrees"
+                                                                              : "not judged: too few bounces";
   return fmt::format(
       "At random phase a bounce at restitution {:g} changes the energy by, in units of g h / V: {} ({:.3g} s steps; "
       "theory {}). {}{} of {} crowds of impacts end as they must.",
-      last.restitution, fmt::join(means, ", "), last.step, all_passed(results.tests) ? "agrees" : "DISAGREES",
-      cost_sentence(results.work), results.scenarios_passed(), results.scenarios.size());
+      last.restitution, fmt::join(means, ", "), last.step, verdict, cost_sentence(results.work),
+      results.scenarios_passed(), results.scenarios.size());
 }
 
 /// The last crowd of each kind, or the first that went wrong.
@@ -327,8 +331,8 @@ Outcome outcome_of(const Results& results, double long_step) {
   const Table runs = in_report(
       table("long_runs",
             "One ball that bounces on and on without loss: energy after a number of bounces over that of the first "
-            "flight, and what it would be if every phase were random. Over runs that begin at random in the first "
-            "step, as long as all last.",
+            "flight, and what it would be, to first order in g h / V, if every phase were random (sigma 0: it is "
+            "of higher order). Over runs that begin at random in the first step, as long as all last.",
             results.long_rows, policy_and_step(), bounces_column(),
             value("runs", "1", "Balls.", of(&LongRow::energy, &Tally::trials)),
             value("mean", "1", "Mean energy over the first.", of(&LongRow::energy, &Tally::mean)),

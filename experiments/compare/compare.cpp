@@ -212,10 +212,11 @@ Figure compare_figure(const Comparison& comparison, const std::vector<Contest>& 
       .name = "compare",
       .title = "Discrete or swept, on this scene",
       .caption =
-          "Above: contacts that went unseen, or ended in a push the way they were going. Below: the median "
+          "Above: contacts that went unseen, or ended in a push the way they were going; "
+          "policies without any take turns on the zero line. Below: the median "
           "over pairs of how far their first meeting is from the exact run's; errors below a rounding of the duration "
           "are drawn at that.",
-      .panels = {through, by_step.y("error", Axis::log, "error of first meetings [s]")}};
+      .panels = {taking_turns(through), by_step.y("error", Axis::log, "error of first meetings [s]")}};
 }
 
 /// Time error against run time.

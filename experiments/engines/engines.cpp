@@ -161,13 +161,13 @@ Panel path_panel(const Rows& rows, const char* column, std::string y_label) {
                     .by("label"));
 }
 
-/// Those that never let a ball through would hide each other on the zero line: they have no line there, and where they are many, one
-/// series stands for all.
+/// Those that never let a ball through would hide each other on the zero line: they have no line there, where they are two
+/// they take turns, and where they are more, one series stands for all.
 Panel tunneling_panel(const Rows& rows, std::string y_label) {
   Panel panel = path_panel(rows, "tunneled_percent", std::move(y_label));
   const auto is_zero = [](const Series& s) { return std::ranges::all_of(s.y, [](double y) { return y == 0; }); };
   std::erase_if(panel.series, [&](const Series& s) { return s.mark == Mark::line && is_zero(s); });
-  if (std::ranges::count_if(panel.series, is_zero) < 3) return panel;
+  if (std::ranges::count_if(panel.series, is_zero) < 3) return taking_turns(panel);
   Series all = *std::ranges::find_if(panel.series, is_zero);
   all.label = "all others: none through";
   std::erase_if(panel.series, is_zero);
@@ -209,7 +209,8 @@ Figure tunneling_figure(const Rows& rows) {
       .caption = fmt::format(
           "A ball of radius {} m, a wall {} m thick, angles of incidence uniform up to {} deg, the same "
           "shots for all, with 95 % Wilson intervals. Above: who looks at poses, with a curve for each "
-          "number of poses and each skin. Below: who sweeps, at each wall{}.",
+          "number of poses and each skin. Below: who sweeps, at each wall{}. "
+          "Two that let none through take turns on the zero line; more are one series.",
           cell.radius, cell.thickness, cell.angle_deg, has_ccd ? "; ccd_F sweeps a ball of F times the radius" : "")};
   figure.panels.push_back(tunneling_panel(rows_at(rows, cell.wall_size, true), "through, looking at poses [%]"));
   add_theory(figure.panels.back(), rows);
@@ -236,7 +237,7 @@ Figure time_figure(const Rows& rows) {
   const double path = told_path(rows);
   Figure figure = {
       .name = "times",
-      .title = "Error against run time",
+      .title = "Time a step against the share that goes through",
       .caption = fmt::format("Time a step of a world of one wall and one ball against the share of balls that go "
                              "through at {} m a step, with 95 % intervals. {}",
                              path, whose_clock),
@@ -287,10 +288,12 @@ std::string own_zero(const Rows& exact) {
   std::int64_t shots = 0, wrong = 0;
   for (const Row& row : exact) wrong += row.tally.wrong();
   for (const Row& row : rows_of(exact, label_of(exact.front()), wall_of(exact.front()))) shots += row.tally.shots;
-  const std::string modes = listed(distinct(exact, label_of<Row>));
+  const std::vector<std::string> names = distinct(exact, label_of<Row>);
+  const std::string modes = listed(names);
   if (wrong > 0) return fmt::format("{} let {} shots through: the self-test fails.", modes, grouped_text(wrong));
-  return fmt::format("{} let none of {} shots through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
-                     grouped_text(shots), percent_text(clopper_pearson(0, shots).upper));
+  return fmt::format("{} let none of {} shots{} through: the chance of one is below {} (95 %, Clopper-Pearson).", modes,
+                     grouped_text(shots), names.size() > 1 ? " each" : "",
+                     percent_text(clopper_pearson(0, shots).upper));
 }
 
 std::string answer_of(const Rows& rows, const std::vector<std::string>& failed) {
@@ -313,9 +316,9 @@ std::string answer_of(const Rows& rows, const std::vector<std::string>& failed) 
     }
   }
   if (!poses.empty()) {
-    sentences.push_back(fmt::format("At {} m a step, looking at the poses of a step's end, go through (95 %): {}{}.",
-                                    path, listed(poses),
-                                    theory ? "; without a skin theory says " + percent_text(*theory) : ""));
+    sentences.push_back(
+        fmt::format("At {} m a step these let through, looking at the pose at the end of a step alone (95 %): {}{}.",
+                    path, listed(poses), theory ? "; without a skin theory says " + percent_text(*theory) : ""));
   }
   if (!safe.empty()) sentences.push_back(fmt::format("Sweeping, {} let none of these shots through.", listed(safe)));
   if (!unsafe.empty()) sentences.push_back(fmt::format("Others that sweep do, at worst: {}.", listed(unsafe)));
@@ -375,14 +378,20 @@ Table stages_table(const std::vector<StageRow>& rows) {
       share(
           "passed_share", "passed / shots.", [](const StageRow& r) { return r.tally.passed; },
           [](const StageRow& r) { return r.tally.shots; }, "passed_"),
-      value("theory", "1", "Expected share, where only poses are looked at and a formula is known; missing elsewhere.",
-            &StageRow::theory),
+      value(
+          "theory", "1",
+          "Expected share, where only poses are looked at and a formula is known, of rod_spinning the least there can "
+          "be; missing elsewhere.",
+          &StageRow::theory),
       fields(&StageRow::tally, {"lost", "disturbed"}),
       value("error", "1",
             "Mean distance of the velocity from the exact one over the speed at the start, of those that did not pass.",
             [](const StageRow& r) { return r.tally.error.mean(); }),
       fields(&StageRow::tally, {"most_error"}));
-  return in_report(table("stages", "Every stage in every engine and mode that can play it.", columns, rows));
+  return in_report(table(
+      "stages",
+      "Every stage in every engine and mode that can play it. Theory of rod_spinning: the least share there can be.",
+      columns, rows));
 }
 
 Table stage_timings_table(const std::vector<StageRow>& rows) {

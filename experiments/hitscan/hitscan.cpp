@@ -309,7 +309,7 @@ std::string answer_of(const Rows& rows, const std::vector<Total>& totals) {
   for (const Total& t : totals) {
     if (t.rule == next_frame.name && is_timed(t)) {
       sentences.push_back(fmt::format(
-          "A ray along each step that reports at the next frame is {:.2f} of a step late on average and {:.2f} at most; "
+          "A ray along each step that reports at the next frame is {:.2f} steps late on average and {:.2f} at most; "
           "it misses {} of the true hits, and {} of its own are false.",
           t.lateness(), t.latest, percent_text(missed_share(t)), percent_text(share_of(false_hits(t), reported(t)))));
     }

@@ -177,4 +177,24 @@ Panel joined(Panel panel) {
   return panel;
 }
 
+Panel taking_turns(Panel panel) {
+  std::vector<Series*> sharing;
+  for (Series& series : panel.series) {
+    const bool is_zero = std::ranges::all_of(series.y, [](double y) { return y == 0; });
+    if (series.mark == Mark::points && is_zero) sharing.push_back(&series);
+  }
+  const auto has_turn = [&](const Series* series) { return series->x.size() >= sharing.size(); };
+  if (!std::ranges::all_of(sharing, has_turn)) return panel;  // one would vanish
+  for (std::size_t turn = 0; turn < sharing.size(); ++turn) {
+    Series& series = *sharing[turn];
+    for (std::vector<double>* column :
+         {&series.x, &series.y, &series.lower, &series.upper, &series.x_lower, &series.x_upper}) {
+      std::vector<double> kept;
+      for (std::size_t i = turn; i < column->size(); i += sharing.size()) kept.push_back((*column)[i]);
+      *column = kept;
+    }
+  }
+  return panel;
+}
+
 }  // namespace thinwall

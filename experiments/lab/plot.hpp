@@ -86,4 +86,7 @@ template <class Row, class... Parts> Plot plot(const std::vector<Row>& rows, con
 /// With a line through the points of each series, below them.
 Panel joined(Panel panel);
 
+/// Series of points that lie on the zero line would hide each other: they take turns on it.
+Panel taking_turns(Panel panel);
+
 }  // namespace thinwall

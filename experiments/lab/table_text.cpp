@@ -146,11 +146,14 @@ std::vector<Choice> choices(const Table& table) {
   return out;
 }
 
-/// A value as a reader sees it: four significant digits, thousands apart in counts, a dash where it is missing.
-std::string shown_text(const Value& value) {
+/// A value as a reader sees it: four significant digits, thousands apart in counts, a dash where it is missing. A number without a
+/// unit that has more is shown as counts are, whole: one that is expected stands beside the one counted.
+std::string shown_text(const Value& value, const Column& column) {
   constexpr int shown_digits = 4;
   if (const auto* count = std::get_if<std::int64_t>(&value)) return grouped_text(*count);
   if (const auto* number = std::get_if<double>(&value); number && std::isfinite(*number)) {
+    const double size = std::abs(*number);
+    if (column.unit == "1" && size >= 1e3 && size < 1e15) return grouped_text(std::llround(*number));
     return rounded_text(*number, shown_digits);
   }
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
@@ -158,16 +161,18 @@ std::string shown_text(const Value& value) {
   return text.empty() ? missing_text : text;
 }
 
-ShownCell cell(const std::vector<Value>& row, const Choice& choice) {
+ShownCell cell(const Table& table, const std::vector<Value>& row, const Choice& choice) {
   const Value& value = row[choice.at];
+  const Column& column = table.columns[choice.at];
   ShownCell out{
-      .text = shown_text(value), .is_number = std::holds_alternative<double>(value), .lower = {}, .upper = {}};
+      .text = shown_text(value, column), .is_number = std::holds_alternative<double>(value), .lower = {}, .upper = {}};
+  if (out.text.find(',') != std::string::npos) out.is_number = false;  // as counts are
   if (!choice.lower || out.text == missing_text) return out;
   const Value &low = row[*choice.lower], &high = row[*choice.upper];
   if (exact_text(low).empty() && exact_text(high).empty()) return out;
   const auto number = finite_number(value), lower = finite_number(low), upper = finite_number(high);
   if (!number || !lower || !upper || std::holds_alternative<std::int64_t>(value)) {
-    return {out.text, out.is_number, shown_text(low), shown_text(high)};
+    return {out.text, out.is_number, shown_text(low, column), shown_text(high, column)};
   }
   const IntervalText text = interval_text(*number, *lower, *upper);
   return {text.value, true, text.lower, text.upper};
@@ -306,7 +311,7 @@ ShownTable shown(const Table& table) {
       kept.push_back(choice);
       continue;
     }
-    const ShownCell value = cell(table.rows[0], choice);
+    const ShownCell value = cell(table, table.rows[0], choice);
     if (value.text == missing_text) continue;  // nothing in any row
     same += fmt::format("{}{} {}{}", same.empty() ? " In every row: " : ", ", title(column), with_interval(value),
                         has_unit(column) ? " " + column.unit : "");
@@ -325,7 +330,7 @@ ShownTable shown(const Table& table) {
   }
   for (const auto& row : table.rows) {
     out.rows.emplace_back();
-    for (const Choice& choice : kept) out.rows.back().push_back(cell(row, choice));
+    for (const Choice& choice : kept) out.rows.back().push_back(cell(table, row, choice));
   }
   return out;
 }

@@ -320,7 +320,7 @@ std::vector<Figure> flight_figures(const std::vector<FlightRow>& rows, const std
                               "degrees. Above the share of hits later than first contact, with 95 % Wilson "
                               "intervals; below how deep the rod, as it has turned by then, is at worst.",
                               tilt),
-       .panels = {along("late_share", "late [1]"), along("depth_max", "depth at worst [m]")}});
+       .panels = {along("late_share", "share of flights seen late [1]"), along("depth_max", "depth at worst [m]")}});
   return figures;
 }
 
@@ -361,7 +361,7 @@ std::string method_answer(const Total& wall, const Total& post) {
                                  wall.method, tunneled_text(wall), tunneled_text(post));
   if (t.late == 0 && t.detected() > 0) text += ", and is never late at the wall";
   if (t.late > 0 && t.tunneled == 0) {
-    text += fmt::format(", but finds {} of the rods too late, by up to {:.2g} of a step and {:.2g} m deep",
+    text += fmt::format(", but finds {} of the rods too late, by up to {:.2g} steps and {:.2g} m deep",
                         percent_text(share_of(t.late, t.detected())), t.latest, -t.deepest);
   }
   if (t.false_hits > 0)

@@ -263,10 +263,9 @@ std::vector<StiffClaim> stiff_claims(const StiffResults& results) {
   };
   return {
       claim("the limit lies in the measured bracket", results.limits, &LimitRow::holds_theory),
-      claim("the bracket is at most 0.1 % wide", results.limits,
-            [](const LimitRow& row) {
-              return row.stable == 0 || std::isinf(row.unstable) || row.unstable / row.stable - 1 <= 1e-3;
-            }),
+      claim("where there is a limit above 0, the bracket is at most 0.1 % wide",
+            only(results.limits, [](const LimitRow& row) { return row.theory && *row.theory > 0; }),
+            [](const LimitRow& row) { return row.unstable / row.stable - 1 <= 1e-3; }),
       claim("a step is stable below the limit and unstable above",
             only(flat(results.limits, &LimitRow::map), is_decided),
             [](const MapStep& s) {

@@ -89,12 +89,18 @@ Columns<Row> row_columns() {
             of(&Row::theory, &Theory::probability)),
       value("residual", "1", "Standard errors between count and theory; missing where theory is 0, 1 or missing.",
             residual),
-      value("lateness_mean", "m", "Mean path length from first contact to detection, of the detected.", lateness_mean),
+      value("lateness_mean", "m",
+            "Mean path length from first contact to detection, of the detected; of a sum in fixed point, "
+            "so that it may lie a rounding above lateness_max.",
+            lateness_mean),
       value("lateness_mean_theory", "m", "The same by theory; missing where no formula holds.",
             [](const Row& r) { return r.theory.lateness ? std::optional(r.theory.lateness->mean) : std::nullopt; }),
       fields(&Row::tally, {"lateness_max"}),
-      value("lateness_max_theory", "m", "The largest there can be; missing where no formula holds.",
-            of(&Row::theory, &Theory::largest_lateness)),
+      value(
+          "lateness_max_theory", "m",
+          "The largest by theory for the settings; a shot on the grid may exceed it by a unit of the grid and 2^-20 of "
+          "it. Missing where no formula holds.",
+          of(&Row::theory, &Theory::largest_lateness)),
       fields(&Row::tally, {"lateness_min", "gap_max"}), fields(&Row::tally, {"queries", "evaluations"}));
 }
 
@@ -142,16 +148,16 @@ Table methods_table(const Totals& totals) {
                          total_columns(), totals));
 }
 
-/// For the terminal: the counts of `methods_table` as shares.
+/// For the terminal: of `methods_table` what theory speaks of, as shares.
 std::string shares_text(const Totals& totals) {
+  const auto of_foretold = [](auto what) { return of(&Total::tunneled, what); };
   return terminal(
-      table("methods",
-            "Each method over all of its cells; share and theory: of the shots for which there is a formula.", totals,
-            total_columns(),
-            value("share", "1", "Tunneled, of the shots for which there is a theory.",
-                  of(&Total::tunneled, &Foretold::share)),
-            value("theory", "1", "Of the same, by theory.", of(&Total::tunneled, &Foretold::theory))),
-      {"method", "scalar", "shots", "tunneled", "share", "theory", "worst_residual"});
+      table("methods", "Each method over all of its cells for which theory has a formula.", totals,
+            method_columns<Total>(), value("shots", "1", "Fired.", of_foretold(&Foretold::shots)),
+            value("tunneled", "1", "Of those.", of_foretold(&Foretold::counted)),
+            value("share", "1", "tunneled / shots.", of_foretold(&Foretold::share)),
+            value("theory", "1", "The same by theory.", of_foretold(&Foretold::theory)),
+            value("worst_residual", "1", "Standard errors, in the cell where that is most.", &Total::worst_residual)));
 }
 
 Table bounce_table(const Totals& totals) {
@@ -245,24 +251,6 @@ Plot points(const Rows& rows, const Abscissa& along, std::string_view y, std::st
   return plot(rows, columns).x("x", Axis::log, along.label).y(y, Axis::linear, std::move(y_label)).by("method");
 }
 
-/// Methods that never tunnel would hide each other on the zero line: they take turns on it.
-Panel taking_turns(Panel panel) {
-  std::vector<Series*> sharing;
-  for (Series& series : panel.series) {
-    const bool is_zero = std::ranges::all_of(series.y, [](double y) { return y == 0; });
-    if (series.mark == Mark::points && is_zero) sharing.push_back(&series);
-  }
-  for (std::size_t turn = 0; turn < sharing.size(); ++turn) {
-    Series& series = *sharing[turn];
-    for (std::vector<double>* column : {&series.x, &series.y, &series.lower, &series.upper}) {
-      std::vector<double> kept;
-      for (std::size_t i = turn; i < column->size(); i += sharing.size()) kept.push_back((*column)[i]);
-      *column = kept;
-    }
-  }
-  return panel;
-}
-
 /// y = curve(x / n) for every number of poses n that was fired.
 Plot with_theory(Plot plot, const Rows& rows, double (*curve)(double), const char* label = "theory",
                  Mark mark = Mark::line) {
@@ -302,20 +290,23 @@ Figure lateness_figure(const Rows& few) {
       .title = "How late a hit is detected",
       .caption =
           "Mean path length from first contact to detection, over the path length (w + 2 r) / cos(angle) in "
-          "contact, with 95 % intervals. Infinite walls, double. The line is min(x / n, 1) / 2 for n poses a step. A ray "
-          "from the center is late by what the radius leads it, r / cos(angle), however short the wall.",
+          "contact, with 95 % intervals. Infinite walls, double. The lines are of poses only: min(x / n, 1) / 2 for n "
+          "of them a step. A ray from the center is late by what the radius leads it, r / cos(angle), however thin "
+          "the wall.",
       .panels = {with_theory(late, few, [](double x) { return std::min(x, 1.0) / 2; })}};
 }
 
 Figure finite_figure(const Rows& few) {
   const Plot seen = points(few, mean_chord_ratios, "probability", "tunneling probability [1]");
-  return {.name = "finite",
-          .title = "The same for walls that end",
-          .caption =
-              "Finite walls, double; aim uniform over the wall's shadow, rim included. Points are measured, with "
-              "95 % Wilson intervals; the line is 1 - n / x for n poses a step, which holds where the poses are "
-              "farther apart than the longest chord. A ray from the center misses what only the rim would hit.",
-          .panels = {taking_turns(with_theory(seen, few, unseen_curve))}};
+  return {
+      .name = "finite",
+      .title = "The same for walls that end",
+      .caption =
+          "Finite walls, double; aim uniform over the wall's shadow, rim included. Points are measured, with "
+          "95 % Wilson intervals; the line is 1 - n / x for n poses a step, which holds where the poses are "
+          "farther apart than the longest chord: never left of n, where it begins. A ray from the center misses what only "
+          "the rim would hit.",
+      .panels = {taking_turns(with_theory(seen, few, [](double x) { return x < 1 ? nan : unseen_curve(x); }))}};
 }
 
 Figure bounce_figure(const Rows& few) {
@@ -369,13 +360,15 @@ std::string total_answer(const Total& t) {
 std::string bounce_answer(const Total& t) {
   if (t.method->name == "end_of_step" && t.through.shots > 0) {
     return fmt::format(
-        "Testing only the end of the step, {} of {} balls that should have bounced went through (theory {}): "
-        "{} of all shots unseen, {} seen and pushed out on the wrong side. ",
-        percent(t.through.share()), grouped_text(t.through.shots), percent(t.through.theory()),
-        percent(t.tally.tunneled, t.tally.shots), percent(t.tally.wrong_side, t.tally.shots));
+        "Of {} balls that should have bounced, and for which theory has a formula, testing only the end of the step "
+        "let {} through (theory {}). Of all {} shots, {} went through unseen, and {} were seen and pushed out on the "
+        "wrong side. ",
+        grouped_text(t.through.shots), percent(t.through.share()), percent(t.through.theory()),
+        grouped_text(t.tally.shots), percent(t.tally.tunneled, t.tally.shots),
+        percent(t.tally.wrong_side, t.tally.shots));
   }
   if (t.method->name != "closed_form") return "";
-  return fmt::format("Swept with the closed form, {} of {} did.", grouped_text(t.tally.went_through()),
+  return fmt::format("Swept with the closed form, {} of {} went through.", grouped_text(t.tally.went_through()),
                      grouped_text(t.tally.shots));
 }
 
@@ -415,8 +408,8 @@ void add_bounce(const Rows& rows, const Rows& bullets, const Totals& totals, Out
                      columns_of<Row>(row_columns(), bounce_columns()), of_one_scalar(bullets)),
                {"method", "scalar", "shots", "tunneled", "wrong_side", "through", "through_theory"}) +
       "\n" +
-      terminal(bounce_table(of_one_scalar(totals)),
-               {"method", "scalar", "tunneled", "wrong_side", "theory_through", "theory_expected"}) +
+      terminal(bounce_table(of_one_scalar(totals)), {"method", "scalar", "shots", "tunneled", "wrong_side",
+                                                     "theory_shots", "theory_through", "theory_expected"}) +
       fmt::format("\nSelf-test of the bounce: counts {}, ends {}.\n\n", verdict_text(all_passed(tests)),
                   verdict_text(ends_agree(rows))) +
       outcome.summary;

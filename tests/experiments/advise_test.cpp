@@ -502,6 +502,8 @@ TEST(RodAdvice, says_of_poses_that_they_do_at_their_own_spin) {
   const Advice advice = advise(wish, all, costs);
   EXPECT_LT(*advice.advised()->longest_step, wish.cell.step);
   EXPECT_TRUE(holds(advice_sentence(advice), " At any slower spin it meets the wish up to steps of 0.01 s."));
+  EXPECT_TRUE(holds(advice_text(advice), " 0.01 s *\n"));
+  EXPECT_TRUE(holds(advice_text(advice), "\n* At this spin it meets the wish at this step;"));
 }
 
 /// A rod whose ends are no faster than it flies touches over one stretch: short steps see it in time, whatever the step. Without spin a sweep is

@@ -33,6 +33,11 @@ TEST(Bouncing, agrees_with_theory) {
   for (const Figure& f : outcome.figures) EXPECT_EQ(f.is_timing, f.name == "energy_against_time");
 }
 
+TEST(Bouncing, does_not_call_on_a_theory_that_too_few_bounces_judge) {
+  const Outcome outcome = outcome_of(bouncing_experiment(), small_toml("bouncing"), {.seed = 1, .trials = 1});
+  EXPECT_TRUE(holds(outcome.answer, "theory not judged: too few bounces")) << outcome.answer;
+}
+
 /// Lines of a run that is large enough to tell theories apart.
 const std::vector<BounceRow>& measured() {
   static const std::vector<BounceRow> rows = [] {

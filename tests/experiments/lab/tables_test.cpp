@@ -219,6 +219,17 @@ TEST(Plot, has_a_gap_between_curves_of_one_label_and_bars_along_either_axis) {
   EXPECT_EQ(curves.x.back(), 4);
 }
 
+TEST(Plot, has_series_on_the_zero_line_take_turns_where_each_has_one) {
+  const Series zero = {.label = "a", .x = {1, 2, 3}, .y = {0, 0, 0}};
+  const Series other = {.label = "b", .x = {1, 2}, .y = {0, 1}};
+  const Panel three = taking_turns({.x_label = "", .y_label = "", .series = {zero, other, zero}});
+  EXPECT_EQ(three.series[0].x, (std::vector<double>{1, 3}));
+  EXPECT_EQ(three.series[1].x, other.x);
+  EXPECT_EQ(three.series[2].x, (std::vector<double>{2}));
+  const Panel many = taking_turns({.x_label = "", .y_label = "", .series = {zero, zero, zero, zero}});
+  for (const Series& series : many.series) EXPECT_EQ(series.x, zero.x) << "one would vanish";
+}
+
 TEST(Tasks, hand_each_list_its_own_results) {
   std::vector<Task<Tally>> tallies = {{"a", 3, [] { return Tally{3, 1}; }}, {"b", 4, [] { return Tally{4, 2}; }}};
   std::vector<Task<std::string>> names = {{"c", 5, [] { return std::string("d e\t"); }}};
@@ -336,6 +347,16 @@ TEST(ShownTable, shows_a_value_and_its_interval_in_one_cell) {
   EXPECT_TRUE(holds(html_table(table_with_intervals()), "28.72 <span class=\"i\">[28.59, 28.85]</span></td>"));
   EXPECT_TRUE(
       csv_text(table_with_intervals()).starts_with("method,share_percent,lower,upper\na,28.723,28.591,28.851\n"));
+}
+
+TEST(ShownTable, shows_what_is_expected_as_what_is_counted) {
+  Table table = {
+      "t", "T.", {{"tunneled", ColumnType::integer, "1", ""}, {"expected", ColumnType::number, "1", ""}}, {}};
+  table.columns.push_back({"speed", ColumnType::number, "m/s", ""});
+  table.rows = {{std::int64_t{4540730}, 4540317.87, 54321.5}, {std::int64_t{17}, 17.4449, 0.5}};
+  EXPECT_TRUE(holds(markdown_table(table), "| 4,540,730 | 4,540,318 | 54320 |\n| 17 | 17.44 | 0.5 |\n"));
+  EXPECT_TRUE(holds(latex_table(table), "4,540,730 & 4,540,318 & $54320$"));
+  EXPECT_TRUE(holds(csv_text(table), "4540730,4540317.87,54321.5\n"));
 }
 
 TEST(ShownTable, refuses_an_interval_whose_end_is_no_column) {
