@@ -10,7 +10,7 @@
 namespace thinwall {
 
 /// Tests the poses at k/n of the step, k = 1 .. n, and answers with the first that touches.
-/// Claims: nothing. Misses whatever fits between two poses, even contact at the start; late by up to 1/n.
+/// Claims: a hit is one. Misses whatever fits between two poses, even contact at the start; late by up to 1/n.
 template <Scalar S = double> struct Substeps {
   static constexpr std::string_view name = "substeps";
   int n = 4;             ///< [1] >= 1 poses a step; fewer are `invalid`
@@ -19,7 +19,7 @@ template <Scalar S = double> struct Substeps {
 Substeps(int) -> Substeps<double>;
 
 /// Tests the end pose only: a step of an ordinary discrete simulation.
-/// Claims: nothing. A body that crosses a wall within the step goes through.
+/// Claims: a hit is one. A body that crosses a wall within the step goes through.
 template <Scalar S = double> struct EndOfStep {
   static constexpr std::string_view name = "end_of_step";
   S min_separation = 0;  ///< [length] >= 0: a gap this small counts as contact
