@@ -48,7 +48,11 @@ Toi<typename A::Scalar> impact(const Inclusion<S>& method, const Moving<A>& a, c
       width = (end - free) / 2;
     } else {
       const T time = rounded_down_to<S>(free);
-      return {ToiStatus::hit, k + 1, time, closest.normal, middle_after<T>(a, b, closest, time - middle)};
+      const bool faces = closest.normal.dot(relative_displacement(a, b)) > T(0);
+      if (faces) return {ToiStatus::hit, k + 1, time, closest.normal, middle_after<T>(a, b, closest, time - middle)};
+      // in the middle one is through the other: past it, the normal leads on
+      const Separation<T> before = separation_unchecked(pose_at(a, time), pose_at(b, time));
+      return {ToiStatus::hit, k + 2, time, before.normal, middle_after<T>(a, b, before, T(0))};
     }
   }
   return {ToiStatus::gave_up, method.max_evaluations + 1, rounded_down_to<S>(free)};

@@ -335,6 +335,16 @@ TEST(BisectionInDouble,
   }
 }
 
+TEST(InclusionInFloat, tells_the_side_it_comes_from) {  // its last interval is longer than ball and wall are thick
+  const auto wall = at_rest(Aabb<float>{{0, 0, 0}, {0.00005F, 8, 8}});
+  for (int i = 0; i < 200; ++i) {
+    const Moving<Sphere<float>> shot{{{-1 - static_cast<float>(i) / 16, 0, 0}, 0.001F}, {33, 1, 0}};
+    const Toi<float> toi = time_of_impact(Inclusion<float>{}, shot, wall);
+    ASSERT_EQ(toi.status, hit) << i;
+    ASSERT_EQ(toi.normal, Vec3<float>::UnitX()) << i;
+  }
+}
+
 TEST(AdvancementInFloat,
      rounds_its_time_down) {  // computed in double; to the nearest float would be late half the time
   int below = 0;
