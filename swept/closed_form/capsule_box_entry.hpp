@@ -11,7 +11,7 @@
 namespace thinwall {
 
 /// When the shadows of the segment p + v t + s * d, s in [0, 1], rounded by R, and of a box around 0 overlap on the three axes of the box and
-/// their products with d: all there are where R is zero.
+/// their products with d: all there are where R is zero. `faces` are the normals of its faces, which its axes are but for roundings.
 template <Scalar S>
 SharedTime<S> segment_and_box_share(const Vec3<S>& p, const Vec3<S>& v, const Vec3<S>& d, const Vec3<S>& h, const S& R,
                                     const Mat3<S>& axes, const Mat3<S>& faces) {
