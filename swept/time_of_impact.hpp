@@ -35,7 +35,8 @@ THINWALL_HOT Toi<typename A::Scalar> checked_impact(const Method& method, const 
 }
 
 /// The careful rung, out of the way of the clear one; which is asked once more, at a size near 1, what it may have left for its size alone (that
-/// of the smallest part of a question counts, the largest is known), so that the unit of length changes no bit.
+/// of the smallest part of a question counts, the largest is known), so that the unit of length changes no bit; but where a part is below 2^-60 of
+/// the whole it may.
 template <Shape A, Shape B>
 [[gnu::noinline]] Toi<double> careful_impact(const ClosedForm<double>& method, const Moving<A>& a, const Moving<B>& b) {
   const double lengths = extent(a.shape) + extent(b.shape),
