@@ -29,6 +29,7 @@ struct ClearSegmentBox {
     using packed::Lanes, packed::all;
     const Lanes a = abs(d), zero = all(0), half = all(0.5);
     const Lanes by_face = stretch.narrow(p + d * half, v, (h + a * half) + all(R), all(noise));
+    if (all_of(stretch.last < stretch.free)) return stretch.free;  // never: most misses
     // Of each edge, in the order of turned_cross(), a and b of d are across it. Their length from above, by at most 2 %, waits for no root: by
     // the lines through three places of the circle, 22.5 degrees apart.
     const Lanes b = yzx(a), more = max(a, b), less = min(a, b), across = turned_cross(v, d);

@@ -78,11 +78,19 @@ struct ClearBoxAxes {
   /// far both boxes reach along them together, `square` the square of their lengths. The axes are a's, b's, and each of a's crossed
   /// with b's, which are not of unit length and may have none.
   template <class Visit> THINWALL_HOT void each_group(const Visit& visit) const {
+    each_group_of_faces(visit);
+    each_group_of_products(visit);
+  }
+  template <class Visit> THINWALL_HOT void each_group_of_faces(const Visit& visit) const {
     using Vectors = packed::Vectors<packed::Lanes>;
     const Vectors wide = abs(rows), A = spread(a);
     visit([](const Vectors& d) { return lanes(firsts(xy_of(d.x), xy_of(d.y)), xy_of(d.z)); },
           a + dot(packed::transposed(wide.x, wide.y, wide.z), spread(b)), noise, packed::all(1));
     visit([&](const Vectors& d) { return dot(d, rows); }, b + dot(A, wide), noise, packed::all(1));
+  }
+  template <class Visit> THINWALL_HOT void each_group_of_products(const Visit& visit) const {
+    using Vectors = packed::Vectors<packed::Lanes>;
+    const Vectors A = spread(a);
     products(
         visit, [&](const Vectors& d) { return d.z * rows.y - d.y * rows.z; }, rows.y, rows.z, A.y, A.z);
     products(

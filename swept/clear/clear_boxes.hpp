@@ -49,14 +49,17 @@ struct ClearBoxes {
                      until};  // in_most may be before the start: then they overlap
     Lanes entered[5];
     int group = 0;
-    boxes.each_group([&](const auto& along, const Lanes& reach, const Lanes& noise, const Lanes&) {
+    const auto visit = [&](const auto& along, const Lanes& reach, const Lanes& noise, const Lanes&) {
       const ClearTimes of_axes = ClearTimes::of(along(D), along(V), reach, noise);
       times = shared(of_axes, times);
       entered[group++] = of_axes.in_most;
-    });
+    };
+    clear = all_of(in_range), time = both(ClearEntry::never), normal = from_a = zero;
+    boxes.each_group_of_faces(visit);  // they tell most misses
+    if (all_of(smallest_of(times.out_most) < largest_of(times.in_least))) return;
+    boxes.each_group_of_products(visit);
     const Pair first = largest_of(times.in_least), last = smallest_of(times.out_most);
     const Pair first_most = largest_of(times.in_most), last_least = smallest_of(times.out_least);
-    clear = all_of(in_range), time = both(ClearEntry::never), normal = from_a = zero;
     if (all_of(last < first)) return;
 
     const Lanes near = all(first);

@@ -6,6 +6,9 @@
 /// the earliest of their times; where two join they have one tangent plane, so that a place taken for its neighbor's gives the same time.
 /// An edge D is met as in clear_segment_entry.hpp, by k = P x D and w = v x D. They tell too how far inside of an edge the plane of the face
 /// is met: -N.(k + w t).
+///
+/// Most misses are told before any root: a line that passes the cylinder of an edge on its outer side passes all of the core, as the plane
+/// through the edge along v has that on one side, R or more from the line. There k.v is of the sign of N.v.
 
 #include <thinwall/discrete/clear/clear_entry.hpp>
 #include <thinwall/discrete/clear/vectors.hpp>
@@ -86,18 +89,33 @@ struct ClearFlatEntry {
     const Lanes length = dot(D, D), k_k = dot(k, k), w_w = dot(w, w), k_w = dot(k, w), beside = dot(k, V);
     const Lanes start = dot(P, D) * core.ahead, by = dot(V, D) * core.ahead;
     const Lanes RR_d = RR * length, reach = w_w * RR, off = beside * beside;
+
+    const Pair speed = dot(v, v), size = sum((abs(p) + abs(v)) + (abs(core.d) + abs(core.f))), squares = size * size;
+    const PairMask in_range = (size * both(0x1p-14) <= R) & (squares * both(0x1p-54) <= speed) &
+                              (both(packed::least_square) <= min(min(rr, speed), smallest_of(length))) &
+                              (size <= both(packed::most_length));
+    // all but along an edge, what rounding leans w along it counts by the way to its corner: ClearSide's aslant() and is_steady()
+    const LanesMask aslant = all(max(squares * both(0x1p-50), speed) * both(0x1p-10)) * length <= w_w;
+    const LanesMask passes = reach < off * graze;
+    const Pair through = two_sums(n * p, n * v);
+    const LanesMask on_outer_side = zero < beside * core.ahead * all(seconds(through));
+    if (four_bits(passes & aslant & on_outer_side) != 0U && all_of(in_range)) {
+      clear = true, time = both(ClearEntry::never), s = both(0), normal = zero, broad = both(1) < both(0);
+      return;
+    }
+
     const Lanes side = (k_k - RR_d) / (root(max((reach - off) * length, zero)) - k_w), at = start + by * side;
     const LanesMask pierces = off < reach * graze;
     const LanesMask meets_side = pierces & (k_w < zero) & (zero <= side) & (zero <= at) & (at <= length);
 
     const Vectors<Lanes> moment = cross(P, V);
-    const Pair speed = dot(v, v), wide = speed * rr;
+    const Pair wide = speed * rr;
     const Lanes square = dot(P, P), toward = dot(P, V), aside = dot(moment, moment);
     const Lanes ball = (square - RR) / (root(max(all(wide) - aside, zero)) - toward);
     const LanesMask strikes = aside < all(wide * both(packed::beside_graze));
     const Lanes earliest = min(select(meets_side, side, never), select(strikes & (toward < zero), ball, never));
 
-    const Pair through = two_sums(n * p, n * v), rate = abs(seconds(through));
+    const Pair rate = abs(seconds(through));
     const Pair high = against(firsts(through), seconds(through)), by_edge = smallest_of(earliest);
     const Pair reach_n = R * root(nn), face = (high - reach_n) / rate;
     const Lanes outwards = dot(N, k) * core.ahead, inside = outwards + dot(N, w) * core.ahead * all(face);
@@ -115,18 +133,13 @@ struct ClearFlatEntry {
     const Pair place = select(by_face, of_face, firsts(of_s, of_u) + seconds(of_s, of_u));
     s = firsts(place);
     const Lanes about = ((p + v * all(time)) - (core.d * all(s) + core.f * all(seconds(place)))) * all(both(1) / R);
-    const Pair unit = dot(about, about), size = sum((abs(p) + abs(v)) + (abs(core.d) + abs(core.f)));
+    const Pair unit = dot(about, about);
     normal = nearer_unit(about, unit);
 
-    const Pair extents = firsts(edges) * seconds(edges), squares = size * size;
+    const Pair extents = firsts(edges) * seconds(edges);
     broad = extents * both(0x1p-8) < nn;
-    const PairMask in_range = (size * both(0x1p-14) <= R) & (squares * both(0x1p-54) <= speed) &
-                              (both(packed::least_square) <= min(min(rr, speed), smallest_of(length))) &
-                              (size <= both(packed::most_length));
-    // all but along an edge, what rounding leans w along it counts by the way to its corner: ClearSide's aslant() and is_steady()
-    const Lanes aslant = all(max(squares * both(0x1p-50), speed) * both(0x1p-10));
     const LanesMask steady = pierces & (off * (all(speed * both(0x1p-6)) * length) <= reach * w_w);
-    const LanesMask side_clear = ((steady | (reach < off * graze)) & (aslant * length <= w_w)) | (w_w <= zero);
+    const LanesMask side_clear = ((steady | passes) & aslant) | (w_w <= zero);
     const LanesMask ball_clear = strikes | (all(wide) < aside * graze);
     const Lanes beyond = all(1 + 0x1p-30);  // a moment seen from 2^14 R is off by 2^-38 of itself
     const LanesMask outside = (RR * beyond < square) & ((RR_d * beyond < k_k) | (start < zero) | (length < start));
