@@ -55,6 +55,18 @@ template <Shape A, Shape B>
   return checked_impact(method, a, b);
 }
 
+/// What has no clear time: it overlaps clearly at the start, or is the careful rung's.
+template <Shape A, Shape B>
+[[gnu::noinline]] Toi<double> doubtful_impact(const ClosedForm<double>& method, const Moving<A>& a,
+                                              const Moving<B>& b) {
+  if constexpr (has_clear_overlap<A, B>) {
+    const ClearOverlap start = clear_overlap_either_way(a.shape, b.shape);
+    const bool is_question = method.min_separation == 0 && is_finite(a.displacement) && is_finite(b.displacement);
+    if (start.clear && start.overlaps && is_question) return overlapping_at_start(a, b, 1);
+  }
+  return careful_impact(method, a, b);
+}
+
 /// A float's query, of the ladder in double. In a function of its own: GCC 12 at -O3 leaves out a caller's rounding to float where the
 /// conversion back is inlined beside it.
 template <Shape A, Shape B>
@@ -72,7 +84,7 @@ THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, cons
     if (turned) answer.normal = packed::all(0) - answer.normal;
     if (answer.clear) [[likely]]
       return answer.toi();
-    return turn(careful_impact(method, a, b));
+    return turn(doubtful_impact(method, a, b));
   } else if constexpr (std::is_same_v<Method, ClosedForm<float>>) {
     return turn(impact_in_double(method, a, b));
   } else {

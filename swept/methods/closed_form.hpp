@@ -100,8 +100,12 @@ Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& m
 
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
-  // in the axes of the larger one, as what is turned into those of the other is off by a rounding of its size
-  if (largest(b.shape.half_extents) > largest(a.shape.half_extents)) return flipped(impact(method, b, a));
+  // in the axes of the larger one, as what is turned into those of the other is off by a rounding of its size; but how far the two overlap
+  // as asked, as the front door does
+  if (largest(b.shape.half_extents) > largest(a.shape.half_extents)) {
+    const Toi<T> toi = flipped(impact(method, b, a));
+    return toi.status == ToiStatus::overlapping ? overlapping_at_start(a, b, toi.evaluations) : toi;
+  }
   const T gap(method.min_separation);
   const Vec3<T> motion = relative_displacement(b, a);
   const NearPath<T> path(b.shape.center - a.shape.center, motion,

@@ -199,6 +199,22 @@ TYPED_TEST(Ladder, the_front_door_climbs_it) {  // from either side
   }
 }
 
+TYPED_TEST(Ladder, an_overlap_at_the_start_is_told_as_the_careful_rung_does) {
+  Shaker<double> draw(19);
+  for (int i = 0; i < 500; ++i) {
+    auto motion = everyday_shot<typename TypeParam::A, typename TypeParam::B>(draw);
+    const Separation<double> start = separation(motion.a.shape, motion.b.shape);
+    motion.b.shape = moved<double>(motion.b.shape, start.normal * (-start.distance - power<double>(-draw.pick(5, 40))));
+    const Toi<double> toi = time_of_impact(motion.a, motion.b), expected = careful_impact({}, motion.a, motion.b);
+    EXPECT_EQ(toi.status, ToiStatus::overlapping);
+    EXPECT_EQ(expected.status, ToiStatus::overlapping);
+    EXPECT_EQ(toi.evaluations, expected.evaluations);
+    EXPECT_LE((toi.point - expected.point).cwiseAbs().maxCoeff(), 0x1p-48);
+    motion.b.displacement[draw.pick(0, 2)] = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(time_of_impact(motion.a, motion.b).status, ToiStatus::invalid);
+  }
+}
+
 TYPED_TEST(Ladder, the_unit_of_length_changes_no_bit) {  // of what comes from afar, either
   Shaker<double> draw(23);
   for (int i = 0; i < 500; ++i) {
