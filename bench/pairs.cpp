@@ -137,6 +137,19 @@ void add_impact(const std::string& pair, double goal, const Shots<A, B>& (*set)(
   add_timed(name + "/plain", set, least, plain);
 }
 
+/// The front door and the careful rung of what overlaps at the start.
+template <class A, class B> void add_resting(const std::string& pair) {
+  const std::string name = "overlapping/" + pair;
+  using Query = Shot<A, B>;
+  rows.push_back({name, 0, share_of<Query>(&resting_shots<A, B>, [](const Query& q) {
+                    return clear_overlap_either_way(q.a.shape, q.b.shape).clear;
+                  })});
+  add_timed(name + "/front_door", &resting_shots<A, B>, {}, [](const Query& q) { return time_of_impact(q.a, q.b); });
+  add_timed(name + "/careful", &resting_shots<A, B>, {}, [](const Query& q) {
+    return in_order(q, [](const auto& a, const auto& b) { return careful_impact({}, a, b); });
+  });
+}
+
 template <class B, class Plain>
 void add_raycast(const std::string& shape, double goal, const Operations& least, Plain plain) {
   const std::string name = "raycast/" + shape;
@@ -229,6 +242,15 @@ const bool added = [] {
   add_impact<S, T>("sphere_triangle", 50, &any_shots<S, T>, flat_hit, [](const auto& q) {
     return plain::rounded_triangle(q.a.shape.center, motion(q), q.b.shape, q.a.shape.radius);
   });
+
+  add_resting<S, S>("sphere_sphere");
+  add_resting<S, A>("sphere_aabb");
+  add_resting<A, A>("aabb_aabb");
+  add_resting<S, C>("sphere_capsule");
+  add_resting<C, A>("capsule_aabb");
+  add_resting<C, C>("capsule_capsule");
+  add_resting<S, O>("sphere_obb");
+  add_resting<O, O>("obb_obb");
 
   add_raycast<S>("sphere", 13, round_hit, [](const Ray<D>& r, const S& s) {
     return textbook::ball<D>(r.origin - s.center, r.direction, s.radius);

@@ -176,6 +176,24 @@ template <class A, class B> const Poses<A, B>& any_poses() {
   return set;
 }
 
+/// Shots that begin a little (a fiftieth of the step) after their first contact: all overlap at the start.
+template <class A, class B> const Shots<A, B>& resting_shots() {
+  static const Shots<A, B> set = [] {
+    Shots<A, B> resting;
+    const Shots<A, B>& shots = any_shots<A, B>();
+    for (std::size_t k = 0; resting.queries.size() < query_count; k = (k + 1) % shots.queries.size()) {
+      const Shot<A, B>& shot = shots.queries[k];
+      const double time = shots.truth[k] + 0.02;
+      const Shot<A, B> late{{pose_at(shot.a, time), shot.a.displacement}, {pose_at(shot.b, time), shot.b.displacement}};
+      if (shots.truth[k] > 1 || !overlaps(late.a.shape, late.b.shape)) continue;
+      resting.queries.push_back(late);
+      resting.truth.push_back(0);
+    }
+    return resting;
+  }();
+  return set;
+}
+
 /// Bullets at thin walls, upright or turned.
 template <class Wall> const Shots<Sphere<double>, Wall>& thin_wall_shots() {
   static const auto set = shots<Sphere<double>, Wall>(

@@ -73,8 +73,8 @@ template <Shape A, Shape B>
 [[gnu::noinline]] Toi<float> impact_in_double(const ClosedForm<float>& method, const Moving<A>& a, const Moving<B>& b);
 
 /// The closed form's ladder. The clear rung answers in plain arithmetic what no rounding can decide (swept/clear/, discrete/clear/):
-/// nearly everything. The rest is asked of the careful rung (swept/closed_form/), which asks itself once more in a wider scalar
-/// where even it is in doubt. A float's query climbs in double. docs/closed_forms.md draws it.
+/// nearly everything; and then whether the two overlap at the start. The rest is asked of the careful rung (swept/closed_form/), which asks
+/// itself once more in a wider scalar where even it is in doubt. A float's query climbs in double. docs/closed_forms.md draws it.
 /// Given A and B the other way round, the answer is `turned`: a clear one while it is in registers.
 template <bool turned = false, class Method, Shape A, Shape B>
 THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, const Moving<A>& a, const Moving<B>& b) {

@@ -155,16 +155,20 @@ template <Scalar S> BoxPoints<S> points_at(const BoxPair<S>& pair, int axis, boo
 }
 
 /// The same two points along A's face, brought nearer to where either box has a part: of a sliver that the two share, no wider than a rounding,
-/// the middle is off them by as much. Along a side of A they go on until they are within B, if that is not far.
+/// the middle is off them by as much. Along a side of A they go on until they are within B, if that is not far: each turn as far as a plane
+/// of B is there, by 16 times the way straight to it at most, for a corner of three planes three turns.
 template <Scalar S> void hold_to_both(const BoxPair<S>& pair, int axis, BoxPoints<S>& points) {
+  constexpr int turns = 3;
+  const S most_farther(16);
   const auto held = [](const Vec3<S>& x, const Vec3<S>& half) -> Vec3<S> { return x.cwiseMin(half).cwiseMax(-half); };
-  for (int turn = 0; turn < 3; ++turn) {
+  for (int turn = 0; turn < turns; ++turn) {
     const Vec3<S> in_b = pair.axes.transpose() * (points.on_b - pair.between);
     const Vec3<S> wanted = pair.axes * (held(in_b, pair.half_b) - in_b);
     Vec3<S> along = held(points.on_a + wanted, pair.half_a) - points.on_a;
     along[axis] = 0;
     if (along == Vec3<S>::Zero()) return;
-    const S cosine = safe_unit(along).dot(safe_unit(wanted)), farther = std::min(S(16), S(1 / (cosine * cosine)));
+    const S cosine = safe_unit(along).dot(safe_unit(wanted)),
+            farther = std::min(most_farther, S(1 / (cosine * cosine)));
     const Vec3<S> step = held(points.on_a + along * farther, pair.half_a) - points.on_a;
     points.on_a += step;
     points.on_b += step;

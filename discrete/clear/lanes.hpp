@@ -145,11 +145,12 @@ THINWALL_HOT Lanes yzx(const Lanes& a) {
 
 THINWALL_HOT constexpr LanesMask mask(bool x, bool y, bool z) { return mask(x, y, z, z); }
 THINWALL_HOT Lanes lanes(const Vec3<double>& v) { return lanes(v.data()); }
-THINWALL_HOT void store(const Lanes& a, Vec3<double>& to) {
+THINWALL_HOT void store(const Lanes& a, double* to) {
   const Pair xy = xy_of(a);
-  std::memcpy(to.data(), &xy, sizeof xy);
+  std::memcpy(to, &xy, sizeof xy);
   to[2] = value(zz_of(a));
 }
+THINWALL_HOT void store(const Lanes& a, Vec3<double>& to) { store(a, to.data()); }
 
 /// Which lanes, as bits from 0.
 THINWALL_HOT unsigned bits(const PairMask& m) {

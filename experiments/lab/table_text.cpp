@@ -146,16 +146,21 @@ std::vector<Choice> choices(const Table& table) {
   return out;
 }
 
-/// A value as a reader sees it: four significant digits, thousands apart in counts, a dash where it is missing. A number without a
-/// unit that has more is shown as counts are, whole: one that is expected stands beside the one counted.
+/// What is shown whole, as counts are: a number without a unit that has more digits than are shown, too, as one that is expected stands
+/// beside the one counted.
+std::optional<std::int64_t> shown_count(const Value& value, const Column& column) {
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
+  const auto* number = std::get_if<double>(&value);
+  const bool is_long = number && std::abs(*number) >= 1e3 && std::abs(*number) < 1e15;
+  return is_long && column.unit == "1" ? std::optional<std::int64_t>(std::llround(*number)) : std::nullopt;
+}
+
+/// A value as a reader sees it: four significant digits, thousands apart in counts, a dash where it is missing.
 std::string shown_text(const Value& value, const Column& column) {
   constexpr int shown_digits = 4;
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return grouped_text(*count);
-  if (const auto* number = std::get_if<double>(&value); number && std::isfinite(*number)) {
-    const double size = std::abs(*number);
-    if (column.unit == "1" && size >= 1e3 && size < 1e15) return grouped_text(std::llround(*number));
+  if (const auto count = shown_count(value, column)) return grouped_text(*count);
+  if (const auto* number = std::get_if<double>(&value); number && std::isfinite(*number))
     return rounded_text(*number, shown_digits);
-  }
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
   const std::string text = exact_text(value);
   return text.empty() ? missing_text : text;
@@ -164,9 +169,8 @@ std::string shown_text(const Value& value, const Column& column) {
 ShownCell cell(const Table& table, const std::vector<Value>& row, const Choice& choice) {
   const Value& value = row[choice.at];
   const Column& column = table.columns[choice.at];
-  ShownCell out{
-      .text = shown_text(value, column), .is_number = std::holds_alternative<double>(value), .lower = {}, .upper = {}};
-  if (out.text.find(',') != std::string::npos) out.is_number = false;  // as counts are
+  const bool is_number = std::holds_alternative<double>(value) && !shown_count(value, column);
+  ShownCell out{.text = shown_text(value, column), .is_number = is_number, .lower = {}, .upper = {}};
   if (!choice.lower || out.text == missing_text) return out;
   const Value &low = row[*choice.lower], &high = row[*choice.upper];
   if (exact_text(low).empty() && exact_text(high).empty()) return out;
