@@ -155,8 +155,8 @@ template <Scalar S> BoxPoints<S> points_at(const BoxPair<S>& pair, int axis, boo
 }
 
 /// The same two points along A's face, brought nearer to where either box has a part: of a sliver that the two share, no wider than a rounding,
-/// the middle is off them by as much. Along a side of A they go on until they are within B, if that is not far: each turn as far as a plane
-/// of B is there, by 16 times the way straight to it at most, for a corner of three planes three turns.
+/// the middle is off them by as much. Along a side of A they go on until they are within B, if that is not far: in three turns at most, each by
+/// 16 times the way straight there at most.
 template <Scalar S> void hold_to_both(const BoxPair<S>& pair, int axis, BoxPoints<S>& points) {
   constexpr int turns = 3;
   const S most_farther(16);
