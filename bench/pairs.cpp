@@ -251,6 +251,7 @@ const bool added = [] {
   add_resting<C, C>("capsule_capsule");
   add_resting<S, O>("sphere_obb");
   add_resting<O, O>("obb_obb");
+  add_resting<S, T>("sphere_triangle");
 
   add_raycast<S>("sphere", 13, round_hit, [](const Ray<D>& r, const S& s) {
     return textbook::ball<D>(r.origin - s.center, r.direction, s.radius);
@@ -272,6 +273,7 @@ const bool added = [] {
   add_contact<S, A>("sphere_aabb", 5.5);
   add_contact<C, C>("capsule_capsule", 15);
   add_contact<S, O>("sphere_obb");
+  add_contact<S, T>("sphere_triangle");
   add_contact<C, A>("capsule_aabb");
   add_contact<C, O>("capsule_obb");
   add_contact<A, O>("aabb_obb");
@@ -287,12 +289,14 @@ const bool added = [] {
   add_overlaps<O, O>("obb_obb", 14);
   add_overlaps<A, A>("aabb_aabb");
   add_overlaps<C, C>("capsule_capsule");
+  add_overlaps<S, T>("sphere_triangle");
   add_separation<S, S>("sphere_sphere");
   add_separation<S, A>("sphere_aabb");
   add_separation<S, C>("sphere_capsule");
   add_separation<C, C>("capsule_capsule");
   add_separation<A, A>("aabb_aabb");
   add_separation<S, O>("sphere_obb");
+  add_separation<S, T>("sphere_triangle");
   add_separation<C, A>("capsule_aabb");
   add_separation<O, O>("obb_obb");
 

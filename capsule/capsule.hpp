@@ -202,25 +202,6 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 
 // ---- The clear rung (discrete/clear/clear_entry.hpp).
 
-/// Bodies whose cores are as a point at x and `core` are, R round together; `nearest` of that. The normal is out of the core.
-template <class Core>
-THINWALL_HOT ClearContact clear_core_contact(const Core& core, const ClearNearest& nearest, const packed::Lanes& x,
-                                             double r, double s) {
-  using packed::Pair, packed::both, packed::all;
-  const packed::Lanes& n = nearest.gap;
-  const Pair size = sum(abs(x) + core.sizes) + both(r + s), length = root(dot(n, n)), between = both(r + s) - length;
-  const packed::PairMask in_range =
-      (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size) & (both(0) <= packed::pair(r, s));
-  const packed::PairMask wide = size * both(0x1p-20) <= length, decided = size * both(0x1p-46) < abs(between);
-  const packed::PairMask behind = core.beyond(n, nearest) <= size * length * both(0x1p-40);
-  return {all_of(in_range & wide & decided & behind),
-          all_of(both(0) < between),
-          packed::Lanes{},
-          packed::Lanes{},
-          n / all(length),
-          between};
-}
-
 THINWALL_HOT ClearContact clear_contact(const Capsule<double>& capsule, const Sphere<double>& sphere) {
   using packed::all, packed::lanes, packed::both;
   const packed::Lanes a = lanes(capsule.a), x = lanes(sphere.center) - a;

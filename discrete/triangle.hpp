@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include <thinwall/discrete/clear/clear_triangle.hpp>
 #include <thinwall/discrete/entry/core_part.hpp>
 #include <thinwall/discrete/entry/flat_entry.hpp>
 #include <thinwall/discrete/sphere.hpp>
@@ -144,6 +145,17 @@ template <Scalar S> std::optional<RayHit<S>> ray_entry(const Ray<S>& ray, const 
 }
 
 // ---- The clear rung (clear/clear_entry.hpp).
+
+THINWALL_HOT ClearContact clear_contact(const Triangle<double>& triangle, const Sphere<double>& sphere) {
+  using packed::Lanes, packed::all, packed::lanes;
+  const Lanes a = lanes(triangle.a), x = lanes(sphere.center) - a;
+  const ClearTriangle core(lanes(triangle.b) - a, lanes(triangle.c) - a);
+  const ClearNearest nearest = core.nearest(x);
+  ClearContact contact = clear_core_contact(core, nearest, x, 0, sphere.radius);
+  contact.local_a = nearest.at - (core.d + core.f) / all(3);
+  contact.local_b = contact.normal * all(-sphere.radius);
+  return contact;
+}
 
 /// By the volumes of the line's moment with the edges: Moeller and Trumbore, Fast, minimum storage ray-triangle intersection, 1997. Not
 /// of a needle, whose plane roundings tilt; nor where one of the volumes, or the way to the plane, could be of either sign.

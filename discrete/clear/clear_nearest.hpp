@@ -1,7 +1,7 @@
 #pragma once
 /// What of a convex core is nearest to a place: what the clear rung walks by (swept/clear/clear_walk.hpp), and asks for contacts.
 
-#include <thinwall/discrete/clear/lanes.hpp>
+#include <thinwall/discrete/clear/clear_answers.hpp>
 
 namespace thinwall {
 
@@ -36,5 +36,24 @@ struct ClearStretch {
 
 /// The number between 0 and 1 that is nearest to x; 0 or 1 for what is not a number.
 THINWALL_HOT packed::Pair clear_clamp(const packed::Pair& x) { return max(min(x, packed::both(1)), packed::both(0)); }
+
+/// Bodies whose cores are as a point at x and `core` are, R round together; `nearest` of that. The normal is out of the core.
+template <class Core>
+THINWALL_HOT ClearContact clear_core_contact(const Core& core, const ClearNearest& nearest, const packed::Lanes& x,
+                                             double r, double s) {
+  using packed::Pair, packed::both, packed::all;
+  const packed::Lanes& n = nearest.gap;
+  const Pair size = sum(abs(x) + core.sizes) + both(r + s), length = root(dot(n, n)), between = both(r + s) - length;
+  const packed::PairMask in_range =
+      (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size) & (both(0) <= packed::pair(r, s));
+  const packed::PairMask wide = size * both(0x1p-20) <= length, decided = size * both(0x1p-46) < abs(between);
+  const packed::PairMask behind = core.beyond(n, nearest) <= size * length * both(0x1p-40);
+  return {all_of(in_range & wide & decided & behind),
+          all_of(both(0) < between),
+          packed::Lanes{},
+          packed::Lanes{},
+          n / all(length),
+          between};
+}
 
 }  // namespace thinwall

@@ -9,6 +9,9 @@ namespace thinwall::packed {
 template <class Pack> struct Vectors {
   Pack x, y, z;
 
+  THINWALL_HOT friend Vectors operator+(const Vectors& a, const Vectors& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
   THINWALL_HOT friend Vectors operator-(const Vectors& a, const Vectors& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }

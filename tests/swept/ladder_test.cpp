@@ -560,7 +560,7 @@ TEST(CarefulRung, sees_capsules_meet_that_are_nearly_parallel) {
 /// agrees(a, b) of two shapes at one instant is 1 if the clear rung answers, which it does of most that are drawn, and 0 if not.
 template <class Agrees> void expect_most_are_clear(unsigned seed, const Agrees& agrees) {
   Shaker<double> draw(seed);
-  std::size_t clear = 0, of_turned = 0, of_cores = 0;
+  std::size_t clear = 0, of_turned = 0, of_cores = 0, of_triangles = 0;
   for (std::size_t i = 0; i < cases; ++i) {
     const Ball a = drawn(draw, TypeTag<Ball>{}), b = drawn(draw, TypeTag<Ball>{});
     const Box c = drawn(draw, TypeTag<Box>{}), d = drawn(draw, TypeTag<Box>{});
@@ -569,10 +569,12 @@ template <class Agrees> void expect_most_are_clear(unsigned seed, const Agrees& 
     of_turned += agrees(g, a) + agrees(c, g) + agrees(g, h);
     const Rod e = drawn(draw, TypeTag<Rod>{}), f = drawn(draw, TypeTag<Rod>{});
     of_cores += agrees(e, a) + agrees(e, f) + agrees(c, e) + agrees(g, e);
+    of_triangles += agrees(drawn(draw, TypeTag<Flat>{}), b);
   }
   EXPECT_GE(clear, 2 * cases);
   EXPECT_GE(of_turned, cases);
   EXPECT_GE(of_cores, 2 * cases);
+  EXPECT_GE(of_triangles, cases / 2);
 }
 
 TEST(LadderAtOneInstant, contacts_agree) {
@@ -655,6 +657,14 @@ TEST(LadderAtOneInstant, edges_all_but_parallel_part_boxes) {
   }
 }
 
+// Of a place high over a narrow triangle, beside its long leg, the distances to both long edges are the same to rounding.
+TEST(LadderAtOneInstant, the_nearest_edge_is_told_by_its_side) {
+  const Flat narrow{{0, 0, 0}, {1, 0, 0}, {0, 0x1p-33, 0}};
+  const Ball above{{0.5, -0x1p-34, 0.5}, 0.25};
+  EXPECT_TRUE(clear_gap(narrow, above).clear);
+  EXPECT_NEAR(separation(narrow, above).normal[1], -0x1p-33, 0x1p-53);
+}
+
 /// 1 if the clear rung answers, which must agree with the careful one.
 template <class Shape> std::size_t ray_agrees_if_clear(const Ray<double>& ray, const Shape& shape) {
   const ClearRayHit rung = clear_raycast(ray, shape);
@@ -718,6 +728,10 @@ TEST(LadderAtOneInstant, doubt_is_careful) {
   EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, ball).clear);
   EXPECT_TRUE(clear_raycast(Ray<double>{{-4, 0, 0}, {1, 0, 0}, 3.5}, Box{{0, 0, 0}, {1, 1, 1}}).clear);
   EXPECT_TRUE(clear_contact(ball, Ball{{1, 0, 0}, 1}).clear);
+  const Ball above{{0, 0, 1}, 0.5};
+  EXPECT_TRUE(clear_contact(Flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, above).clear);
+  EXPECT_FALSE(clear_contact(Flat{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, above).clear);
+  EXPECT_FALSE(clear_contact(Flat{{0, 0, 0}, {1, 0, 0}, {1, 0x1p-5, 0}}, above).clear);
   const Turned turned{{2, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
   EXPECT_FALSE(clear_overlap(turned, Box{{0, 0, 0}, {1, 1, 1}}).clear);
   EXPECT_TRUE(clear_overlap(turned, Box{{0, 0, 0}, {1 + 0x1p-40, 1, 1}}).clear);
