@@ -220,15 +220,14 @@ def test_a_signal_handler_may_read_and_step() -> None:
 
 def test_ctrl_c_ends_between_steps() -> None:
     script = """
-        import os, signal, threading, time
+        import os, signal, threading
         import thinwall as tw
         world = tw.world({"body": [{"shape": "sphere", "radius": 1, "velocity": [1, 0, 0]}]})
         threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-        begin = time.perf_counter()
         try:
             world.step(1e-9, steps=10**12)
         except KeyboardInterrupt:
-            assert time.perf_counter() - begin < 5 and world.time > 0
+            assert 0 < world.time < 500
             world.step()
             print("whole")
     """
