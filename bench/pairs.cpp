@@ -242,6 +242,8 @@ const bool added = [] {
   add_impact<S, T>("sphere_triangle", 50, &any_shots<S, T>, flat_hit, [](const auto& q) {
     return plain::rounded_triangle(q.a.shape.center, motion(q), q.b.shape, q.a.shape.radius);
   });
+  add_impact<C, T>("capsule_triangle", 0, &any_shots<C, T>, flat_hit,
+                   [](const auto& q) { return plain::bisection(q.a, q.b); });
 
   add_resting<S, S>("sphere_sphere");
   add_resting<S, A>("sphere_aabb");

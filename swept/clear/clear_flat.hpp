@@ -74,6 +74,7 @@ struct ClearFlatEntry {
   packed::Pair s;          ///< [1] where on the core
   packed::Lanes normal;    ///< unit, out of the core; of no meaning for a miss
   packed::PairMask broad;  ///< d and f are 2^-4 from parallel
+  unsigned passed;  ///< which edges' cylinders the line passes on their outer side, as bits
 
   THINWALL_HOT ClearFlatEntry(const ClearFlat& core, const packed::Lanes& p, const packed::Lanes& v,
                               const packed::Pair& R) {
@@ -99,7 +100,8 @@ struct ClearFlatEntry {
     const LanesMask passes = reach < off * graze;
     const Pair through = two_sums(n * p, n * v);
     const LanesMask on_outer_side = zero < beside * core.ahead * all(seconds(through));
-    if (four_bits(passes & aslant & on_outer_side) != 0U && all_of(in_range)) {
+    passed = all_of(in_range) ? four_bits(passes & aslant & on_outer_side) : 0U;
+    if (passed != 0U) {
       clear = true, time = both(ClearEntry::never), s = both(0), normal = zero, broad = both(1) < both(0);
       return;
     }

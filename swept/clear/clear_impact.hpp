@@ -8,6 +8,7 @@
 #include <thinwall/discrete/triangle.hpp>
 #include <thinwall/swept/clear/clear_boxes.hpp>
 #include <thinwall/swept/clear/clear_flat.hpp>
+#include <thinwall/swept/clear/clear_prism.hpp>
 #include <thinwall/swept/clear/clear_walk.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/toi.hpp>
@@ -182,6 +183,18 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Triangle<double>>& triangle, con
   const ClearFlatEntry entry(core, center - a, path - lanes(triangle.displacement), both(r + gap));
   return {both(entry.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(entry.time))), entry.time, entry.normal,
           (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};
+}
+
+THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Triangle<double>>& triangle,
+                                   double gap) {
+  using packed::Lanes, packed::all, packed::both, packed::lanes;
+  const double r = capsule.shape.radius;
+  const Lanes a = lanes(triangle.shape.a), path = lanes(triangle.displacement);
+  const Lanes start = lanes(capsule.shape.a), end = lanes(capsule.shape.b), v = lanes(capsule.displacement) - path;
+  const ClearPrism prism(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a, end - start);
+  const ClearPrismEntry entry(prism, start - a, end - a, v, both(r + gap));
+  return {both(entry.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(entry.time))), entry.time,
+          all(0) - entry.normal, ((a + path * all(entry.time)) + entry.on) + entry.normal * all(gap / 2), entry.rounds};
 }
 
 /// In the box's own axes; and where they are turned, the time once more by the plane of contact, as of a sphere and an oriented box.

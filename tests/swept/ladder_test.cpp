@@ -29,7 +29,7 @@ const std::size_t cases = thorough(slow_build ? 2'000 : 100'000);
 template <class T> class Ladder : public ::testing::Test {};
 using ClearPairs = ::testing::Types<PairOf<Ball, Ball>, PairOf<Box, Ball>, PairOf<Box, Box>, PairOf<Turned, Ball>,
                                     PairOf<Rod, Ball>, PairOf<Rod, Box>, PairOf<Rod, Turned>, PairOf<Rod, Rod>,
-                                    PairOf<Turned, Box>, PairOf<Turned, Turned>, PairOf<Flat, Ball>>;
+                                    PairOf<Turned, Box>, PairOf<Turned, Turned>, PairOf<Flat, Ball>, PairOf<Rod, Flat>>;
 TYPED_TEST_SUITE(Ladder, ClearPairs, );
 
 /// Two bodies of like size some sizes apart, one shot at the other or past it: what a scene asks.
@@ -490,6 +490,22 @@ TEST(LadderFilters, a_ray_that_meets_two_faces_of_a_turned_box_at_once_is_in_dou
   const auto hit = raycast(slowly_down, box);
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->t, 16384);  // by the face across; the other's time is wrong by 2^-13, as slow as the ray comes down
+}
+
+TEST(LadderFilters, a_rod_at_a_triangle) {
+  const Moving<Flat> floor = at_rest(Flat{{-4, -4, 0}, {8, -4, 0}, {-4, 8, 0}});
+  const auto rod = [](const V& from, const V& core, const V& by) { return Moving<Rod>{{from, from + core, 0.5}, by}; };
+  const V upright(0, 0, 1), level(1, 0, 0), down(0, 0, -4), along(4, 0, 0);
+  EXPECT_TRUE(is_clear(rod({0, 0, 2}, upright, down), floor));
+  EXPECT_TRUE(is_clear(rod({0, 0, -2}, upright, -down), floor));
+  EXPECT_TRUE(is_clear(rod({0, 0, 2}, {1, 0, 0x1p-19}, down), floor));
+  EXPECT_FALSE(is_clear(rod({0, 0, 2}, level, down), floor)) << "it touches along a stretch";
+  EXPECT_TRUE(is_clear(rod({0, 0, 2}, level, -down), floor)) << "away from it";
+  EXPECT_TRUE(is_clear(rod({0, 0, 0.75}, upright, along), floor)) << "above it all the way";
+  EXPECT_FALSE(is_clear(rod({0, 0, 0.5}, upright, along), floor));
+  EXPECT_FALSE(is_clear(rod({0, 0, -0.5}, upright, down), floor)) << "through it at the start";
+  EXPECT_FALSE(is_clear(rod({0, 0, -0.5}, upright, -down), floor));
+  EXPECT_FALSE(is_clear(rod({0, 0, 2}, V::Zero(), down), floor)) << "a ball";
 }
 
 TEST(LadderFilters, the_face_of_a_needle_is_tilted_by_rounding) {

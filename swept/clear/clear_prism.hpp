@@ -1,0 +1,146 @@
+#pragma once
+/// The clear cases of a moving segment and a triangle, rounded by R: of a moving point and the prism { y - w d }, y in the triangle, w in
+/// [0, 1], which the triangle sweeps along the segment d backwards.
+///
+/// The prism is entered by a face that the motion leads into, or by an edge or a corner of such a face: the normal of a place is of the cone
+/// of the faces that meet there, and leads against the motion. So those faces are asked alone, as in clear_flat.hpp: first the one whose plane
+/// is entered last. The distance to a convex body is convex: what is R apart, closes, has all of the prism behind the gap, and began apart, is
+/// the first contact. And what passes one of their edges on its outer side, beyond which no such face lies, passes the prism.
+///
+/// Where the triangle's normal N and the segment agree, N.d > 0, the prism's faces look along N, against it, and along each edge x d; across
+/// each of them the prism is N.d thick. Most misses are told by these: one of the planes parts the two from the start to the end of the step.
+/// Source: derived here; the five faces are those of capsule_triangle_entry.hpp.
+
+#include <array>
+#include <bit>
+
+#include <thinwall/swept/clear/clear_flat.hpp>
+
+namespace thinwall {
+
+/// The prism, by its corners at w = 0; each with the edge that starts there, across which a side lies. In the last lane is the triangle.
+struct ClearPrism {
+  packed::Lanes d;
+  std::array<packed::Lanes, 3> corner, edge;
+  packed::Vectors<packed::Lanes> corners, normals;  ///< of each side, and of the triangle, out of the prism
+  packed::Pair thick, length;                       ///< |N.d|, and [length] that of all edges
+  packed::PairMask leans;                           ///< the segment leans against the triangle
+
+  THINWALL_HOT ClearPrism(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
+      : d(core), corner{packed::all(0), e1, e2}, edge{e1, e2 - e1, packed::all(0) - e2} {
+    using packed::Lanes, packed::Pair, packed::both;
+    const Lanes n = cross(e1, e2);
+    const Pair along = dot(n, d), sign = select(along < both(0), both(-1), both(1));
+    corners = with(packed::transposed(corner[0], e1, e2), corner[0]);
+    normals = with(cross(packed::transposed(edge[0], edge[1], edge[2]), packed::spread(d)), n) * all(sign);
+    thick = abs(along), length = sum((abs(e1) + abs(e2)) + abs(d));
+    leans = dot(n, n) * dot(d, d) * both(0x1p-40) <= thick * thick;
+  }
+
+  /// A side, or of 3 the triangle.
+  THINWALL_HOT ClearFlat face(unsigned k) const {
+    return k < 3 ? ClearFlat::parallelogram(edge[k], packed::all(0) - d) : ClearFlat::triangle(corner[1], corner[2]);
+  }
+  /// How far it reaches along n.
+  THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
+    using packed::both;
+    const packed::Pair of_e = two_sums(n * corner[1], n * corner[2]);
+    return max(max(of_e, swapped(of_e)), both(0)) - min(dot(n, d), both(0));
+  }
+  /// Whether all corners are behind a place of contact along its normal, but for what roundings of `size` [length] lean that, `lean`, squared;
+  /// where the prism is nowhere thin, then all of it is.
+  THINWALL_HOT bool is_behind(const packed::Lanes& place, const packed::Lanes& normal, const packed::Pair& size,
+                              const packed::Pair& lean) const {
+    using packed::both;
+    const auto behind = [&](const packed::Vectors<packed::Lanes>& seen) {
+      const packed::Lanes over = max(dot(seen, packed::spread(normal)) - all(size * both(0x1p-52)), packed::all(0));
+      return over * over <= dot(seen, seen) * all(lean);
+    };
+    return packed::both(all_of(length * length * length * both(0x1p-14) <= thick),
+                        all_of(behind(corners - packed::spread(place)) & behind(corners - packed::spread(place + d))));
+  }
+
+ private:
+  THINWALL_HOT static packed::Vectors<packed::Lanes> with(const packed::Vectors<packed::Lanes>& three,
+                                                          const packed::Lanes& last) {
+    const auto fourth = [](const packed::Lanes& of, const packed::Pair& its) {
+      return lanes(xy_of(of), firsts(zz_of(of), its));
+    };
+    return {fourth(three.x, xy_of(last)), fourth(three.y, swapped(xy_of(last))), fourth(three.z, zz_of(last))};
+  }
+};
+
+/// First time at which p + v t is within R > 0 of the prism; `q` is p + d, before it was rounded.
+struct ClearPrismEntry {
+  bool clear = false;
+  packed::Pair time = packed::both(ClearEntry::never);  ///< [1] >= 0, twice; ClearEntry::never for a miss
+  packed::Lanes normal{}, on{};                         ///< unit, out of the prism; and the place y on the triangle
+  int rounds = 0;                                       ///< how many faces were asked
+
+  THINWALL_HOT ClearPrismEntry(const ClearPrism& prism, const packed::Lanes& p, const packed::Lanes& q,
+                               const packed::Lanes& v, const packed::Pair& R) {
+    using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::all, packed::both;
+    const Lanes none = all(0), never = all(ClearEntry::never), never_asked = never * all(-4);
+    const Pair size = sum(abs(p) + abs(v)) + prism.length, squares = size * size;
+    const PairMask in_range =
+        (size * both(0x1p-14) <= R) & (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
+    if (!all_of(in_range)) return;
+
+    // Above a plane by R or more, or below that of the other side of the prism.
+    const packed::Vectors<Lanes>& N = prism.normals;
+    const Lanes noise = all(squares * size * both(0x1p-46)), start = dot(N, packed::spread(p) - prism.corners);
+    const Lanes rate = dot(N, packed::spread(v)), end = start + rate * all(1 + 0x1p-9);
+    const Lanes above = all(R) * root(dot(N, N)) + noise, below = none - (above + all(prism.thick));
+    if (four_bits((above < min(start, end)) | (max(start, end) < below)) != 0U) {
+      clear = true;
+      return;
+    }
+    const Lanes back = none - v;
+    const bool is_ahead = all_of(prism.reach(back) + R * root(dot(v, v)) + squares * both(0x1p-46) < dot(back, p));
+    if (!packed::either(four_bits((above < start) | (start < below)) != 0U, is_ahead)) return;
+
+    // When each plane is entered, of the triangle's two the one that the motion leads into.
+    const LanesMask is_rear = packed::mask(false, false, false, true) & (none < rate);
+    const Lanes speed = select(is_rear, rate, none - rate);
+    const Lanes high = select(is_rear, none - (start + all(prism.thick)), start);
+    const bool rear = four_bits(is_rear) != 0U, along_triangle = four_bits(noise < speed) < 8U;
+    if (along_triangle) return;
+    const unsigned sides = bits(none - noise < speed);
+    Lanes entered =
+        select(speed <= none - noise, never_asked, none - never);  // of a side along the motion, to rounding, last
+    entered = select(noise < speed, (high - above) / speed, entered);
+    bool sure = true;
+    for (;;) {
+      const Pair latest = largest_of(entered);
+      if (all_of(latest <= both(-2 * ClearEntry::never))) break;
+      const LanesMask one = packed::lowest_of_four(all(latest) <= entered);
+      entered = select(one, never_asked, entered);
+      const auto k = static_cast<unsigned>(std::countr_zero(four_bits(one)));
+      const bool is_side = k < 3;
+      const Lanes from = is_side ? prism.corner[k] : none, seen = is_side || !rear ? p - from : q;
+      const ClearFlatEntry entry(prism.face(k), seen, v, R);
+      ++rounds;
+      // Of a side's edges the neighbors are the triangle, the next side, the triangle at w = 1 and the side before.
+      const unsigned next = sides >> (k + 1) % 3 & 1U, before = sides >> (k + 2) % 3 & 1U;
+      const unsigned neighbors = is_side ? (rear ? 4U : 1U) | next << 1U | before << 3U : sides | 8U;
+      if ((entry.passed & ~neighbors) != 0U && all_of(both(-ClearEntry::never) < latest)) {
+        clear = true, time = both(ClearEntry::never);
+        return;
+      }
+      const bool is_one = !is_side || all_of(entry.broad | (both(1) < entry.time)), its = entry.clear && is_one;
+      sure = sure && its;
+      if (!all_of(entry.time < time)) continue;
+      time = entry.time, normal = entry.normal;
+      const Lanes place = (p + v * all(time)) - normal * all(R);
+      on = is_side ? from + prism.edge[k] * all(entry.s) : rear ? (q + v * all(time)) - normal * all(R) : place;
+      if (its && prism.is_behind(place, normal, size, squares * both(0x1p-98) / (R * R))) {
+        sure = true;
+        break;
+      }
+    }
+    // Where all lie level any place may be where they touch.
+    clear = sure && all_of((both(1 + 0x1p-9) < time) | prism.leans);
+  }
+};
+
+}  // namespace thinwall
