@@ -254,6 +254,7 @@ const bool added = [] {
   add_resting<S, O>("sphere_obb");
   add_resting<O, O>("obb_obb");
   add_resting<S, T>("sphere_triangle");
+  add_resting<C, T>("capsule_triangle");
 
   add_raycast<S>("sphere", 13, round_hit, [](const Ray<D>& r, const S& s) {
     return textbook::ball<D>(r.origin - s.center, r.direction, s.radius);
@@ -276,6 +277,7 @@ const bool added = [] {
   add_contact<C, C>("capsule_capsule", 15);
   add_contact<S, O>("sphere_obb");
   add_contact<S, T>("sphere_triangle");
+  add_contact<C, T>("capsule_triangle");
   add_contact<C, A>("capsule_aabb");
   add_contact<C, O>("capsule_obb");
   add_contact<A, O>("aabb_obb");
@@ -292,6 +294,7 @@ const bool added = [] {
   add_overlaps<A, A>("aabb_aabb");
   add_overlaps<C, C>("capsule_capsule");
   add_overlaps<S, T>("sphere_triangle");
+  add_overlaps<C, T>("capsule_triangle");
   add_separation<S, S>("sphere_sphere");
   add_separation<S, A>("sphere_aabb");
   add_separation<S, C>("sphere_capsule");
@@ -299,6 +302,7 @@ const bool added = [] {
   add_separation<A, A>("aabb_aabb");
   add_separation<S, O>("sphere_obb");
   add_separation<S, T>("sphere_triangle");
+  add_separation<C, T>("capsule_triangle");
   add_separation<C, A>("capsule_aabb");
   add_separation<O, O>("obb_obb");
 

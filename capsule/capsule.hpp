@@ -5,6 +5,7 @@
 
 #include <thinwall/capsule/clear_segment_box.hpp>
 #include <thinwall/capsule/clear_segment_entry.hpp>
+#include <thinwall/capsule/clear_segment_triangle.hpp>
 #include <thinwall/capsule/clear_segments.hpp>
 #include <thinwall/capsule/ray_capsule.hpp>
 #include <thinwall/capsule/segment.hpp>
@@ -252,6 +253,21 @@ THINWALL_HOT ClearContact clear_contact(const Aabb<double>& box, const Capsule<d
   ClearContact contact = clear_box_capsule(ClearUpright{}, box.center, box.half_extents, capsule);
   contact.local_a = packed::all(0);
   return contact;
+}
+
+/// Not clear of a needle or a core that is level with the triangle, or where they cross.
+THINWALL_HOT ClearContact clear_contact(const Capsule<double>& capsule, const Triangle<double>& triangle) {
+  using packed::Lanes, packed::Pair, packed::all, packed::both, packed::lanes;
+  const Lanes a = lanes(triangle.a), start = lanes(capsule.a), x = start - a;
+  const ClearSegmentTriangle core(lanes(triangle.b) - a, lanes(triangle.c) - a, lanes(capsule.b) - start);
+  const ClearNearest nearest = core.nearest(x);
+  ClearContact contact = clear_core_contact(core, nearest, x, capsule.radius, 0);
+  const Pair size = sum(abs(x)) + core.length, lean = size * size * both(0x1p-96) / dot(nearest.gap, nearest.gap);
+  contact.clear = both(contact.clear, core.is_behind(nearest.at, contact.normal, size, lean));
+  const Lanes along = core.d * all(nearest.place);
+  contact.local_a = (nearest.at + along) - (core.corner[1] + core.corner[2]) / all(3);
+  contact.local_b = (along - core.d * all(0.5)) - contact.normal * all(capsule.radius);
+  return flipped(contact);
 }
 
 THINWALL_HOT ClearRayHit clear_raycast(const Ray<double>& ray, const Capsule<double>& capsule) {

@@ -22,32 +22,43 @@ struct ClearTriangle {
     broad = lengths * swapped(lengths) * packed::both(0x1p-8) < nn;
   }
 
-  /// How far it reaches along `out`, times its length, beyond the nearest place; a needle beyond any.
+  /// How far it reaches along `out`, times its length; and beyond the nearest place, a needle beyond any.
+  THINWALL_HOT packed::Pair reach(const packed::Lanes& out) const {
+    const packed::Pair of = two_sums(out * d, out * f);
+    return max(max(of, swapped(of)), packed::both(0));
+  }
   THINWALL_HOT packed::Pair beyond(const packed::Lanes& out, const ClearNearest& nearest) const {
-    const packed::Pair of = two_sums(out * d, out * f), most = max(max(of, swapped(of)), packed::both(0));
-    return select(broad, most - dot(out, nearest.at), packed::both(std::numeric_limits<double>::infinity()));
+    const packed::Pair over = reach(out) - dot(out, nearest.at);
+    return select(broad, over, packed::both(std::numeric_limits<double>::infinity()));
+  }
+
+  /// The point of the plane below x, by its place (s, u).
+  THINWALL_HOT ClearNearest foot(const packed::Lanes& x) const {
+    const packed::Pair per = packed::both(1) / nn;
+    const packed::Pair place = two_sums(turned_cross(x, f) * n, turned_cross(d, x) * n) * per;
+    const packed::Lanes at = d * all(firsts(place)) + f * all(seconds(place)), normal = yzx(n);
+    return {at, normal * all(dot(normal, x - at) * per), place};
+  }
+  /// How far inside of each edge such a place is, in that order.
+  THINWALL_HOT static packed::Lanes inwards(const packed::Pair& place) {
+    const packed::Pair left = packed::both(1) - (place + swapped(place));
+    return lanes(firsts(seconds(place), left), firsts(place));
   }
 
   /// The place of the plane if it is in the triangle, else that of the edge it is beside and outside of, else the corner whose edges both end
   /// there, seen from x. Squared distances are not compared: they tell places apart only to the square root of a rounding.
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
-    using packed::Lanes, packed::LanesMask, packed::Pair, packed::all, packed::both, packed::Vectors;
-    const Pair per = both(1) / nn;
-    const Pair of_plane = two_sums(turned_cross(x, f) * n, turned_cross(d, x) * n) * per;
-    const Pair left = both(1) - (of_plane + swapped(of_plane));
-
+    using packed::Lanes, packed::LanesMask, packed::all, packed::both, packed::Vectors;
+    const ClearNearest by_face = foot(x);
+    const Lanes inside = inwards(by_face.place);
     const Vectors<Lanes> from = packed::transposed(all(0), d, f), edge = packed::transposed(d, f - d, all(0) - f);
     const Lanes along = dot(packed::spread(x) - from, edge) / dot(edge, edge);
-    const Lanes inwards = lanes(firsts(seconds(of_plane), left), firsts(of_plane));
-    const unsigned before = bits(along <= all(0)), behind = bits(all(1) <= along), outside = bits(inwards < all(0));
+    const unsigned before = bits(along <= all(0)), behind = bits(all(1) <= along), outside = bits(inside < all(0));
     const unsigned beside = outside & ~(before | behind), beyond = before & (behind << 1U | behind >> 2U);
     const Lanes on = max(min(along, all(1)), all(0));
     const Lanes by_edge = only(packed::lowest(beside != 0 ? beside : beyond), from + edge * on);
-
-    const LanesMask by_face = all(both(0) <= smallest_of(inwards));
-    const Lanes at = select(by_face, d * all(firsts(of_plane)) + f * all(seconds(of_plane)), by_edge);
-    const Lanes gap = x - at, normal = yzx(n);
-    return {at, select(by_face, normal * all(dot(normal, gap) * per), gap), of_plane};
+    const LanesMask over = all(both(0) <= smallest_of(inside));
+    return {select(over, by_face.at, by_edge), select(over, by_face.gap, x - by_edge), by_face.place};
   }
 };
 

@@ -11,62 +11,31 @@
 /// each of them the prism is N.d thick. Most misses are told by these: one of the planes parts the two from the start to the end of the step.
 /// Source: derived here; the five faces are those of capsule_triangle_entry.hpp.
 
-#include <array>
 #include <bit>
 
+#include <thinwall/capsule/clear_segment_triangle.hpp>
 #include <thinwall/swept/clear/clear_flat.hpp>
 
 namespace thinwall {
 
-/// The prism, by its corners at w = 0; each with the edge that starts there, across which a side lies. In the last lane is the triangle.
-struct ClearPrism {
-  packed::Lanes d;
-  std::array<packed::Lanes, 3> corner, edge;
-  packed::Vectors<packed::Lanes> corners, normals;  ///< of each side, and of the triangle, out of the prism
-  packed::Pair thick, length;                       ///< |N.d|, and [length] that of all edges
-  packed::PairMask leans;                           ///< the segment leans against the triangle
+/// The prism, with the planes of its sides, and in the last lane that of the triangle.
+struct ClearPrism : ClearSegmentTriangle {
+  packed::Vectors<packed::Lanes> normals;  ///< across each edge and d, and the triangle; out of the prism
+  packed::PairMask leans;                  ///< the segment leans against the triangle
 
   THINWALL_HOT ClearPrism(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
-      : d(core), corner{packed::all(0), e1, e2}, edge{e1, e2 - e1, packed::all(0) - e2} {
-    using packed::Lanes, packed::Pair, packed::both;
-    const Lanes n = cross(e1, e2);
-    const Pair along = dot(n, d), sign = select(along < both(0), both(-1), both(1));
-    corners = with(packed::transposed(corner[0], e1, e2), corner[0]);
-    normals = with(cross(packed::transposed(edge[0], edge[1], edge[2]), packed::spread(d)), n) * all(sign);
-    thick = abs(along), length = sum((abs(e1) + abs(e2)) + abs(d));
-    leans = dot(n, n) * dot(d, d) * both(0x1p-40) <= thick * thick;
+      : ClearSegmentTriangle(e1, e2, core) {
+    using packed::both;
+    const packed::Pair sign = select(thick < both(0), both(-1), both(1));
+    const auto sides = cross(packed::transposed(edge[0], edge[1], edge[2]), packed::spread(d));
+    normals = with_last(sides, yzx(face.n)) * all(sign);
+    leans = face.nn * dot(d, d) * both(0x1p-40) <= thick * thick;
+    thick = abs(thick);
   }
 
   /// A side, or of 3 the triangle.
-  THINWALL_HOT ClearFlat face(unsigned k) const {
+  THINWALL_HOT ClearFlat flat(unsigned k) const {
     return k < 3 ? ClearFlat::parallelogram(edge[k], packed::all(0) - d) : ClearFlat::triangle(corner[1], corner[2]);
-  }
-  /// How far it reaches along n.
-  THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
-    using packed::both;
-    const packed::Pair of_e = two_sums(n * corner[1], n * corner[2]);
-    return max(max(of_e, swapped(of_e)), both(0)) - min(dot(n, d), both(0));
-  }
-  /// Whether all corners are behind a place of contact along its normal, but for what roundings of `size` [length] lean that, `lean`, squared;
-  /// where the prism is nowhere thin, then all of it is.
-  THINWALL_HOT bool is_behind(const packed::Lanes& place, const packed::Lanes& normal, const packed::Pair& size,
-                              const packed::Pair& lean) const {
-    using packed::both;
-    const auto behind = [&](const packed::Vectors<packed::Lanes>& seen) {
-      const packed::Lanes over = max(dot(seen, packed::spread(normal)) - all(size * both(0x1p-52)), packed::all(0));
-      return over * over <= dot(seen, seen) * all(lean);
-    };
-    return packed::both(all_of(length * length * length * both(0x1p-14) <= thick),
-                        all_of(behind(corners - packed::spread(place)) & behind(corners - packed::spread(place + d))));
-  }
-
- private:
-  THINWALL_HOT static packed::Vectors<packed::Lanes> with(const packed::Vectors<packed::Lanes>& three,
-                                                          const packed::Lanes& last) {
-    const auto fourth = [](const packed::Lanes& of, const packed::Pair& its) {
-      return lanes(xy_of(of), firsts(zz_of(of), its));
-    };
-    return {fourth(three.x, xy_of(last)), fourth(three.y, swapped(xy_of(last))), fourth(three.z, zz_of(last))};
   }
 };
 
@@ -118,7 +87,7 @@ struct ClearPrismEntry {
       const auto k = static_cast<unsigned>(std::countr_zero(four_bits(one)));
       const bool is_side = k < 3;
       const Lanes from = is_side ? prism.corner[k] : none, seen = is_side || !rear ? p - from : q;
-      const ClearFlatEntry entry(prism.face(k), seen, v, R);
+      const ClearFlatEntry entry(prism.flat(k), seen, v, R);
       ++rounds;
       // Of a side's edges the neighbors are the triangle, the next side, the triangle at w = 1 and the side before.
       const unsigned next = sides >> (k + 1) % 3 & 1U, before = sides >> (k + 2) % 3 & 1U;

@@ -577,7 +577,7 @@ TEST(CarefulRung, sees_capsules_meet_that_are_nearly_parallel) {
 template <class Agrees> void expect_most_are_clear(unsigned seed, const Agrees& agrees) {
   Shaker<double> draw(seed);
   std::size_t clear = 0, of_turned = 0, of_cores = 0, of_triangles = 0;
-  for (std::size_t i = 0; i < cases; ++i) {
+  for (std::size_t n = 0; n < cases; ++n) {
     const Ball a = drawn(draw, TypeTag<Ball>{}), b = drawn(draw, TypeTag<Ball>{});
     const Box c = drawn(draw, TypeTag<Box>{}), d = drawn(draw, TypeTag<Box>{});
     const Turned g = drawn(draw, TypeTag<Turned>{}), h = drawn(draw, TypeTag<Turned>{});
@@ -585,7 +585,8 @@ template <class Agrees> void expect_most_are_clear(unsigned seed, const Agrees& 
     of_turned += agrees(g, a) + agrees(c, g) + agrees(g, h);
     const Rod e = drawn(draw, TypeTag<Rod>{}), f = drawn(draw, TypeTag<Rod>{});
     of_cores += agrees(e, a) + agrees(e, f) + agrees(c, e) + agrees(g, e);
-    of_triangles += agrees(drawn(draw, TypeTag<Flat>{}), b);
+    const Flat i = drawn(draw, TypeTag<Flat>{});
+    of_triangles += agrees(i, b) + agrees(e, i);
   }
   EXPECT_GE(clear, 2 * cases);
   EXPECT_GE(of_turned, cases);
@@ -748,6 +749,10 @@ TEST(LadderAtOneInstant, doubt_is_careful) {
   EXPECT_TRUE(clear_contact(Flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, above).clear);
   EXPECT_FALSE(clear_contact(Flat{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, above).clear);
   EXPECT_FALSE(clear_contact(Flat{{0, 0, 0}, {1, 0, 0}, {1, 0x1p-5, 0}}, above).clear);
+  const Flat floor{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}};
+  EXPECT_TRUE(clear_contact(Rod{{0, 0, 1}, {0, 0.5, 2}, 0.5}, floor).clear);
+  EXPECT_FALSE(clear_contact(Rod{{0, 0, -1}, {0, 0.5, 2}, 0.5}, floor).clear) << "its core crosses";
+  EXPECT_FALSE(clear_contact(Rod{{0, 0, 1}, {0, 0.5, 1}, 0.5}, floor).clear) << "level";
   const Turned turned{{2, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()};
   EXPECT_FALSE(clear_overlap(turned, Box{{0, 0, 0}, {1, 1, 1}}).clear);
   EXPECT_TRUE(clear_overlap(turned, Box{{0, 0, 0}, {1 + 0x1p-40, 1, 1}}).clear);

@@ -1,0 +1,86 @@
+#pragma once
+/// The clear cases of segment_triangle.hpp: the nearest points of a segment and a triangle, its three edges side by side, without a jump.
+
+#include <array>
+
+#include <thinwall/discrete/clear/clear_triangle.hpp>
+
+namespace thinwall {
+
+/// The prism { y - w d }, y in a triangle, w in [0, 1], which the triangle sweeps along the segment d backwards: where the start of the
+/// segment may not be, seen from the triangle's first corner. The place that is told is w, twice.
+struct ClearSegmentTriangle {
+  packed::Lanes d, sizes;
+  ClearTriangle face;
+  std::array<packed::Lanes, 3> corner, edge;  ///< at w = 0; each with the edge that starts there
+  packed::Vectors<packed::Lanes> corners;     ///< the first again in the last lane
+  packed::Pair thick, length;  ///< N.d of the triangle's normal N = e1 x e2, and [length] that of all edges
+
+  THINWALL_HOT ClearSegmentTriangle(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
+      : d(core),
+        sizes((abs(e1) + abs(e2)) + abs(core)),
+        face(e1, e2),
+        corner{packed::all(0), e1, e2},
+        edge{e1, e2 - e1, packed::all(0) - e2},
+        corners(with_last(packed::transposed(corner[0], e1, e2), corner[0])),
+        thick(dot(yzx(face.n), d)),
+        length(sum(sizes)) {}
+
+  /// How far it reaches along n.
+  THINWALL_HOT packed::Pair reach(const packed::Lanes& n) const {
+    return face.reach(n) - min(dot(n, d), packed::both(0));
+  }
+  THINWALL_HOT packed::Pair beyond(const packed::Lanes& n, const ClearNearest& nearest) const {
+    return reach(n) - dot(n, nearest.at);
+  }
+  /// Whether all corners are behind a place along its unit normal, but for what roundings of `size` [length] lean that by, `lean`, squared; where
+  /// the prism is nowhere thin, then all of it is.
+  THINWALL_HOT bool is_behind(const packed::Lanes& place, const packed::Lanes& normal, const packed::Pair& size,
+                              const packed::Pair& lean) const {
+    using packed::both;
+    const auto behind = [&](const packed::Vectors<packed::Lanes>& seen) {
+      const packed::Lanes over = max(dot(seen, packed::spread(normal)) - all(size * both(0x1p-52)), packed::all(0));
+      return over * over <= dot(seen, seen) * all(lean);
+    };
+    return packed::both(all_of(length * length * length * both(0x1p-14) <= abs(thick)),
+                        all_of(behind(corners - packed::spread(place)) & behind(corners - packed::spread(place + d))));
+  }
+
+  /// An end of the segment over the triangle, or the segment and an edge.
+  /// Source: as ClearTriangle and ClearSegments.
+  THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
+    using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::Vectors, packed::all, packed::both;
+    const auto clamped = [](const Lanes& at) { return max(min(at, all(1)), all(0)); };
+    const Vectors<Lanes> E = packed::transposed(edge[0], edge[1], edge[2]), D = packed::spread(d), n = cross(E, D);
+    const Vectors<Lanes> from = packed::spread(x) - packed::transposed(corner[0], corner[1], corner[2]);
+    const Lanes leans = dot(E, D), across = clamped(dot(cross(from, E), n) / dot(n, n));
+    const Lanes s = clamped((dot(E, from) + across * leans) / dot(E, E));
+    const Lanes w = clamped((s * leans - dot(D, from)) / all(dot(d, d)));
+    const Vectors<Lanes> gaps = (from + D * w) - E * s;
+    const Lanes squares = dot(gaps, gaps);
+    const LanesMask one = packed::lowest(bits(squares <= all(smallest_of(squares))));
+
+    const ClearNearest start = face.foot(x), end = face.foot(x + d);
+    const auto square_of = [&](const ClearNearest& foot) {
+      return select(both(0) <= smallest_of(face.inwards(foot.place)), dot(foot.gap, foot.gap),
+                    both(std::numeric_limits<double>::infinity()));
+    };
+    const Pair of_start = square_of(start), of_end = square_of(end);
+    const PairMask by_end = min(of_start, of_end) < smallest_of(squares), by_start = of_start <= of_end;
+    const Pair place = select(by_end, select(by_start, both(0), both(1)), sum(keep(one, w)));
+    const Lanes by_edge = only(one, gaps),
+                gap = select(all(by_end), select(all(by_start), start.gap, end.gap), by_edge);
+    return {x - gap, gap, place};
+  }
+
+  /// Four vectors, of three and the last.
+  THINWALL_HOT static packed::Vectors<packed::Lanes> with_last(const packed::Vectors<packed::Lanes>& three,
+                                                               const packed::Lanes& last) {
+    const auto fourth = [](const packed::Lanes& of, const packed::Pair& its) {
+      return lanes(xy_of(of), firsts(zz_of(of), its));
+    };
+    return {fourth(three.x, xy_of(last)), fourth(three.y, swapped(xy_of(last))), fourth(three.z, zz_of(last))};
+  }
+};
+
+}  // namespace thinwall
