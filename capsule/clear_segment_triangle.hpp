@@ -14,7 +14,8 @@ struct ClearSegmentTriangle {
   ClearTriangle face;
   std::array<packed::Lanes, 3> corner, edge;  ///< at w = 0; each with the edge that starts there
   packed::Vectors<packed::Lanes> corners;     ///< the first again in the last lane
-  packed::Pair thick, length;  ///< N.d of the triangle's normal N = e1 x e2, and [length] that of all edges
+  packed::Pair thick,
+      length;  ///< N.d of the triangle's normal N = e1 x e2, and [length] the sum of all numbers of e1, e2 and d
 
   THINWALL_HOT ClearSegmentTriangle(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
       : d(core),
@@ -33,8 +34,8 @@ struct ClearSegmentTriangle {
   THINWALL_HOT packed::Pair beyond(const packed::Lanes& n, const ClearNearest& nearest) const {
     return reach(n) - dot(n, nearest.at);
   }
-  /// Whether all corners are behind a place along its unit normal, but for what roundings of `size` [length] lean that by, `lean`, squared; where
-  /// the prism is nowhere thin, then all of it is.
+  /// Whether all corners are behind a place along its unit normal. Roundings may lean that by `lean`, squared, and move a corner by 2^-52 of
+  /// `size` [length]. Of a prism that is nowhere thin all else is behind, too, but for 2^14 times that lean.
   THINWALL_HOT bool is_behind(const packed::Lanes& place, const packed::Lanes& normal, const packed::Pair& size,
                               const packed::Pair& lean) const {
     using packed::both;

@@ -46,7 +46,8 @@ struct ClearTriangle {
   }
 
   /// The place of the plane if it is in the triangle, else that of the edge it is beside and outside of, else the corner whose edges both end
-  /// there, seen from x. Squared distances are not compared: they tell places apart only to the square root of a rounding.
+  /// there, seen from x. Squared distances are not compared: they tell places apart only to the square root of a rounding. Where roundings
+  /// contradict each other, and none of these is so, the gap has no length, and what is asked of it is in doubt.
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
     using packed::Lanes, packed::LanesMask, packed::all, packed::both, packed::Vectors;
     const ClearNearest by_face = foot(x);
@@ -56,9 +57,10 @@ struct ClearTriangle {
     const unsigned before = bits(along <= all(0)), behind = bits(all(1) <= along), outside = bits(inside < all(0));
     const unsigned beside = outside & ~(before | behind), beyond = before & (behind << 1U | behind >> 2U);
     const Lanes on = max(min(along, all(1)), all(0));
-    const Lanes by_edge = only(packed::lowest(beside != 0 ? beside : beyond), from + edge * on);
+    const unsigned one = beside != 0 ? beside : beyond;
+    const Lanes by_edge = only(packed::lowest(one), from + edge * on), gap = (x - by_edge) * all(one != 0 ? 1 : 0);
     const LanesMask over = all(both(0) <= smallest_of(inside));
-    return {select(over, by_face.at, by_edge), select(over, by_face.gap, x - by_edge), by_face.place};
+    return {select(over, by_face.at, by_edge), select(over, by_face.gap, gap), by_face.place};
   }
 };
 

@@ -74,7 +74,7 @@ struct ClearFlatEntry {
   packed::Pair s;          ///< [1] where on the core
   packed::Lanes normal;    ///< unit, out of the core; of no meaning for a miss
   packed::PairMask broad;  ///< d and f are 2^-4 from parallel
-  unsigned passed;         ///< which edges' cylinders the line passes on their outer side, as bits
+  unsigned passed;         ///< edges whose cylinders the line was told to pass on their outer side, as bits
 
   THINWALL_HOT ClearFlatEntry(const ClearFlat& core, const packed::Lanes& p, const packed::Lanes& v,
                               const packed::Pair& R) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The clear rung of a time of impact: straight from two moving shapes to the answer, without a jump that is a coin's toss.
 
+#include <algorithm>
+
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/capsule/clear_segment_box.hpp>
 #include <thinwall/discrete/clear/clear_entry.hpp>
@@ -194,7 +196,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const
   const ClearPrism prism(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a, end - start);
   const ClearPrismEntry entry(prism, start - a, end - a, v, both(r + gap));
   return {both(entry.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(entry.time))), entry.time,
-          all(0) - entry.normal, ((a + path * all(entry.time)) + entry.on) + entry.normal * all(gap / 2), entry.rounds};
+          all(0) - entry.normal, ((a + path * all(entry.time)) + entry.on) + entry.normal * all(gap / 2),
+          std::max(entry.rounds, 1)};
 }
 
 /// In the box's own axes; and where they are turned, the time once more by the plane of contact, as of a sphere and an oriented box.

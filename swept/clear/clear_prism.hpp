@@ -30,7 +30,6 @@ struct ClearPrism : ClearSegmentTriangle {
     const auto sides = cross(packed::transposed(edge[0], edge[1], edge[2]), packed::spread(d));
     normals = with_last(sides, yzx(face.n)) * all(sign);
     leans = face.nn * dot(d, d) * both(0x1p-40) <= thick * thick;
-    thick = abs(thick);
   }
 
   /// A side, or of 3 the triangle.
@@ -39,12 +38,12 @@ struct ClearPrism : ClearSegmentTriangle {
   }
 };
 
-/// First time at which p + v t is within R > 0 of the prism; `q` is p + d, before it was rounded.
+/// First time at which p + v t is within R > 0 of the prism; `q` is p + d, rounded once.
 struct ClearPrismEntry {
   bool clear = false;
   packed::Pair time = packed::both(ClearEntry::never);  ///< [1] >= 0, twice; ClearEntry::never for a miss
   packed::Lanes normal{}, on{};                         ///< unit, out of the prism; and the place y on the triangle
-  int rounds = 0;                                       ///< how many faces were asked
+  int rounds = 0;                                       ///< how many faces were asked; none for a miss told by a plane
 
   THINWALL_HOT ClearPrismEntry(const ClearPrism& prism, const packed::Lanes& p, const packed::Lanes& q,
                                const packed::Lanes& v, const packed::Pair& R) {
@@ -59,7 +58,7 @@ struct ClearPrismEntry {
     const packed::Vectors<Lanes>& N = prism.normals;
     const Lanes noise = all(squares * size * both(0x1p-46)), start = dot(N, packed::spread(p) - prism.corners);
     const Lanes rate = dot(N, packed::spread(v)), end = start + rate * all(1 + 0x1p-9);
-    const Lanes above = all(R) * root(dot(N, N)) + noise, below = none - (above + all(prism.thick));
+    const Lanes above = all(R) * root(dot(N, N)) + noise, below = none - (above + all(abs(prism.thick)));
     if (four_bits((above < min(start, end)) | (max(start, end) < below)) != 0U) {
       clear = true;
       return;
@@ -71,7 +70,7 @@ struct ClearPrismEntry {
     // When each plane is entered, of the triangle's two the one that the motion leads into.
     const LanesMask is_rear = packed::mask(false, false, false, true) & (none < rate);
     const Lanes speed = select(is_rear, rate, none - rate);
-    const Lanes high = select(is_rear, none - (start + all(prism.thick)), start);
+    const Lanes high = select(is_rear, none - (start + all(abs(prism.thick))), start);
     const bool rear = four_bits(is_rear) != 0U, along_triangle = four_bits(noise < speed) < 8U;
     if (along_triangle) return;
     const unsigned sides = bits(none - noise < speed);

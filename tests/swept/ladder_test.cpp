@@ -682,6 +682,16 @@ TEST(LadderAtOneInstant, the_nearest_edge_is_told_by_its_side) {
   EXPECT_NEAR(separation(narrow, above).normal[1], -0x1p-33, 0x1p-53);
 }
 
+// A corner of a crumb is right below the center, where the sides that it is on of the two edges and of their ends are roundings that contradict
+// each other.
+TEST(LadderAtOneInstant, no_place_is_made_up_of_contradictions) {
+  const Flat crumb{{0, 0, 0}, {0x1p-27 * 5, 0x1p-27 * -63, 0x1p-27 * -49}, {0x1p-27 * 58, 0x1p-27 * 20, 0x1p-27 * 50}};
+  const Ball above{{-0x1.a13ef76ab8428p-2, -0x1.2943944398bedp-1, 0x1.68e872070421p-1}, 0x1.00000000002p+0};
+  EXPECT_TRUE(careful_overlaps(crumb, above));
+  EXPECT_TRUE(overlaps(crumb, above));
+  EXPECT_TRUE(contact(crumb, above));
+}
+
 /// 1 if the clear rung answers, which must agree with the careful one.
 template <class Shape> std::size_t ray_agrees_if_clear(const Ray<double>& ray, const Shape& shape) {
   const ClearRayHit rung = clear_raycast(ray, shape);
