@@ -14,8 +14,8 @@ struct ClearSegmentTriangle {
   ClearTriangle face;
   std::array<packed::Lanes, 3> corner, edge;  ///< at w = 0; each with the edge that starts there
   packed::Vectors<packed::Lanes> corners;     ///< the first again in the last lane
-  packed::Pair thick,
-      length;  ///< N.d of the triangle's normal N = e1 x e2, and [length] the sum of all numbers of e1, e2 and d
+  packed::Pair thick;                         ///< N.d of the triangle's normal N = e1 x e2
+  packed::Pair length;                        ///< [length] the sum of all numbers of e1, e2 and d
 
   THINWALL_HOT ClearSegmentTriangle(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
       : d(core),
