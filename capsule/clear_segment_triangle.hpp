@@ -63,7 +63,7 @@ struct ClearSegmentTriangle {
 
     const ClearNearest start = face.foot(x), end = face.foot(x + d);
     const auto square_of = [&](const ClearNearest& foot) {
-      return select(both(0) <= smallest_of(face.inwards(foot.place)), dot(foot.gap, foot.gap),
+      return select(both(0) <= smallest_of(ClearTriangle::inwards(foot.place)), dot(foot.gap, foot.gap),
                     both(std::numeric_limits<double>::infinity()));
     };
     const Pair of_start = square_of(start), of_end = square_of(end);
