@@ -3,6 +3,7 @@
 /// coordinates near the largest number from overflowing, computes a float query in double; and of the closed form, the ladder.
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
 #include <thinwall/swept/clear/clear_impact.hpp>
@@ -59,11 +60,10 @@ template <Shape A, Shape B>
 template <Shape A, Shape B>
 [[gnu::noinline]] Toi<double> doubtful_impact(const ClosedForm<double>& method, const Moving<A>& a,
                                               const Moving<B>& b) {
-  if constexpr (has_clear_overlap<A, B>) {
-    const ClearOverlap start = clear_overlap_either_way(a.shape, b.shape);
-    const bool is_question = method.min_separation == 0 && is_finite(a.displacement) && is_finite(b.displacement);
-    if (start.clear && start.overlaps && is_question) return overlapping_at_start(a, b, 1);
-  }
+  const Separation<double> start = clear_separation_or(
+      a.shape, b.shape, [] { return Separation<double>{.distance = std::numeric_limits<double>::infinity()}; });
+  const bool is_question = method.min_separation == 0 && is_finite(a.displacement) && is_finite(b.displacement);
+  if (start.distance < 0 && is_question) return {ToiStatus::overlapping, 1, 0, start.normal, middle(start)};
   return careful_impact(method, a, b);
 }
 
