@@ -67,6 +67,7 @@ THINWALL_HOT ClearWalk clear_walk(const ClearSegmentBox& core, const packed::Lan
       walk.nearest = nearest;
       return walk;
     }
+    if (all_of((now <= both(0)) & (square < RR))) break;   // it starts within R
     const Pair length = (square * per_R + R) * both(0.5);  // or more, by all that it is not R
     const Pair parted = (dot(n, p - nearest.at) - (beyond + R * length) - walk.noise * length) / abs(along);
     const PairMask wide = RR * both(0x1p-80) <= square, closes = along < both(0);
