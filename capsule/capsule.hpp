@@ -265,7 +265,7 @@ THINWALL_HOT ClearContact clear_contact(const Capsule<double>& capsule, const Tr
   const Pair size = sum(abs(x)) + core.length, lean = size * size * both(0x1p-96) / dot(nearest.gap, nearest.gap);
   contact.clear = both(contact.clear, core.is_behind(nearest.at, contact.normal, size, lean));
   const Lanes along = core.d * all(nearest.place);
-  contact.local_a = (nearest.at + along) - (core.corner[1] + core.corner[2]) / all(3);
+  contact.local_a = (nearest.at + along) - (core.face.d + core.face.f) / all(3);
   contact.local_b = (along - core.d * all(0.5)) - contact.normal * all(capsule.radius);
   return flipped(contact);
 }

@@ -1,8 +1,6 @@
 #pragma once
 /// The clear cases of segment_triangle.hpp: the nearest points of a segment and a triangle, its three edges side by side, without a jump.
 
-#include <array>
-
 #include <thinwall/discrete/clear/clear_triangle.hpp>
 
 namespace thinwall {
@@ -12,18 +10,15 @@ namespace thinwall {
 struct ClearSegmentTriangle {
   packed::Lanes d, sizes;
   ClearTriangle face;
-  std::array<packed::Lanes, 3> corner, edge;  ///< at w = 0; each with the edge that starts there
-  packed::Vectors<packed::Lanes> corners;     ///< the first again in the last lane
-  packed::Pair thick;                         ///< N.d of the triangle's normal N = e1 x e2
-  packed::Pair length;                        ///< [length] the sum of all numbers of e1, e2 and d
+  packed::Vectors<packed::Lanes> corners;  ///< at w = 0, the first again in the last lane
+  packed::Pair thick;                      ///< N.d of the triangle's normal N = e1 x e2
+  packed::Pair length;                     ///< [length] the sum of all numbers of e1, e2 and d
 
   THINWALL_HOT ClearSegmentTriangle(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
       : d(core),
         sizes((abs(e1) + abs(e2)) + abs(core)),
         face(e1, e2),
-        corner{packed::all(0), e1, e2},
-        edge{e1, e2 - e1, packed::all(0) - e2},
-        corners(with_last(packed::transposed(corner[0], e1, e2), corner[0])),
+        corners(with_last(face.corners(), packed::all(0))),
         thick(dot(yzx(face.n), d)),
         length(sum(sizes)) {}
 
@@ -52,8 +47,8 @@ struct ClearSegmentTriangle {
   THINWALL_HOT ClearNearest nearest(const packed::Lanes& x) const {
     using packed::Lanes, packed::LanesMask, packed::Pair, packed::PairMask, packed::Vectors, packed::all, packed::both;
     const auto clamped = [](const Lanes& at) { return max(min(at, all(1)), all(0)); };
-    const Vectors<Lanes> E = packed::transposed(edge[0], edge[1], edge[2]), D = packed::spread(d), n = cross(E, D);
-    const Vectors<Lanes> from = packed::spread(x) - packed::transposed(corner[0], corner[1], corner[2]);
+    const Vectors<Lanes> E = face.edges(), D = packed::spread(d), n = cross(E, D);
+    const Vectors<Lanes> from = packed::spread(x) - face.corners();
     const Lanes leans = dot(E, D), across = clamped(dot(cross(from, E), n) / dot(n, n));
     const Lanes s = clamped((dot(E, from) + across * leans) / dot(E, E));
     const Lanes w = clamped((s * leans - dot(D, from)) / all(dot(d, d)));
@@ -72,15 +67,6 @@ struct ClearSegmentTriangle {
     const Lanes by_edge = only(one, gaps),
                 gap = select(all(by_end), select(all(by_start), start.gap, end.gap), by_edge);
     return {x - gap, gap, place};
-  }
-
-  /// Four vectors, of three and the last.
-  THINWALL_HOT static packed::Vectors<packed::Lanes> with_last(const packed::Vectors<packed::Lanes>& three,
-                                                               const packed::Lanes& last) {
-    const auto fourth = [](const packed::Lanes& of, const packed::Pair& its) {
-      return lanes(xy_of(of), firsts(zz_of(of), its));
-    };
-    return {fourth(three.x, xy_of(last)), fourth(three.y, swapped(xy_of(last))), fourth(three.z, zz_of(last))};
   }
 };
 

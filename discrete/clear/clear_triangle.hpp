@@ -22,6 +22,10 @@ struct ClearTriangle {
     broad = lengths * swapped(lengths) * packed::both(0x1p-8) < nn;
   }
 
+  /// In lanes, each edge from its corner on.
+  THINWALL_HOT packed::Vectors<packed::Lanes> corners() const { return packed::transposed(packed::all(0), d, f); }
+  THINWALL_HOT packed::Vectors<packed::Lanes> edges() const { return packed::transposed(d, f - d, packed::all(0) - f); }
+
   /// How far it reaches along `out`, times its length; and beyond the nearest place, a needle beyond any.
   THINWALL_HOT packed::Pair reach(const packed::Lanes& out) const {
     const packed::Pair of = two_sums(out * d, out * f);
@@ -52,7 +56,7 @@ struct ClearTriangle {
     using packed::Lanes, packed::LanesMask, packed::all, packed::both, packed::Vectors;
     const ClearNearest by_face = foot(x);
     const Lanes inside = inwards(by_face.place);
-    const Vectors<Lanes> from = packed::transposed(all(0), d, f), edge = packed::transposed(d, f - d, all(0) - f);
+    const Vectors<Lanes> from = corners(), edge = edges();
     const Lanes along = dot(packed::spread(x) - from, edge) / dot(edge, edge);
     const unsigned before = bits(along <= all(0)), behind = bits(all(1) <= along), outside = bits(inside < all(0));
     const unsigned beside = outside & ~(before | behind), beyond = before & (behind << 1U | behind >> 2U);

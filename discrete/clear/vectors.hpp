@@ -54,6 +54,12 @@ THINWALL_HOT Lanes only(const LanesMask& one, const Vectors<Lanes>& of) {
   return lanes(two_sums(keep(one, of.x), keep(one, of.y)), sum(keep(one, of.z)));
 }
 
+/// Four vectors, of three and the last.
+THINWALL_HOT Vectors<Lanes> with_last(const Vectors<Lanes>& three, const Lanes& last) {
+  const auto fourth = [](const Lanes& of, const Pair& its) { return lanes(xy_of(of), firsts(zz_of(of), its)); };
+  return {fourth(three.x, xy_of(last)), fourth(three.y, swapped(xy_of(last))), fourth(three.z, zz_of(last))};
+}
+
 /// One vector, twice; or two.
 THINWALL_HOT Vectors<Pair> twice(const Vec3<double>& a) { return {both(a[0]), both(a[1]), both(a[2])}; }
 THINWALL_HOT Vectors<Pair> side_by_side(const Vec3<double>& a, const Vec3<double>& b) {

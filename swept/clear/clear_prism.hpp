@@ -11,6 +11,7 @@
 /// each of them the prism is N.d thick. Most misses are told by these: one of the planes parts the two from the start to the end of the step.
 /// Source: derived here; the five faces are those of capsule_triangle_entry.hpp.
 
+#include <array>
 #include <bit>
 
 #include <thinwall/capsule/clear_segment_triangle.hpp>
@@ -20,21 +21,22 @@ namespace thinwall {
 
 /// The prism, with the planes of its sides, and in the last lane that of the triangle.
 struct ClearPrism : ClearSegmentTriangle {
-  packed::Vectors<packed::Lanes> normals;  ///< across each edge and d, and the triangle; out of the prism
-  packed::PairMask leans;                  ///< the segment leans against the triangle
+  std::array<packed::Lanes, 3> corner, edge;  ///< of the triangle, each edge from its corner on
+  packed::Vectors<packed::Lanes> normals;     ///< across each edge and d, and the triangle; out of the prism
+  packed::PairMask leans;                     ///< the segment leans against the triangle
 
   THINWALL_HOT ClearPrism(const packed::Lanes& e1, const packed::Lanes& e2, const packed::Lanes& core)
-      : ClearSegmentTriangle(e1, e2, core) {
+      : ClearSegmentTriangle(e1, e2, core), corner{packed::all(0), e1, e2}, edge{e1, e2 - e1, packed::all(0) - e2} {
     using packed::both;
     const packed::Pair sign = select(thick < both(0), both(-1), both(1));
-    const auto sides = cross(packed::transposed(edge[0], edge[1], edge[2]), packed::spread(d));
-    normals = with_last(sides, yzx(face.n)) * all(sign);
+    const auto sides = cross(face.edges(), packed::spread(d));
+    normals = packed::with_last(sides, yzx(face.n)) * all(sign);
     leans = face.nn * dot(d, d) * both(0x1p-40) <= thick * thick;
   }
 
   /// A side, or of 3 the triangle.
   THINWALL_HOT ClearFlat flat(unsigned k) const {
-    return k < 3 ? ClearFlat::parallelogram(edge[k], packed::all(0) - d) : ClearFlat::triangle(corner[1], corner[2]);
+    return k < 3 ? ClearFlat::parallelogram(edge[k], packed::all(0) - d) : ClearFlat::triangle(face.d, face.f);
   }
 };
 
