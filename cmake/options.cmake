@@ -18,6 +18,9 @@ if(THINWALL_WERROR)
 endif()
 if(THINWALL_NATIVE)
   list(APPEND thinwall_compile_options -march=native)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # for long chains of vectors, which fill 32 registers: docs/performance.md
+    list(APPEND thinwall_compile_options -fschedule-insns -fsched-pressure --param=sched-pressure-algorithm=2)
+  endif()
 endif()
 
 # The preset asan-ubsan, which takes ten times as long for everything. `thinwall_seen_only`: what it compiles to see that Clang takes it.
