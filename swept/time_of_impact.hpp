@@ -56,14 +56,26 @@ template <Shape A, Shape B>
   return checked_impact(method, a, b);
 }
 
+/// How far shapes are apart at the start, of which that is not clear: careful where it is clear that they overlap, as of turned boxes that lie
+/// level, else infinitely far.
+template <Shape A, Shape B> [[gnu::noinline]] Separation<double> doubtful_start(const A& a, const B& b) {
+  if constexpr (HasClearOverlap<A, B>) {
+    const ClearOverlap overlap = clear_overlap(a, b);
+    if (overlap.clear && overlap.overlaps) return careful_separation(a, b);
+  }
+  return {.distance = std::numeric_limits<double>::infinity()};
+}
+
 /// What has no clear time: it overlaps clearly at the start, or is the careful rung's.
 template <Shape A, Shape B>
 [[gnu::noinline]] Toi<double> doubtful_impact(const ClosedForm<double>& method, const Moving<A>& a,
                                               const Moving<B>& b) {
-  const Separation<double> start = clear_separation_or(
-      a.shape, b.shape, [] { return Separation<double>{.distance = std::numeric_limits<double>::infinity()}; });
-  const bool is_question = method.min_separation == 0 && is_finite(a.displacement) && is_finite(b.displacement);
-  if (start.distance < 0 && is_question) return {ToiStatus::overlapping, 1, 0, start.normal, middle(start)};
+  if (method.min_separation == 0) {
+    const Separation<double> start =
+        clear_separation_or(a.shape, b.shape, [&] { return doubtful_start(a.shape, b.shape); });
+    if (start.distance <= 0 && is_finite(a.displacement) && is_finite(b.displacement))
+      return {ToiStatus::overlapping, 1, 0, start.normal, middle(start)};
+  }
   return careful_impact(method, a, b);
 }
 
