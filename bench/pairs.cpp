@@ -137,12 +137,21 @@ void add_impact(const std::string& pair, double goal, const Shots<A, B>& (*set)(
   add_timed(name + "/plain", set, least, plain);
 }
 
+/// The gap as the clear rung has it, from either to the other.
+template <class A, class B> ClearContact clear_gap_either_way(const A& a, const B& b) {
+  if constexpr (HasClearContact<A, B>) {
+    return clear_gap(a, b);
+  } else {
+    return clear_gap(b, a);
+  }
+}
+
 /// The front door and the careful rung of what overlaps at the start.
 template <class A, class B> void add_resting(const std::string& pair) {
   const std::string name = "overlapping/" + pair;
   using Query = Shot<A, B>;
   rows.push_back({name, 0, share_of<Query>(&resting_shots<A, B>, [](const Query& q) {
-                    return clear_overlap_either_way(q.a.shape, q.b.shape).clear;
+                    return clear_gap_either_way(q.a.shape, q.b.shape).clear;
                   })});
   add_timed(name + "/front_door", &resting_shots<A, B>, {}, [](const Query& q) { return time_of_impact(q.a, q.b); });
   add_timed(name + "/careful", &resting_shots<A, B>, {}, [](const Query& q) {
@@ -190,13 +199,7 @@ template <class A, class B> void add_overlaps(const std::string& pair, double go
 template <class A, class B> void add_separation(const std::string& pair) {
   add_rungs<A, B>(
       "separation/" + pair, 0, [](const A& a, const B& b) { return separation(a, b); },
-      [](const A& a, const B& b) {
-        if constexpr (HasClearContact<A, B>) {
-          return clear_gap(a, b);
-        } else {
-          return clear_gap(b, a);
-        }
-      },
+      [](const A& a, const B& b) { return clear_gap_either_way(a, b); },
       [](const A& a, const B& b) { return careful_separation(a, b); },
       [](const auto& found) { return found.distance <= 0 ? -found.distance : never; });
 }
