@@ -18,7 +18,7 @@ if(THINWALL_WERROR)
 endif()
 if(THINWALL_NATIVE)
   list(APPEND thinwall_compile_options -march=native)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # for long chains of vectors, which fill 32 registers: docs/performance.md
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # it pays where there are 32 registers: docs/performance.md
     list(APPEND thinwall_compile_options -fschedule-insns -fsched-pressure --param=sched-pressure-algorithm=2)
   endif()
 endif()
