@@ -275,6 +275,21 @@ TEST(LadderFilters, a_start_in_touch_is_careful) {
   }
 }
 
+TEST(LadderFilters, turned_boxes_that_lie_level_clearly_overlap_though_where_is_in_doubt) {
+  Shaker<double> draw(29);
+  for (int i = 0; i < 100; ++i) {
+    const Mat3<double> axes = draw.plain_axes();
+    const Turned below{V::Zero(), {1, 0.5, 0.25}, axes}, above{V(axes * V(0.1, 0.2, 0.49)), {0.5, 1, 0.25}, axes};
+    EXPECT_FALSE(clear_gap(below, above).clear);
+    const Separation<double> careful = careful_separation(below, above);
+    EXPECT_EQ(doubtful_start(below, above).distance, careful.distance);
+    EXPECT_NEAR(careful.distance, -0.01, 0x1p-50);
+    const Toi<double> toi = time_of_impact(at_rest(below), at_rest(above));
+    EXPECT_EQ(toi.status, ToiStatus::overlapping);
+    EXPECT_EQ(toi.point, middle(careful));
+  }
+}
+
 TEST(LadderFilters, an_edge_met_by_an_edge_is_careful) {  // the slabs of x and y open and close at one time
   EXPECT_FALSE(is_clear(cube, box_shot({-4, 0, 0}, {4, 4, 0})));
   EXPECT_TRUE(is_clear(cube, box_shot({-4, 0, 0}, {4, 3, 0})));
