@@ -147,14 +147,14 @@ template <class A, class B> ClearContact clear_gap_either_way(const A& a, const 
 }
 
 /// The front door and the careful rung of what overlaps at the start.
-template <class A, class B> void add_resting(const std::string& pair) {
+template <class A, class B>
+void add_resting(const std::string& pair, const Shots<A, B>& (*set)() = &resting_shots<A, B>) {
   const std::string name = "overlapping/" + pair;
   using Query = Shot<A, B>;
-  rows.push_back({name, 0, share_of<Query>(&resting_shots<A, B>, [](const Query& q) {
-                    return clear_gap_either_way(q.a.shape, q.b.shape).clear;
-                  })});
-  add_timed(name + "/front_door", &resting_shots<A, B>, {}, [](const Query& q) { return time_of_impact(q.a, q.b); });
-  add_timed(name + "/careful", &resting_shots<A, B>, {}, [](const Query& q) {
+  rows.push_back(
+      {name, 0, share_of<Query>(set, [](const Query& q) { return clear_gap_either_way(q.a.shape, q.b.shape).clear; })});
+  add_timed(name + "/front_door", set, {}, [](const Query& q) { return time_of_impact(q.a, q.b); });
+  add_timed(name + "/careful", set, {}, [](const Query& q) {
     return in_order(q, [](const auto& a, const auto& b) { return careful_impact({}, a, b); });
   });
 }
@@ -256,6 +256,7 @@ const bool added = [] {
   add_resting<C, C>("capsule_capsule");
   add_resting<S, O>("sphere_obb");
   add_resting<O, O>("obb_obb");
+  add_resting("level_obb_obb", &level_shots);
   add_resting<S, T>("sphere_triangle");
   add_resting<C, T>("capsule_triangle");
 

@@ -194,6 +194,25 @@ template <class A, class B> const Shots<A, B>& resting_shots() {
   return set;
 }
 
+/// Boxes that lie on each other face to face, as in a stack, turned any way and a little deep.
+inline const Shots<Obb<double>, Obb<double>>& level_shots() {
+  static const auto set = [] {
+    Uniform u;
+    Shots<Obb<double>, Obb<double>> level;
+    while (level.queries.size() < query_count) {
+      const auto below = any_shape<Obb<double>>(u);
+      auto above = any_shape<Obb<double>>(u);
+      above.axes = below.axes;
+      const double height = below.half_extents[2] + above.half_extents[2] - u.between(0.001, 0.01);
+      above.center = below.axes * Vec3<double>(u.between(-0.05, 0.05), u.between(-0.05, 0.05), height);
+      level.queries.push_back({{below, Vec3<double>::Zero()}, {above, below.axes.col(2) * -0.01}});
+      level.truth.push_back(0);
+    }
+    return level;
+  }();
+  return set;
+}
+
 /// Bullets at thin walls, upright or turned.
 template <class Wall> const Shots<Sphere<double>, Wall>& thin_wall_shots() {
   static const auto set = shots<Sphere<double>, Wall>(
