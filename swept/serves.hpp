@@ -28,12 +28,13 @@ template <class A, class B> Vec3<typename A::Scalar> relative_displacement(const
   return a.displacement - b.displacement;
 }
 
-/// The answer for shapes that touch or overlap at the start; they may turn as well.
+/// The answer for shapes that touch or overlap at the start, this deep; they may turn as well.
+template <Scalar S> Toi<S> overlapping_at_start(const Separation<S>& start, int evaluations) {
+  return {ToiStatus::overlapping, evaluations, S(0), start.normal, middle(start)};
+}
 template <template <class> class Motion, class A, class B>
 THINWALL_COLD Toi<typename A::Scalar> overlapping_at_start(const Motion<A>& a, const Motion<B>& b, int evaluations) {
-  using S = typename A::Scalar;
-  const Separation<S> deepest = separation_unchecked(a.shape, b.shape);
-  return {ToiStatus::overlapping, evaluations, S(0), deepest.normal, middle(deepest)};
+  return overlapping_at_start(separation_unchecked(a.shape, b.shape), evaluations);
 }
 
 }  // namespace thinwall

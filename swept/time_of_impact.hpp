@@ -74,7 +74,7 @@ template <Shape A, Shape B>
     const Separation<double> start =
         clear_separation_or(a.shape, b.shape, [&] { return doubtful_start(a.shape, b.shape); });
     if (start.distance <= 0 && is_finite(a.displacement) && is_finite(b.displacement))
-      return {ToiStatus::overlapping, 1, 0, start.normal, middle(start)};
+      return overlapping_at_start(start, 1);
   }
   return careful_impact(method, a, b);
 }

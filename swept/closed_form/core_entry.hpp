@@ -99,8 +99,9 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       answer.graze = !is_finite(off) || met_at(time - off) != met_at(time) || met_at(time) != met_at(time + off);
     return answer;
   };
+  S least = part.distance();  // of all places looked at: a step far past a graze does not take its doubt away
   const auto miss = [&](const CorePart<S>& nearest) {
-    answer.graze = nearest.distance() - R <= near_miss(sizes);
+    answer.graze = std::min(least, nearest.distance()) - R <= near_miss(sizes);
     return answer;
   };
   // This near, the side it is seen from is rounding: what has it inside a moment later did not recede.
@@ -148,6 +149,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       return miss_unless_soon_inside(there, target);
     }
     const S ahead = there.distance() - R;
+    least = std::min(least, there.distance());
     const bool is_there = entry.exists && entry.time <= free && ahead <= noise;  // what is left is rounding
     if (is_there || (ahead == S(0) && R == S(0))) return hit(target, entry.normal);
     const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
@@ -167,6 +169,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     free = now = next;
     touched = false;
     part = closest(p + v * now);
+    least = std::min(least, part.distance());
   }
   answer.gave_up = true;
   answer.time = free;

@@ -428,6 +428,20 @@ TEST(HardQueries, a_graze_between_two_edges_is_in_doubt) {
   EXPECT_TRUE(entry.graze || std::abs(entry.time - 0.5480246F) < 1e-6F) << entry.time;
 }
 
+// A step by a plane that hardly closes goes 600 past the graze: the doubt is where the way was nearest.
+TEST(HardQueries, a_graze_that_the_walk_steps_far_past_is_in_doubt) {
+  const Moving wall{Obb<double>{V(0x1.12d0419249b0cp+6, -0x1.6666666666667p-2, -0x1.0b3b45161f5b5p+7),
+                                V(0x1.999999999999ap-4, 0x1.08p+5, 0x1.999999999999ap-5), Mat3<double>::Identity()},
+                    V(0, 0x1.999999999999ap-2, 0x1.b733333333333p+5)};
+  const Obb<double> plank{V(0, 0, 0), V(0x1.b533333333333p+6, 0x1.999999999999ap-4, 0x1.3333333333333p-2),
+                          leaning(V(0x1.3ffc0015f038dp-1, 0x1.a2911543da048p-6, -0x1.8f7a71722dabap-1),
+                                  V(-0x1.4d82e980d2855p-1, -0x1.1149fd8a899d3p-1, -0x1.1417c6231230dp-1),
+                                  V(-0x1.b89062d8aa114p-2, 0x1.b0c3fac17fcb8p-1, -0x1.448dd1bbab7cfp-2))};
+  const auto toi = time_of_impact(ClosedForm<double>{0x1.999999999999ap-4}, wall, at_rest(plank));
+  EXPECT_EQ(toi.status, hit);
+  EXPECT_NEAR(toi.time, 0.88225, 1e-6);
+}
+
 // A radius below the roundings of the way does not tell a face's sides apart, the motion does.
 TEST(HardQueries, a_hardly_rounded_triangle_is_met_against_the_motion) {
   const auto rod = at_rest(Capsule<double>{V(0, 0, 0), V(0.375, 0.125, -0.125), 0x1p-64});
