@@ -128,7 +128,7 @@ Outcome outcome_of(const std::vector<Row>& rows) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  const std::vector<AccuracyPair> pairs = chosen(settings, "pair", accuracy_pairs());
+  const std::vector<AccuracyPair> pairs = chosen(settings, "pair", accuracy_pairs);
   const std::int64_t queries = settings.trials("queries", 1, 1'000'000'000, options.trials);
   const std::int64_t verdicts = settings.trials("verdict_queries", 0, 1'000'000'000, options.trials);
   std::vector<Row> rows;

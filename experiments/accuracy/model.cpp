@@ -193,22 +193,19 @@ AccuracyTally ask_pair(Inquiry inquiry, std::uint64_t seed, std::int64_t first, 
 
 }  // namespace
 
-const std::vector<AccuracyPair>& accuracy_pairs() {
-  static const std::vector<AccuracyPair> list = {
-      {"sphere_sphere", &ask_pair<Sphere, Sphere>},
-      {"sphere_aabb", &ask_pair<Sphere, Aabb>},
-      {"aabb_aabb", &ask_pair<Aabb, Aabb>},
-      {"sphere_obb", &ask_pair<Sphere, Obb>},
-      {"aabb_obb", &ask_pair<Aabb, Obb>},
-      {"obb_obb", &ask_pair<Obb, Obb>},
-      {"sphere_triangle", &ask_pair<Sphere, Triangle>},
-      {"sphere_capsule", &ask_pair<Sphere, Capsule>},
-      {"capsule_capsule", &ask_pair<Capsule, Capsule>},
-      {"capsule_aabb", &ask_pair<Capsule, Aabb>},
-      {"capsule_obb", &ask_pair<Capsule, Obb>},
-      {"capsule_triangle", &ask_pair<Capsule, Triangle>},
-  };
-  return list;
-}
+const std::vector<AccuracyPair> accuracy_pairs = {
+    {"sphere_sphere", &ask_pair<Sphere, Sphere>},
+    {"sphere_aabb", &ask_pair<Sphere, Aabb>},
+    {"aabb_aabb", &ask_pair<Aabb, Aabb>},
+    {"sphere_obb", &ask_pair<Sphere, Obb>},
+    {"aabb_obb", &ask_pair<Aabb, Obb>},
+    {"obb_obb", &ask_pair<Obb, Obb>},
+    {"sphere_triangle", &ask_pair<Sphere, Triangle>},
+    {"sphere_capsule", &ask_pair<Sphere, Capsule>},
+    {"capsule_capsule", &ask_pair<Capsule, Capsule>},
+    {"capsule_aabb", &ask_pair<Capsule, Aabb>},
+    {"capsule_obb", &ask_pair<Capsule, Obb>},
+    {"capsule_triangle", &ask_pair<Capsule, Triangle>},
+};
 
 }  // namespace thinwall

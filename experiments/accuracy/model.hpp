@@ -72,6 +72,6 @@ struct AccuracyPair {
   AccuracyTally (*ask)(Inquiry inquiry, std::uint64_t seed, std::int64_t first, std::int64_t count);
 };
 
-const std::vector<AccuracyPair>& accuracy_pairs();
+extern const std::vector<AccuracyPair> accuracy_pairs;
 
 }  // namespace thinwall

@@ -25,7 +25,7 @@ std::pair<std::string, double> kind_of(const SurveyRow& row) { return {row.crowd
 
 Table crowds_table(const std::vector<SurveyRow>& rows) {
   const auto columns =
-      columns_of<SurveyRow>(crowd_factors().columns(&SurveyRow::crowd), fields(&SurveyRow::survey),
+      columns_of<SurveyRow>(crowd_factors.columns(&SurveyRow::crowd), fields(&SurveyRow::survey),
                             value("false_share", "1", "Share of the candidates that do not; missing without any.",
                                   [](const SurveyRow& row) {
                                     const auto true_share = share_of(row.survey.meetings, row.survey.pairs);
@@ -46,7 +46,7 @@ std::optional<double> bytes_of(const FindingRow& row) {
 Table timings_table(const std::vector<SurveyRow>& rows) {
   const auto columns =
       columns_of<FindingRow>(
-          crowd_factors().columns(&FindingRow::crowd), fields(&FindingRow::finding, {"broad_phase"}),
+          crowd_factors.columns(&FindingRow::crowd), fields(&FindingRow::finding, {"broad_phase"}),
           measured("milliseconds", "ms", "From boxes to all pairs; median over the rounds.",
                    [](const FindingRow& row) { return median_of_rounds(row.finding.milliseconds); }),
           value("rounds", "1", "Rounds timed.", [](const FindingRow& row) { return row.finding.milliseconds.size(); }),
@@ -68,7 +68,7 @@ Table timings_table(const std::vector<SurveyRow>& rows) {
 Table growth_table(const std::vector<SurveyRow>& rows) {
   std::vector<Course> fitted = courses(rows);
   std::erase_if(fitted, [](const Course& course) { return !course.growth; });
-  const auto columns = columns_of<Course>(crowd_factors().columns(&Course::crowd),
+  const auto columns = columns_of<Course>(crowd_factors.columns(&Course::crowd),
                                           text("broad_phase", "Who finds the pairs.", &Course::finder),
                                           value("counts", "1", "Counts of 10000 and more.", &Course::counts),
                                           measured("exponent", "1", "p.", &Course::growth))
@@ -118,7 +118,7 @@ std::vector<Panel> panels_by_kind(const std::vector<SurveyRow>& rows, const std:
     for (const SurveyRow* row : kind) rising.push_back(*row);
     std::ranges::stable_sort(rising, {}, [](const SurveyRow& row) { return row.crowd.count; });
     const auto [placement, speed] = kind_of(*kind[0]);
-    panels.push_back(joined(plot(findings_of(rising), crowd_factors().columns(&FindingRow::crowd),
+    panels.push_back(joined(plot(findings_of(rising), crowd_factors.columns(&FindingRow::crowd),
                                  fields(&FindingRow::finding, {"broad_phase"}), measured("y", "", "", get))
                                 .x("count", Axis::log, "balls")
                                 .y("y", Axis::log, fmt::format("{}; {}, {:g} m a step", quantity, placement, speed))
@@ -248,11 +248,11 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
                              .seed = options.seed};
   std::vector<SurveyRow> rows;
   std::vector<Task<Survey>> tasks;
-  for (const CrowdFactors& crowd : crowd_factors().cells(settings)) {
+  for (const CrowdFactors& crowd : crowd_factors.cells(settings)) {
     if (finders_for(crowd.count, how).empty())
       settings.complain("broad_phase", fmt::format("at least one that is not left out of {} balls", crowd.count));
     rows.push_back({crowd, {}});
-    tasks.push_back({crowd_factors().key(crowd), crowd.count, [crowd, how] { return survey(crowd, how); }});
+    tasks.push_back({crowd_factors.key(crowd), crowd.count, [crowd, how] { return survey(crowd, how); }});
   }
   const auto finish = [rows](const Done<Survey>& done) {
     std::vector<SurveyRow> all = rows;

@@ -105,17 +105,15 @@ std::unique_ptr<Finder> make_finder(std::string_view name) {
   return finder;
 }
 
-const Factors<CrowdFactors>& crowd_factors() {
-  static constexpr std::array<std::string_view, 2> placements = {"uniform", "clustered"};
-  static const Factors<CrowdFactors> all = factors<CrowdFactors>(
-      choices("placement", &CrowdFactors::placement, placements, "Uniform, or clustered in heaps of about 100."),
-      numbers("speed", &CrowdFactors::speed, {.lower = 0, .upper = 1000, .unit = "m"},
-              "Path of a ball in a step; balls are 1 m wide."),
-      counts("count", &CrowdFactors::count, 1, 10'000'000, "Balls."),
-      number("density", &CrowdFactors::density, {.lower = 1e-6, .upper = 10, .unit = "1/m^3"},
-             "Balls in a cubic meter."));
-  return all;
-}
+constexpr std::array<std::string_view, 2> placements = {"uniform", "clustered"};
+
+const Factors<CrowdFactors> crowd_factors = factors<CrowdFactors>(
+    choices("placement", &CrowdFactors::placement, placements, "Uniform, or clustered in heaps of about 100."),
+    numbers("speed", &CrowdFactors::speed, {.lower = 0, .upper = 1000, .unit = "m"},
+            "Path of a ball in a step; balls are 1 m wide."),
+    counts("count", &CrowdFactors::count, 1, 10'000'000, "Balls."),
+    number("density", &CrowdFactors::density, {.lower = 1e-6, .upper = 10, .unit = "1/m^3"},
+           "Balls in a cubic meter."));
 
 Crowd make_crowd(const CrowdFactors& f, std::uint64_t seed) {
   const bool clustered = f.placement == "clustered";
@@ -161,8 +159,7 @@ std::int64_t count_meetings(const Crowd& crowd, const std::vector<ProxyPair>& pa
 }
 
 std::vector<std::string_view> finder_names() {
-  std::vector<std::string_view> names;
-  for_each_type(BroadPhases{}, [&]<class Method>(TypeTag<Method>) { names.push_back(Method::name); });
+  std::vector<std::string_view> names = type_names(BroadPhases{});
   if (has_bullet()) names.insert(names.end(), {bullet_build_name, bullet_step_name});
   return names;
 }

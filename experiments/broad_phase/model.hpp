@@ -28,7 +28,7 @@ struct CrowdFactors {
   double density = 0.1;    ///< [1 / m^3]
 };
 
-const Factors<CrowdFactors>& crowd_factors();
+extern const Factors<CrowdFactors> crowd_factors;
 
 using Crowd = std::vector<Moving<Sphere<double>>>;
 

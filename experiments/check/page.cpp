@@ -45,6 +45,17 @@ std::string_view take_value(std::string_view page, std::size_t& at) {
   return take_word(page, at, std::string(space) + ">");
 }
 
+/// For ASCII.
+std::string lower_case(std::string_view text) {
+  return boost::to_lower_copy(std::string(text), std::locale::classic());
+}
+
+/// A tag of an HTML page, read as a browser reads it.
+struct HtmlTag {
+  std::string name;                                             ///< in lower case
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< name in lower case, and value without quotes
+};
+
 /// The tag whose name begins at `at`.
 HtmlTag tag_at(std::string_view page, std::size_t at) {
   const std::string between(space);
@@ -60,6 +71,16 @@ HtmlTag tag_at(std::string_view page, std::size_t at) {
     skip(page, ++at, between);
     value = take_value(page, at);
   }
+}
+
+/// Every opening tag. One that stands where a browser would not look, as in a comment, counts too.
+std::vector<HtmlTag> tags_of(std::string_view page) {
+  std::vector<HtmlTag> out;
+  for (auto at = page.find('<'); at != std::string_view::npos; at = page.find('<', at + 1)) {
+    const std::string letter = lower_case(page.substr(at + 1, 1));
+    if (letter >= "a" && letter <= "z") out.push_back(tag_at(page, at + 1));
+  }
+  return out;
 }
 
 void check_content(const KeptResult& result, const std::string& page, Faults& faults) {
@@ -345,19 +366,6 @@ std::string xml_fault(std::string_view text) {
   return fmt::format("line {}, column {}: {}", XML_GetCurrentLineNumber(parser.get()),
                      XML_GetCurrentColumnNumber(parser.get()) + 1,
                      XML_ErrorString(error == XML_ERROR_ABORTED ? XML_ERROR_UNDEFINED_ENTITY : error));
-}
-
-std::vector<HtmlTag> tags_of(std::string_view page) {
-  std::vector<HtmlTag> out;
-  for (auto at = page.find('<'); at != std::string_view::npos; at = page.find('<', at + 1)) {
-    const std::string letter = lower_case(page.substr(at + 1, 1));
-    if (letter >= "a" && letter <= "z") out.push_back(tag_at(page, at + 1));
-  }
-  return out;
-}
-
-std::string lower_case(std::string_view text) {
-  return boost::to_lower_copy(std::string(text), std::locale::classic());
 }
 
 std::string html_unescaped(std::string_view text) {

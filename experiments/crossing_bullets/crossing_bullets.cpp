@@ -60,7 +60,7 @@ Columns<Row> row_columns() {
     return [field](const Row& r) { return r.theory.confirmed.*field; };
   };
   return columns_of<Row>(
-      text("rule", "How a hit is found.", &Row::rule), crossing_factors().columns(&Row::cell),
+      text("rule", "How a hit is found.", &Row::rule), crossing_factors.columns(&Row::cell),
       value("relative_path", "m", "Length of the relative motion in a step.",
             [](const Row& r) { return relative_path(r.cell).norm(); }),
       fields(&Row::tally, {"shots", "touching"}),
@@ -381,7 +381,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   for (const Crossing& cell : make_crossings(settings, rules.size())) {
     for (const CrossingRule& rule : rules) {
       rows.push_back({.cell = cell, .rule = rule.name, .theory = {}, .expected = {}, .tally = {}});
-      tasks.push_back({fmt::format("{} {}", crossing_factors().key(cell), rule.name), shots,
+      tasks.push_back({fmt::format("{} {}", crossing_factors.key(cell), rule.name), shots,
                        [cell, rule, shots, seed = options.seed] { return ask_all(rule, cell, seed, shots); }});
     }
   }

@@ -29,6 +29,16 @@ void check(const Settings& settings, const Crossing& c) {
   }
 }
 
+/// [m] b, in one step.
+Vec3<double> slower_path(const Crossing& c) {
+  const double path = c.ratio * c.speed * c.step, angle = c.angle_deg * (std::numbers::pi / 180);
+  if (c.angle_deg == 180) return {-path, 0, 0};  // the sine of pi is not 0
+  return {path * std::cos(angle), path * std::sin(angle), 0};
+}
+
+/// Both fly along one line, or the slower one rests.
+bool is_parallel(const Crossing& c) { return c.ratio == 0 || c.angle_deg == 0 || c.angle_deg == 180; }
+
 Vec3<long double> start_offset(const Encounter& e) {
   return e.slower.shape.center.cast<long double>() - e.faster.shape.center.cast<long double>();
 }
@@ -179,24 +189,30 @@ double tube_volume(const Crossing& c) {
   return std::numbers::pi * disc * disc * relative_path(c).norm();
 }
 
-}  // namespace
-
-const Factors<Crossing>& crossing_factors() {
-  static const Factors<Crossing> all = factors<Crossing>(
-      numbers("speed", &Crossing::speed, {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"},
-              "Of the faster ball."),
-      number("step", &Crossing::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}, "Time step."),
-      number("radius", &Crossing::radius, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Of both balls."),
-      numbers("ratio", &Crossing::ratio, {.lower = 0, .upper = 1}, "Speed of the slower ball over the faster one's."),
-      numbers("angle_deg", &Crossing::angle_deg, {.lower = 0, .upper = 180, .unit = "deg"},
-              "Between the motions: 0 is a chase, 180 is head-on; 0 if the slower ball rests."),
-      numbers("offset", &Crossing::offset, {.lower = 1, .upper = 1000, .unit = "contact distances"},
-              "Radius of the disc that closest approach is uniform over."));
-  return all;
+/// Share of the encounters: the balls overlap at the end of the step.
+double touch_at_end_theory(const Crossing& c) {
+  const double contact = contact_distance(c), path = relative_path(c).norm();
+  const double ball = 4 * std::numbers::pi / 3 * contact * contact * contact;
+  const double short_of = std::max(0.0, 2 * contact - path);
+  const double lens = std::numbers::pi * (4 * contact + path) * short_of * short_of / 12;  // overlaps at the start too
+  return (ball - lens) / tube_volume(c);
 }
 
+}  // namespace
+
+const Factors<Crossing> crossing_factors = factors<Crossing>(
+    numbers("speed", &Crossing::speed, {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"},
+            "Of the faster ball."),
+    number("step", &Crossing::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}, "Time step."),
+    number("radius", &Crossing::radius, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Of both balls."),
+    numbers("ratio", &Crossing::ratio, {.lower = 0, .upper = 1}, "Speed of the slower ball over the faster one's."),
+    numbers("angle_deg", &Crossing::angle_deg, {.lower = 0, .upper = 180, .unit = "deg"},
+            "Between the motions: 0 is a chase, 180 is head-on; 0 if the slower ball rests."),
+    numbers("offset", &Crossing::offset, {.lower = 1, .upper = 1000, .unit = "contact distances"},
+            "Radius of the disc that closest approach is uniform over."));
+
 std::vector<Crossing> make_crossings(const Settings& settings, std::size_t each) {
-  std::vector<Crossing> all = crossing_factors().cells(settings, each, {}, [&](Crossing& c) {
+  std::vector<Crossing> all = crossing_factors.cells(settings, each, {}, [&](Crossing& c) {
     if (c.ratio == 1 && c.angle_deg == 0) return false;  // no relative motion
     if (c.ratio == 0) c.angle_deg = 0;                   // what rests has no direction
     if (c != head_on) check(settings, c);
@@ -213,17 +229,9 @@ double contact_distance(const Crossing& c) { return 2 * c.radius; }
 
 Vec3<double> faster_path(const Crossing& c) { return {c.speed * c.step, 0, 0}; }
 
-Vec3<double> slower_path(const Crossing& c) {
-  const double path = c.ratio * c.speed * c.step, angle = c.angle_deg * (std::numbers::pi / 180);
-  if (c.angle_deg == 180) return {-path, 0, 0};  // the sine of pi is not 0
-  return {path * std::cos(angle), path * std::sin(angle), 0};
-}
-
 Vec3<double> relative_path(const Crossing& c) { return slower_path(c) - faster_path(c); }
 
 double longest_contact(const Crossing& c) { return 2 * contact_distance(c) / relative_path(c).norm(); }
-
-bool is_parallel(const Crossing& c) { return c.ratio == 0 || c.angle_deg == 0 || c.angle_deg == 180; }
 
 Encounter random_encounter(const Crossing& c, const RandomStream& stream, std::uint64_t trial) {
   const double contact = contact_distance(c), disc = c.offset * contact;
@@ -263,14 +271,6 @@ double gap_at(const Encounter& e, double time) {
 double touch_theory(const Crossing& c) { return 1 / (c.offset * c.offset); }
 
 double false_overlap_theory(const Crossing& c) { return false_volume(c) / tube_volume(c); }
-
-double touch_at_end_theory(const Crossing& c) {
-  const double contact = contact_distance(c), path = relative_path(c).norm();
-  const double ball = 4 * std::numbers::pi / 3 * contact * contact * contact;
-  const double short_of = std::max(0.0, 2 * contact - path);
-  const double lens = std::numbers::pi * (4 * contact + path) * short_of * short_of / 12;  // overlaps at the start too
-  return (ball - lens) / tube_volume(c);
-}
 
 ConfirmedTheory confirmed_theory(const Crossing& c) {
   const Moments sum = confirmed_moments(c);

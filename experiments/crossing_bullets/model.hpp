@@ -27,7 +27,7 @@ struct Crossing {
 inline constexpr Crossing head_on = {
     .speed = 10, .step = 1.0 / 60, .radius = 0.02, .ratio = 1, .angle_deg = 180, .offset = 1};
 
-const Factors<Crossing>& crossing_factors();
+extern const Factors<Crossing> crossing_factors;
 
 /// `head_on` first, then every combination of the settings' factors in which the balls move against each other; `each` units come
 /// of one. Throws UsageError.
@@ -35,10 +35,8 @@ std::vector<Crossing> make_crossings(const Settings& settings, std::size_t each 
 
 double contact_distance(const Crossing& c);     ///< [m] R = 2 r
 Vec3<double> faster_path(const Crossing& c);    ///< [m] a, in one step
-Vec3<double> slower_path(const Crossing& c);    ///< [m] b
-Vec3<double> relative_path(const Crossing& c);  ///< [m] d = b - a: of the slower ball, seen from the faster
+Vec3<double> relative_path(const Crossing& c);  ///< [m] d = b - a, b the slower ball's: as seen from the faster
 double longest_contact(const Crossing& c);      ///< [1] the longest that two balls can be in contact, of a step
-bool is_parallel(const Crossing& c);            ///< both fly along one line, or the slower one rests
 
 struct Encounter {
   Moving<Sphere<double>> faster, slower;
@@ -70,11 +68,11 @@ struct ConfirmedTheory {
 
 double touch_theory(const Crossing& c);          ///< share of the encounters: the balls touch during the step
 double false_overlap_theory(const Crossing& c);  ///< ... what they sweep overlaps, and they do not touch
-double touch_at_end_theory(const Crossing& c);   ///< ... they overlap at the end of the step
 ConfirmedTheory confirmed_theory(const Crossing& c);
 
 struct CrossingTheory {
-  double touch, false_overlap, touch_at_end;  ///< shares of the encounters, as above
+  double touch, false_overlap;  ///< shares of the encounters, as above
+  double touch_at_end;          ///< ... they overlap at the end of the step
   ConfirmedTheory confirmed;
 };
 CrossingTheory theory_of(const Crossing& c);

@@ -1,7 +1,6 @@
 #include <thinwall/experiments/crossing_bullets/rules.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <thinwall/discrete/sphere.hpp>
 #include <thinwall/swept/methods.hpp>
@@ -98,7 +97,7 @@ std::vector<CrossingRule> all_crossing_rules() {
 }
 
 CrossingTally ask_all(const CrossingRule& rule, const Crossing& c, std::uint64_t seed, std::int64_t shots) {
-  const RandomStream stream = crossing_factors().stream(c, seed);
+  const RandomStream stream = crossing_factors.stream(c, seed);
   CrossingTally tally;
   for (std::int64_t i = 0; i < shots; ++i) {
     rule.ask(random_encounter(c, stream, static_cast<std::uint64_t>(i)), tally);

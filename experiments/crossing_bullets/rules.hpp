@@ -2,9 +2,7 @@
 /// The rules that the encounters are put to, sweeping both and the methods of finding the time of impact; and what is counted.
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <thinwall/experiments/crossing_bullets/model.hpp>

@@ -443,10 +443,9 @@ Outcome outcome_of(const std::vector<Row>& all) {
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  std::vector<std::string_view> pair_names, precision_names;
-  for (const ExtremePair& pair : extreme_pairs()) pair_names.push_back(pair.name);
+  std::vector<std::string_view> precision_names;
   for (const Precision precision : all_precisions) precision_names.push_back(name(precision));
-  const std::vector<std::string> pairs = settings.choices_or_all("pair", pair_names);
+  const std::vector<std::string> pairs = settings.choices_or_all("pair", names_of(extreme_pairs()));
   const std::vector<std::string> precisions = settings.choices_or_all("precision", precision_names);
   const std::vector<std::string> methods = settings.choices_or_all("method", extreme_method_names());
   const std::int64_t queries = settings.trials("queries", 1, 1 << 20, options.trials);

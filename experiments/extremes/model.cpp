@@ -126,8 +126,7 @@ Extreme extreme_at(const Place& place) {
 }
 
 std::vector<Place> make_places(const Settings& settings) {
-  std::vector<std::string_view> names;
-  for (const AxisInfo& axis : axes) names.push_back(axis.name);
+  const std::vector<std::string_view> names = names_of(axes);
   const std::vector<std::string> chosen = settings.choices_or_all("axis", names);
   std::vector<Place> places;
   for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -48,7 +48,7 @@ Rows of_rule(const Rows& rows, const HitscanRule& rule) {
 // What the tables show.
 
 /// The factors of these names, in this order.
-auto columns_in_turn(auto cell, auto... names) { return together(hitscan_factors().columns(cell, {names})...); }
+auto columns_in_turn(auto cell, auto... names) { return together(hitscan_factors.columns(cell, {names})...); }
 
 Columns<Row> row_columns() {
   return columns_of<Row>(
@@ -365,7 +365,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   const std::int64_t shots = settings.trials("shots", 1, std::int64_t(1) << 30, options.trials);
   const std::vector<Cell> cells = make_hitscan_cells(settings);
   auto tasks = tasks_of(
-      cells, [](const Cell& c) { return hitscan_factors().key(c); }, shots,
+      cells, [](const Cell& c) { return hitscan_factors.key(c); }, shots,
       [=, seed = options.seed](const Cell& c) { return shoot(rules, c, seed, shots); });
   const auto finish = [cells, rules](const Done<std::vector<Tally>>& done) {
     Rows rows;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ void check(const Settings& settings, const HitscanCell& c) {
   const auto arc = arc_of<double>(c);
   const double speed = arc.at_distance(c.range + reach(c)).vx;  // past the target
   const auto demand = [&](bool is_met, std::string_view key, const std::string& allowed) {
-    if (!is_met) settings.complain(key, fmt::format("{}; not so at {}", allowed, hitscan_factors().key(c)));
+    if (!is_met) settings.complain(key, fmt::format("{}; not so at {}", allowed, hitscan_factors.key(c)));
   };
   demand(c.range > 2 * reach(c), "range", "more than 2 * (target + radius)");
   demand(reach(c) >= least_reach * c.range, "target",
@@ -35,6 +36,23 @@ void check(const Settings& settings, const HitscanCell& c) {
                      most_bend));
   demand(speed * c.step >= least_path * reach(c), "step",
          fmt::format("a path of at least {} of target + radius a step", least_path));
+}
+
+/// [s] Since firing: the steps in turn, from the last but one before `time` to the first that `is_last`. The gun goes off `phase` [1], in
+/// [0, 1), of a step after a frame, so that the first step is shorter.
+std::vector<Interval> steps_from(double time, const HitscanCell& c, double phase,
+                                 const std::function<bool(const Interval&)>& is_last) {
+  std::vector<Interval> steps;
+  double frame = std::max(0.0, std::floor(time / c.step + phase) - 1);
+  for (; steps.empty() || !is_last(steps.back()); ++frame)
+    steps.push_back({frame > 0 ? (frame - phase) * c.step : 0, (frame + 1 - phase) * c.step});
+  return steps;
+}
+
+/// To the one that ends the window of contact.
+std::vector<Interval> steps_near_target(const HitscanCell& c, double phase) {
+  const Interval window = contact_window(c);
+  return steps_from(window.lower, c, phase, [&](const Interval& step) { return step.upper >= window.upper; });
 }
 
 /// A straight bit of the way a rule takes the bullet to fly. A line takes no time.
@@ -74,25 +92,22 @@ std::string_view known_name(const HitscanCell& c) {
   return known == known_shots.end() ? std::string_view() : known->name;
 }
 
-const Factors<HitscanCell>& hitscan_factors() {
-  using C = HitscanCell;
-  static const Factors<C> all = factors<C>(
-      numbers("range", &C::range, {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"},
-              "From the muzzle to the plane of the target's center."),
-      numbers("speed", &C::speed, {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m/s"}, "At the muzzle."),
-      numbers("radius", &C::radius, {.lower = 0, .upper = 1e3, .unit = "m"}, "Of the bullet."),
-      numbers("wind", &C::wind, {.lower = 0, .upper = 1e3, .unit = "m/s"},
-              "Across the line of fire; 0 where there is no drag."),
-      numbers("drag", &C::drag, {.lower = 0, .upper = 1e3, .unit = "1/s"},
-              "Share of its speed, as seen from the air, that the bullet loses a second."),
-      numbers("step", &C::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"},
-              "Time step of the frames."),
-      numbers("target", &C::target, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Radius of the target."),
-      number("gravity", &C::gravity, {.lower = 0, .upper = 1e3, .unit = "m/s^2"}, "Downward."),
-      number("aim", &C::aim, {.lower = 1.1, .upper = 100},
-             "Size of the discs that the target's center is drawn from."));
-  return all;
-}
+const Factors<HitscanCell> hitscan_factors = factors<HitscanCell>(
+    numbers("range", &HitscanCell::range, {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m"},
+            "From the muzzle to the plane of the target's center."),
+    numbers("speed", &HitscanCell::speed, {.lower = 0, .upper = 1e6, .lower_open = true, .unit = "m/s"},
+            "At the muzzle."),
+    numbers("radius", &HitscanCell::radius, {.lower = 0, .upper = 1e3, .unit = "m"}, "Of the bullet."),
+    numbers("wind", &HitscanCell::wind, {.lower = 0, .upper = 1e3, .unit = "m/s"},
+            "Across the line of fire; 0 where there is no drag."),
+    numbers("drag", &HitscanCell::drag, {.lower = 0, .upper = 1e3, .unit = "1/s"},
+            "Share of its speed, as seen from the air, that the bullet loses a second."),
+    numbers("step", &HitscanCell::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"},
+            "Time step of the frames."),
+    numbers("target", &HitscanCell::target, {.lower = 1e-9, .upper = 1e3, .unit = "m"}, "Radius of the target."),
+    number("gravity", &HitscanCell::gravity, {.lower = 0, .upper = 1e3, .unit = "m/s^2"}, "Downward."),
+    number("aim", &HitscanCell::aim, {.lower = 1.1, .upper = 100},
+           "Size of the discs that the target's center is drawn from."));
 
 Vec3<double> pull_direction(const HitscanCell& c) {
   const double pull = arc_of<double>(c).pull;
@@ -110,23 +125,9 @@ Interval contact_window(const HitscanCell& c) {
   return {arc.time_to(c.range - reach(c)), arc.time_to(c.range + reach(c))};
 }
 
-std::vector<Interval> steps_from(double time, const HitscanCell& c, double phase,
-                                 const std::function<bool(const Interval&)>& is_last) {
-  std::vector<Interval> steps;
-  double frame = std::max(0.0, std::floor(time / c.step + phase) - 1);
-  for (; steps.empty() || !is_last(steps.back()); ++frame)
-    steps.push_back({frame > 0 ? (frame - phase) * c.step : 0, (frame + 1 - phase) * c.step});
-  return steps;
-}
-
-std::vector<Interval> steps_near_target(const HitscanCell& c, double phase) {
-  const Interval window = contact_window(c);
-  return steps_from(window.lower, c, phase, [&](const Interval& step) { return step.upper >= window.upper; });
-}
-
 std::vector<HitscanCell> make_hitscan_cells(const Settings& settings) {
   bool any = false;
-  const auto fired = hitscan_factors().first_fastest().cells(settings, 1, {}, [&](HitscanCell& c) {
+  const auto fired = hitscan_factors.first_fastest().cells(settings, 1, {}, [&](HitscanCell& c) {
     if (c.drag == 0) c.wind = 0;  // without drag a wind does nothing
     if (c.drag * (c.range + reach(c)) > (1 - least_speed_left) * c.speed) return false;
     any = true;
@@ -213,7 +214,7 @@ double HitscanSpread::mean() const {
 
 std::vector<HitscanTally> shoot(const std::vector<HitscanRule>& rules, const HitscanCell& c, std::uint64_t seed,
                                 std::int64_t shots) {
-  const RandomStream stream = hitscan_factors().stream(c, seed);
+  const RandomStream stream = hitscan_factors.stream(c, seed);
   const Vec3<double> arc_at_range = Vec3<double>(c.range, 0, 0) + pull_direction(c) * deflection(c);
   HitscanTally none;
   none.lateness.unit = contact_window(c).upper + c.step;

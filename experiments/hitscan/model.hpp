@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -116,7 +115,7 @@ inline constexpr std::array<KnownShot, 4> known_shots = {{
 }};
 std::string_view known_name(const HitscanCell& c);  ///< of a known shot; otherwise empty
 
-const Factors<HitscanCell>& hitscan_factors();
+extern const Factors<HitscanCell> hitscan_factors;
 
 /// `known_shots` first, then every combination of the settings' factors in which the bullet arrives. Throws UsageError.
 std::vector<HitscanCell> make_hitscan_cells(const Settings& settings);
@@ -135,13 +134,6 @@ Vec3<double> pull_direction(const HitscanCell& c);  ///< unit, across x; down if
 double disc_radius(const HitscanCell& c);           ///< [m] of the two discs that the target's center is drawn from
 /// [s] When the bullet is as near to the target's plane as contact needs.
 Interval contact_window(const HitscanCell& c);
-
-/// [s] Since firing: the steps in turn, from the last but one before `time` to the first that `is_last`. The gun goes off `phase` [1], in
-/// [0, 1), of a step after a frame, so that the first step is shorter.
-std::vector<Interval> steps_from(double time, const HitscanCell& c, double phase,
-                                 const std::function<bool(const Interval&)>& is_last);
-/// To the one that ends the window of contact.
-std::vector<Interval> steps_near_target(const HitscanCell& c, double phase);
 
 // The shots and the oracle: no rule is in here.
 

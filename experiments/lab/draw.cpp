@@ -177,6 +177,12 @@ std::string prepare(const fs::path& folder, const std::string& name, const fs::p
   return error.what();
 }
 
+/// The files that NAME.gp writes in a format: svg, pdf or tex.
+std::vector<std::string> drawn_files(const std::string& name, const std::string& format) {
+  if (format == "tex") return {name + "-latex.tex", name + "-latex.pdf"};
+  return {name + "." + format};
+}
+
 }  // namespace
 
 std::string figure_json(const Figure& figure) {
@@ -184,11 +190,6 @@ std::string figure_json(const Figure& figure) {
   for (const Panel& panel : figure.panels) out["panels"].push_back(json_of(panel));
   if (!figure.roster.empty()) out["roster"] = figure.roster;
   return json_line(out);
-}
-
-std::vector<std::string> drawn_files(const std::string& name, const std::string& format) {
-  if (format == "tex") return {name + "-latex.tex", name + "-latex.pdf"};
-  return {name + "." + format};
 }
 
 std::string draw(const std::filesystem::path& folder, const std::string& name, const std::string& format) {

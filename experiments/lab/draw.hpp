@@ -66,11 +66,8 @@ ProcessResult run_process(const std::vector<std::string>& words, const std::file
 
 // ---- What gnuplot makes of the script of a figure and its data, written as above.
 
-/// The files that NAME.gp writes in a format: svg, pdf or tex.
-std::vector<std::string> drawn_files(const std::string& name, const std::string& format);
-
-/// Runs `folder`/NAME.gp through gnuplot, which writes `drawn_files` there. Returns what went wrong, in one line; empty if
-/// nothing did.
+/// Runs `folder`/NAME.gp through gnuplot, which writes its files of that format there: svg, pdf or tex. Returns what went wrong,
+/// in one line; empty if nothing did.
 std::string draw(const std::filesystem::path& folder, const std::string& name, const std::string& format = "svg");
 
 /// An SVG to stand inside an HTML page: without its prolog, its ids made unique by `name`, and described by `label`.

@@ -2,7 +2,6 @@
 /// Values as one line of text for a run's journal: every bit is kept, and none is a tab or a newline.
 
 #include <algorithm>
-#include <array>
 #include <concepts>
 #include <cstdint>
 #include <functional>

@@ -98,9 +98,7 @@ class Settings {
 /// Those of a list of things with a `name` that the key's choices name, in the list's order.
 template <class Thing>
 std::vector<Thing> chosen(const Settings& settings, std::string_view key, const std::vector<Thing>& all) {
-  std::vector<std::string_view> names;
-  for (const Thing& thing : all) names.push_back(thing.name);
-  const std::vector<std::string> asked = settings.choices_or_all(key, names);
+  const std::vector<std::string> asked = settings.choices_or_all(key, names_of(all));
   return only(all, [&](const Thing& thing) { return std::ranges::find(asked, thing.name) != asked.end(); });
 }
 

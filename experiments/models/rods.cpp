@@ -224,11 +224,7 @@ RodTally try_all(const Cell& cell, std::uint64_t seed, std::int64_t first, std::
 
 }  // namespace
 
-std::vector<std::string_view> rod_method_names() {
-  std::vector<std::string_view> names;
-  for_each_type(TurningMethods<double>{}, [&]<class Method>(TypeTag<Method>) { names.push_back(Method::name); });
-  return names;
-}
+std::vector<std::string_view> rod_method_names() { return type_names(TurningMethods<double>{}); }
 
 std::vector<RodMethod> rod_methods(std::span<const std::string> names, std::span<const std::int64_t> substeps) {
   std::vector<RodMethod> all;

@@ -241,11 +241,7 @@ ShotStep random_step(const Target& target, const RandomStream& stream, std::uint
 }
 
 std::vector<std::string_view> method_names() {
-  std::vector<std::string_view> names;
-  for_each_type(Methods<double>{}, [&]<class Method>(TypeTag<Method>) {
-    if constexpr (serves<Method, Sphere<double>, Aabb<double>>) names.push_back(Method::name);
-  });
-  return names;
+  return type_names(Methods<double>{}, []<class M>(TypeTag<M>) { return serves<M, Sphere<double>, Aabb<double>>; });
 }
 
 std::vector<ThinWallMethod> thin_wall_methods(std::span<const std::string> names,

@@ -20,9 +20,6 @@ constexpr double spacing = 2.2, jitter = 0.7;  // [m] of the lattice of bodies; 
 constexpr double fast = 20;                    // [m/s] along each axis at most
 constexpr std::uint32_t debris = 2;            // a group that does not meet itself
 
-constexpr std::array<std::string_view, 7> scene_names = {"crowd",  "slow_crowd", "town", "told",
-                                                         "unread", "unasked",    "few"};
-
 std::int64_t cube_side(std::int64_t count) {
   std::int64_t side = 1;
   while (side * side * side < count) ++side;
@@ -158,8 +155,6 @@ std::int64_t count_tunneled(const PlanScene& scene, const WorldOptions& options,
 }
 
 }  // namespace
-
-std::span<const std::string_view> plan_scene_names() { return scene_names; }
 
 PlanScene make_plan_scene(std::string_view name, std::int64_t count, std::uint64_t seed) {
   PlanScene scene;

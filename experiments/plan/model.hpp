@@ -2,8 +2,8 @@
 /// Scenes that need everything, something and nothing of what a step can do, each stepped with its plan, with each omission taken
 /// back, with nothing omitted, and with the gate.
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +20,8 @@ struct PlanScene {
   WorldOptions options;
 };
 
-std::span<const std::string_view> plan_scene_names();
+inline constexpr std::array<std::string_view, 7> plan_scene_names = {"crowd",  "slow_crowd", "town", "told",
+                                                                     "unread", "unasked",    "few"};
 
 /// About `count` >= 2 bodies. `name` is one of the names. Bodies start apart, but for the tiles of a floor, which touch.
 PlanScene make_plan_scene(std::string_view name, std::int64_t count, std::uint64_t seed);

@@ -302,7 +302,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
                                .gate = settings.number("gate", {.lower = 0, .upper = 1000, .lower_open = true})};
   const std::int64_t count = settings.integer("count", 2, 100000);
   std::vector<Task<PlanRace>> races;
-  for (const std::string& name : settings.choices("scene", plan_scene_names())) {
+  for (const std::string& name : settings.choices("scene", plan_scene_names)) {
     const PlanScene scene = make_plan_scene(name, count, options.seed);
     races.push_back(
         {"scene " + name, std::ssize(scene.bodies) * how.rounds, [scene, how] { return race_plans(scene, how); }});

@@ -38,17 +38,11 @@ const Experiment* find_experiment(std::span<const Experiment> experiments, std::
 
 bool is_scene(const Experiment& experiment) { return experiment.name == "scene" || experiment.name == "compare"; }
 
-std::vector<std::string_view> experiment_names(std::span<const Experiment> experiments) {
-  std::vector<std::string_view> names;
-  for (const Experiment& experiment : experiments) names.push_back(experiment.name);
-  return names;
-}
-
 /// What the file is: the value of its key `experiment`; without one, a scene if it has the key `scene`.
 std::string experiment_named_in(const std::string& text, const std::string& file,
                                 std::span<const Experiment> experiments) {
   constexpr std::string_view key = "experiment";
-  const std::vector<std::string_view> names = experiment_names(experiments);
+  const std::vector<std::string_view> names = names_of(experiments);
   const Settings settings(text, file, "");
   if (settings.has(key)) return settings.choice(key, names);
   if (settings.has("scene")) return "scene";
@@ -147,7 +141,7 @@ ConfiguredRun configure_run(const std::string& target, const RunRequest& request
     const bool is_path = request.text || looks_like_a_file(target) || fs::exists(target, none);
     if (!is_path && !request.compare) {
       throw UsageError(fmt::format("'{}': unknown experiment; {}; or name a TOML file", one_line(target),
-                                   spelling_hint(target, experiment_names(experiments))));
+                                   spelling_hint(target, names_of(experiments))));
     }
     file = target;
     text = request.text ? *request.text : read_config(file);

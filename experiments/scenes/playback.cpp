@@ -1,7 +1,6 @@
 #include <thinwall/experiments/scenes/scene.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <thinwall/experiments/lab/json_reader.hpp>

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -206,8 +204,8 @@ WorldOptions world_options(const Settings& settings, int threads) {
   options.max_events = static_cast<int>(settings.integer("max_events", 1, 1'000'000));
   options.contact_rounds = static_cast<int>(settings.integer("contact_rounds", 0, 1000));
   options.correction = settings.number("correction", {.lower = 0, .upper = 1});
-  std::vector<std::string_view> broad_phases = {"auto"};
-  broad_phases.insert(broad_phases.end(), pair_finder_names().begin(), pair_finder_names().end());
+  std::vector<std::string_view> broad_phases = pair_finder_names();
+  broad_phases.insert(broad_phases.begin(), "auto");
   options.broad_phase = settings.choice("broad_phase", broad_phases);
   options.response = settings.flag("response");
   options.end_after = static_cast<int>(settings.integer("end_after", 1, 1'000'000));

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -103,12 +102,6 @@ BenchOutput bench_output_from_json(const std::string& program, const std::string
     throw std::runtime_error("what it wrote is not Google Benchmark's JSON: " + one_line(error.what()));
   }
   return output;
-}
-
-std::span<const std::string_view> bench_program_names() {
-  static constexpr std::array<std::string_view, 7> names = {"pairs", "methods",     "certified", "batch",
-                                                            "peers", "broad_phase", "world"};
-  return names;
 }
 
 fs::path built_benchmarks() {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +12,8 @@
 namespace thinwall {
 
 /// In the order of a round.
-std::span<const std::string_view> bench_program_names();
+inline constexpr std::array<std::string_view, 7> bench_program_names = {"pairs", "methods",     "certified", "batch",
+                                                                        "peers", "broad_phase", "world"};
 
 /// bench/ of the build tree that this program lies in; where that does not exist, where it would be.
 std::filesystem::path built_benchmarks();

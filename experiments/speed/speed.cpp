@@ -108,7 +108,7 @@ void add_round(TimedWay& timed, const BenchRow& row) {
 /// By program in the order of the suite, then as the program lists its rows.
 std::vector<TimedWay> ways(const std::vector<BenchOutput>& rounds) {
   std::vector<TimedWay> all;
-  for (const std::string_view program : bench_program_names()) {
+  for (const std::string_view program : bench_program_names) {
     for (const BenchOutput& output : rounds) {
       if (output.program != program) continue;
       for (const BenchRow& row : output.rows) {
@@ -304,7 +304,7 @@ std::optional<std::string> left_out(const BenchOutput& output) {
 /// A start of each program: every round has the same rows.
 std::vector<BenchOutput> first_starts(const std::vector<BenchOutput>& outputs) {
   std::vector<BenchOutput> starts;
-  for (const std::string_view name : bench_program_names()) {
+  for (const std::string_view name : bench_program_names) {
     const auto first = std::ranges::find(outputs, name, &BenchOutput::program);
     if (first != outputs.end()) starts.push_back(*first);
   }
@@ -578,7 +578,7 @@ Outcome outcome_of(const std::vector<BenchOutput>& outputs) {
 }
 
 std::unique_ptr<Run> configure_speed(const Settings& settings, const RunOptions& options) {
-  const std::vector<std::string> programs = settings.choices_or_all("programs", bench_program_names());
+  const std::vector<std::string> programs = settings.choices_or_all("programs", bench_program_names);
   const std::string named = settings.text("benchmarks");
   const std::filesystem::path folder = named.empty() ? built_benchmarks() : std::filesystem::path(named);
   const BenchOptions bench{settings.number("seconds", {.lower = 0.001, .upper = 100, .unit = "s"}),

@@ -138,24 +138,21 @@ double rest(double whole, double part) {
 
 }  // namespace
 
-const Factors<Sweep>& sweep_factors() {
-  static const Factors<Sweep> all = factors(
-      choices("shape", &Sweep::form, swept_form_names, "What moves."),
-      numbers("speed", &Sweep::speed, {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"}, "Of the shape."),
-      number("step", &Sweep::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}, "Time step."),
-      number("width", &Sweep::width, {.lower = 1e-9, .upper = 1e3, .unit = "m"},  // its cube is a double
-             "Diameter of the sphere, longest edge of a box."),
-      numbers("angle_deg", &Sweep::angle_deg, {.lower = 0, .upper = 90, .unit = "deg"},
-              "Between the motion and x, the axis of plate and rod."),
-      numbers("turn_deg", &Sweep::turn_deg, {.lower = 0, .upper = 90, .unit = "deg"},
-              "Where to the motion leans: 0 towards y, 90 towards z."),
-      numbers("obstacle", &Sweep::obstacle, {.lower = 0, .upper = 1000, .unit = "widths"},
-              "Diameter of the balls at rest."));
-  return all;
-}
+const Factors<Sweep> sweep_factors = factors(
+    choices("shape", &Sweep::form, swept_form_names, "What moves."),
+    numbers("speed", &Sweep::speed, {.lower = 0, .upper = 1e9, .lower_open = true, .unit = "m/s"}, "Of the shape."),
+    number("step", &Sweep::step, {.lower = 0, .upper = 1e3, .lower_open = true, .unit = "s"}, "Time step."),
+    number("width", &Sweep::width, {.lower = 1e-9, .upper = 1e3, .unit = "m"},  // its cube is a double
+           "Diameter of the sphere, longest edge of a box."),
+    numbers("angle_deg", &Sweep::angle_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+            "Between the motion and x, the axis of plate and rod."),
+    numbers("turn_deg", &Sweep::turn_deg, {.lower = 0, .upper = 90, .unit = "deg"},
+            "Where to the motion leans: 0 towards y, 90 towards z."),
+    numbers("obstacle", &Sweep::obstacle, {.lower = 0, .upper = 1000, .unit = "widths"},
+            "Diameter of the balls at rest."));
 
 SweepPlan make_sweeps(const Settings& settings, std::size_t each) {
-  std::vector<Sweep> cells = sweep_factors().cells(settings, each, {}, [&](Sweep& s) {
+  std::vector<Sweep> cells = sweep_factors.cells(settings, each, {}, [&](Sweep& s) {
     if (s.angle_deg == 0) s.turn_deg = 0;
     check(settings, s);
     return true;

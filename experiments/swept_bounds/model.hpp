@@ -36,7 +36,7 @@ inline constexpr std::array diagonals = {Sweep{SweptForm::sphere, 10, 1.0 / 60, 
                                          Sweep{SweptForm::cube, 10, 1.0 / 60, 0.04, 45, 0, 1}};
 bool is_diagonal(const Sweep& s);
 
-const Factors<Sweep>& sweep_factors();
+extern const Factors<Sweep> sweep_factors;
 
 inline constexpr double least_path = 1e-3, longest_path = 1e4;  ///< [widths]
 

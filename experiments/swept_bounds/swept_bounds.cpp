@@ -35,7 +35,7 @@ template <class Row> auto bound_column() {
 
 Columns<Row> row_columns() {
   const auto factors = [](std::initializer_list<std::string_view> names) {
-    return sweep_factors().columns(&Row::sweep, names);
+    return sweep_factors.columns(&Row::sweep, names);
   };
   const auto expected = [](double share, const Row& r) { return share * static_cast<double>(r.tally.shots); };
   return columns_of<Row>(
@@ -301,13 +301,13 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
 
   std::vector<Task<Tally>> counted;
   for (const SweepPair& pair : asked->pairs) {
-    counted.push_back({fmt::format("{} {}", sweep_factors().key(pair.sweep), pair.bound->name), 2 * shots,
+    counted.push_back({fmt::format("{} {}", sweep_factors.key(pair.sweep), pair.bound->name), 2 * shots,
                        [asked, &pair, shots, seed = options.seed] { return count_balls(pair, seed, shots); }});
   }
   std::vector<Task<std::int64_t>> timed;
   for (std::int64_t round = 0; round < repeats; ++round) {
     for (const TimedSubject& t : asked->subjects) {
-      const std::string key = sweep_factors().key(t.pair.sweep);
+      const std::string key = sweep_factors.key(t.pair.sweep);
       timed.push_back({fmt::format("time {} {} {} {}", round, key, t.pair.bound->name, name(t.work)), t.tests(),
                        [asked, &t] { return t.pair.bound->repeat(t.work, t.pair.sweep, t.balls, t.passes); }});
     }

@@ -13,7 +13,7 @@ namespace thinwall {
 
 template <class Cell> class Factors;  // lab/factors.hpp
 
-const Factors<Cell>& cell_factors();  ///< all but the wall's size, which is the same in every finite wall
+extern const Factors<Cell> cell_factors;  ///< all but the wall's size, which is the same in every finite wall
 
 struct ShotPlan {
   std::vector<Cell> cells;  ///< the bullet first, then every combination of the settings' factors

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -75,7 +74,7 @@ template <class Row> Columns<Row> method_columns() {
 }
 
 Columns<Row> cell_columns() {
-  return columns_of<Row>(method_columns<Row>(), cell_factors().columns(&Row::cell),
+  return columns_of<Row>(method_columns<Row>(), cell_factors.columns(&Row::cell),
                          where(is_finite, value("wall_size", "m", "Side of the square; missing for an infinite wall.",
                                                 of(&Row::cell, &Cell::wall_size))));
 }
@@ -488,7 +487,7 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
   std::vector<Task<Tally>> fired;
   std::vector<Task<Counts>> spread;
   for (const Cell& cell : plan->cells) {
-    const std::string where = cell_factors().key(cell);
+    const std::string where = cell_factors.key(cell);
     std::int64_t even = 0;
     for (const ThinWallMethod& method : plan->methods) {
       for (const Volley& volley : volleys) {
@@ -576,26 +575,24 @@ std::vector<Cell> make_cells(const Settings& settings, std::size_t each) {
       settings.complain(fault->key == "speed" ? step_or_speed(settings) : fault->key, fault->expected);
     return cell != bullet;
   };
-  std::vector<Cell> cells = cell_factors().cells(settings, each, {}, other_than_bullet);
+  std::vector<Cell> cells = cell_factors.cells(settings, each, {}, other_than_bullet);
   cells.insert(cells.begin(), bullet);
   return cells;
 }
 
 }  // namespace
 
-const Factors<Cell>& cell_factors() {
-  static constexpr std::array<std::string_view, 2> walls = {"infinite", "finite"};
-  static const Factors<Cell> all =
-      factors(numbers("speed", &Cell::speed, allowed_speed, "Speed of the ball."),
-              numbers("step", &Cell::step, allowed_step, "Time between two poses."),
-              numbers("radius", &Cell::radius, allowed_radius, "Radius of the ball."),
-              numbers("thickness", &Cell::thickness, allowed_thickness, "Thickness of the wall."),
-              numbers("angle_deg", &Cell::angle_deg, allowed_angle,
-                      "Angle of incidence, between the motion and the wall's normal."),
-              choices("wall", &Cell::wall, walls, "Infinite, or a finite square."))
-          .first_fastest();
-  return all;
-}
+constexpr std::array<std::string_view, 2> walls = {"infinite", "finite"};
+
+const Factors<Cell> cell_factors =
+    factors(numbers("speed", &Cell::speed, allowed_speed, "Speed of the ball."),
+            numbers("step", &Cell::step, allowed_step, "Time between two poses."),
+            numbers("radius", &Cell::radius, allowed_radius, "Radius of the ball."),
+            numbers("thickness", &Cell::thickness, allowed_thickness, "Thickness of the wall."),
+            numbers("angle_deg", &Cell::angle_deg, allowed_angle,
+                    "Angle of incidence, between the motion and the wall's normal."),
+            choices("wall", &Cell::wall, walls, "Infinite, or a finite square."))
+        .first_fastest();
 
 ShotPlan make_plan(const Settings& settings, const RunOptions& options) {
   ShotPlan plan;

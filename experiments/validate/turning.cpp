@@ -136,22 +136,9 @@ std::vector<fs::path> turning_files(const fs::path& place) {
   std::error_code error;
   const std::string said = one_line(place.string());
   if (!fs::exists(place, error)) throw UsageError(said + ": there is no such file or folder");
-  std::vector<fs::path> files;
-  if (fs::is_directory(place, error)) {
-    for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
-      if (entry->path().extension() == ".csv") files.push_back(entry->path());
-    }
-    if (error) throw UsageError(said + ": cannot be read: " + error.message());
-    if (files.empty()) throw UsageError(said + ": has no CSV files of queries");
-    std::ranges::sort(files);
-  } else {
-    files.push_back(place);
-  }
-  for (const fs::path& file : files) {
-    if (!fs::is_regular_file(file, error))
-      throw UsageError(one_line(file.string()) + ": is not a regular file; no other is read");
-  }
-  return files;
+  if (fs::is_directory(place, error)) return query_files(place, false);
+  if (!fs::is_regular_file(place, error)) throw UsageError(said + ": is not a regular file; no other is read");
+  return {place};
 }
 
 // ---- Asking and judging.

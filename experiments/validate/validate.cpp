@@ -226,7 +226,7 @@ std::optional<PublishedQuery> QueryFile::next() {
   return query;
 }
 
-std::vector<fs::path> query_files(const fs::path& folder) {
+std::vector<fs::path> query_files(const fs::path& folder, bool below) {
   std::error_code error;
   if (!fs::exists(folder, error)) {
     throw UsageError(shown(folder) + (error ? ": cannot be read: " + error.message() : ": there is no such folder"));
@@ -234,14 +234,15 @@ std::vector<fs::path> query_files(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) throw UsageError(shown(folder) + ": is not a folder");
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().extension() != ".csv") continue;
-    if (!entry->is_regular_file(error))
-      throw UsageError(shown(entry->path()) + ": is not a regular file; no other is read");
-    files.push_back(entry->path());
+    if (!below) entry.disable_recursion_pending();
+    if (entry->path().extension() == ".csv") files.push_back(entry->path());
   }
   if (error) throw UsageError(shown(folder) + ": cannot be read: " + error.message());
   if (files.empty()) throw UsageError(shown(folder) + ": has no CSV files of queries");
   std::ranges::sort(files);
+  for (const fs::path& file : files) {
+    if (!fs::is_regular_file(file, error)) throw UsageError(shown(file) + ": is not a regular file; no other is read");
+  }
   return files;
 }
 

@@ -70,8 +70,8 @@ class QueryFile {
   Primitives primitives_ = Primitives::vertex_face;
 };
 
-/// Every CSV file below `folder`, by name. Throws UsageError if the folder is missing, unreadable or has none.
-std::vector<std::filesystem::path> query_files(const std::filesystem::path& folder);
+/// Every CSV file below `folder`, or in it alone, by name. Throws UsageError if that is missing, unreadable or has none.
+std::vector<std::filesystem::path> query_files(const std::filesystem::path& folder, bool below = true);
 
 // ---- From a published query, whose vertices move each on its own, to one that the library serves: two shapes that translate.
 

@@ -401,9 +401,8 @@ void check_served(const Settings& settings, const QuerySet& set, const Choice& s
 }
 
 std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& options) {
-  std::vector<std::string_view> set_names;
-  for (const QuerySet& set : query_sets()) set_names.push_back(set.name);
-  const Choice sets = choice_of(settings, "set", set_names), methods = choice_of(settings, "method", all_methods());
+  const Choice sets = choice_of(settings, "set", names_of(query_sets())),
+               methods = choice_of(settings, "method", all_methods());
   static constexpr std::array<std::string_view, 2> all_scalars = {"float", "double"};
   const std::vector<std::string> scalars = settings.choices("scalar", all_scalars);
 

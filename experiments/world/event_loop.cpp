@@ -242,10 +242,7 @@ void EventLoop::answer(const Touch& touch, Answer how) {
     bounce(mover(ends[0]), mover(ends[1]), touch.normal, touch.point);
     ++counts_.impulses;
   }
-  if (touch.penetration > 0) {
-    part_bodies(scene_.bodies[ends[0]], scene_.bodies[ends[1]], motions_[ends[0]], motions_[ends[1]], touch.normal,
-                touch.penetration, scene_.options.correction);
-  }
+  if (touch.penetration > 0) part_bodies(scene_.bodies, motions_, touch, scene_.options.correction);
   for (int k = 0; k < 2; ++k) {
     BodyMotion& motion = motions_[ends[k]];
     if (!is_moved_by_impulses(scene_.bodies[ends[k]])) continue;

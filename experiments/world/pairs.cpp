@@ -512,14 +512,7 @@ template <class BroadPhase> struct Named final : PairFinder {
 
 }  // namespace
 
-const std::vector<std::string_view>& pair_finder_names() {
-  static const std::vector<std::string_view> all = [] {
-    std::vector<std::string_view> names;
-    for_each_type(BroadPhases{}, [&]<class T>(TypeTag<T>) { names.push_back(T::name); });
-    return names;
-  }();
-  return all;
-}
+std::vector<std::string_view> pair_finder_names() { return type_names(BroadPhases{}); }
 
 std::unique_ptr<PairFinder> make_pair_finder(std::string_view name) {
   std::unique_ptr<PairFinder> finder;

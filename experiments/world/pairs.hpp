@@ -210,15 +210,6 @@ inline bool bounce(const Mover& a, const Mover& b, const Vec3<double>& normal, c
   return true;
 }
 
-/// Undoes `part` [1] of a penetration [m], the lighter body moving more.
-inline void part_bodies(const Body& body_a, const Body& body_b, BodyMotion& a, BodyMotion& b,
-                        const Vec3<double>& normal, double penetration, double part) {
-  if (!is_moved_by_impulses(body_a) && !is_moved_by_impulses(body_b)) return;
-  const double way = penetration * part;
-  if (is_moved_by_impulses(body_a)) a.offset -= normal * (way * share_of(body_a, body_b));
-  if (is_moved_by_impulses(body_b)) b.offset += normal * (way * share_of(body_b, body_a));
-}
-
 // ---- The box that holds a body in what is left of a step, as the broad phase wants it.
 
 /// [rad] How far it turns in what is left of the step of dt [s] after `time` [1].
@@ -271,6 +262,15 @@ struct Touch {
   Vec3<double> point = Vec3<double>::Zero();   ///< [m]
   double penetration = 0;                      ///< [m] >= 0; at an instant alone
 };
+
+/// Undoes `part` [1] of the penetration, the lighter body moving more.
+inline void part_bodies(std::span<const Body> bodies, std::vector<BodyMotion>& motions, const Touch& touch,
+                        double part) {
+  const Body &a = bodies[touch.first], &b = bodies[touch.second];
+  const double way = touch.penetration * part;
+  if (is_moved_by_impulses(a)) motions[touch.first].offset -= touch.normal * (way * share_of(a, b));
+  if (is_moved_by_impulses(b)) motions[touch.second].offset += touch.normal * (way * share_of(b, a));
+}
 
 /// What a question cost, for the report.
 struct Asked {
@@ -365,7 +365,7 @@ class PairFinder {
   virtual void find(std::span<const Proxy> proxies, std::vector<ProxyPair>& pairs, std::size_t max_pairs) = 0;
 };
 
-const std::vector<std::string_view>& pair_finder_names();  ///< of BroadPhases, in its order
+std::vector<std::string_view> pair_finder_names();  ///< of BroadPhases, in its order
 
 std::unique_ptr<PairFinder> make_pair_finder(std::string_view name);  ///< one of those
 

@@ -105,18 +105,6 @@ Plan plan(std::span<const Body> bodies, const WorldOptions& options) {
   return plan;
 }
 
-std::span<const std::string_view> omission_names() {
-  static constexpr auto names = std::to_array<std::string_view>(
-      {"contacts", "events", "response", "broad phase", "pairs of disjoint boxes", "static pairs", "masked pairs",
-       "motion of bodies at rest", "kernels of absent shapes"});
-  return names;
-}
-
-std::span<const std::string_view> spin_omission_names() {
-  static constexpr std::array<std::string_view, 2> names = {"spin", "spin short of the gap"};
-  return names;
-}
-
 std::string to_text(const Plan& plan) {
   std::size_t width = 0;
   for (const PlanLine& line : plan.lines) width = std::max(width, line.what.size());

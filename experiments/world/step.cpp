@@ -111,9 +111,14 @@ void Stepper::mark_proxies(bool as_they_are) {
   }
 }
 
-/// Hands all pairs that may touch to `ask`: those that the broad phase finds, or, where disjoint boxes are not left out, every two
-/// bodies, a bounded number at a time; then what they may not do to each other is dropped.
+/// Places the bodies, then hands all pairs that may touch to `ask`: those that the broad phase finds, or, where disjoint
+/// boxes are not left out, every two bodies, a bounded number at a time; then what they may not do to each other is dropped.
 void Stepper::find_touches(const std::function<Asked(std::span<const ProxyPair>)>& ask) {
+  {
+    const PhaseClock clock(counts_.seconds.narrow);
+    narrow_->place(bodies_, motions_, spins_, dt_, all_anew_);
+  }
+  found_.clear();
   const bool drops = plan_.static_pairs || plan_.masked_pairs;
   const auto ask_pairs = [&] {
     const Asked asked = ask(pairs_);
@@ -179,11 +184,6 @@ void Stepper::sampled_step(int parts) {
       box(0);
     }
     if (!plan_.contacts) continue;
-    {
-      const PhaseClock clock(counts_.seconds.narrow);
-      narrow_->place(bodies_, motions_, spins_, dt_, all_anew_);
-    }
-    found_.clear();
     find_touches([&](std::span<const ProxyPair> pairs) { return narrow_->look(pairs, found_); });
     all_anew_ = plan_.resting_bounds;
     for (Touch& touch : found_) touch.time = k == parts ? 1 : static_cast<double>(k) / parts;
@@ -235,10 +235,7 @@ void Stepper::respond_at_instant(std::vector<BodyMotion>& motions, std::vector<S
       ++counts_.impulses;
     }
   }
-  for (const Touch& touch : found_) {
-    part_bodies(bodies_[touch.first], bodies_[touch.second], motions[touch.first], motions[touch.second], touch.normal,
-                touch.penetration, options_.correction);
-  }
+  for (const Touch& touch : found_) part_bodies(bodies_, motions, touch, options_.correction);
 }
 
 // ---- The policies that look at all of the motion.
@@ -253,11 +250,6 @@ void Stepper::swept_step() {
     go_straight_on();
     return;
   }
-  {
-    const PhaseClock clock(counts_.seconds.narrow);
-    narrow_->place(bodies_, motions_, spins_, dt_, all_anew_);
-  }
-  found_.clear();
   find_touches([&](std::span<const ProxyPair> pairs) { return narrow_->sweep(pairs, 0, options_.gate, found_); });
   const PhaseClock clock(counts_.seconds.response);
   if (plan_.response) {
@@ -308,10 +300,7 @@ void Stepper::play(std::vector<BodyMotion>& motions, std::vector<Spin>& spins, s
   }
   std::vector<Touch> still;
   narrow_->look(overlapping, still);
-  for (const Touch& touch : still) {
-    part_bodies(bodies_[touch.first], bodies_[touch.second], motions[touch.first], motions[touch.second], touch.normal,
-                touch.penetration, options_.correction);
-  }
+  for (const Touch& touch : still) part_bodies(bodies_, motions, touch, options_.correction);
 }
 
 }  // namespace thinwall

@@ -74,7 +74,7 @@ void require_valid(const WorldOptions& options) {
     const auto is_one = [&](std::span<const std::string_view> names) {
       return std::find(names.begin(), names.end(), kept) != names.end();
     };
-    require(is_one(omission_names()) || is_one(spin_omission_names()), "there is no omission '" + kept + "' to keep");
+    require(is_one(omission_names) || is_one(spin_omission_names), "there is no omission '" + kept + "' to keep");
   }
   if (options.broad_phase == "auto") return;
   std::string names = "auto";
@@ -93,155 +93,115 @@ std::vector<Body> checked_and_sorted(std::vector<Body> bodies) {
   return bodies;
 }
 
-struct World::Impl {
-  Impl(std::vector<Body> given, WorldOptions wanted)
-      : options(std::move(wanted)),
-        bodies(checked_and_sorted(std::move(given))),
-        plan(thinwall::plan(bodies, options)),
-        stepper(options, plan),
-        events(options.end_after),
-        unread(options.end_after) {
-    for (const Body& body : bodies) {
-      if (!body.name.empty()) events.name(body.id, body.name);
-    }
+World::World(std::vector<Body> bodies, WorldOptions options)
+    : options_((require_valid(options), std::move(options))),
+      bodies_(checked_and_sorted(std::move(bodies))),
+      plan_(thinwall::plan(bodies_, options_)),
+      stepper_(std::make_unique<Stepper>(options_, plan_)),
+      events_(options_.end_after),
+      unread_(options_.end_after) {
+  for (const Body& body : bodies_) {
+    if (!body.name.empty()) events_.name(body.id, body.name);
   }
-
-  void step(double dt);
-  void commit(double dt);
-  void tell(double start, double dt);
-  const Body* find(std::uint32_t id) const;
-  std::size_t place_of(std::uint32_t id) const;
-  template <class Change> void change(std::uint32_t id, const Change& by_hand);
-
-  WorldOptions options;
-  std::vector<Body> bodies;
-  Plan plan;
-  Stepper stepper;
-  CollisionEvents events;
-  CollisionEvents unread;  // what nobody reads, where nothing is omitted
-  StepReport report;
-  std::vector<Hit> hits;
-  double time = 0;                // [s]
-  double since = 0, last_dt = 0;  // [s] the time is since + equal_steps * last_dt: adding up would drift
-  std::uint64_t equal_steps = 0;
-  bool changed_by_hand = true, stepping = false;
-};
-
-void World::Impl::step(double dt) {
-  if (!(dt > 0) || !is_finite(dt)) throw WorldError("world: a step must be > 0 s and finite");
-  if (stepping) throw WorldError("world: a listener must not step the world that told it");
-  stepper.run(bodies, dt, changed_by_hand);  // throws, or all of the step is known
-  const double start = time;
-  commit(dt);
-  const RaisedFlag guard(stepping);
-  tell(start, dt);
-}
-
-void World::Impl::commit(double dt) {
-  const std::uint64_t number = report.step + 1;
-  report = stepper.counts();
-  const PhaseClock clock(report.seconds.integrate);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!can_move(bodies[i])) continue;
-    const BodyMotion& motion = stepper.motions()[i];
-    bodies[i].velocity = motion.velocity;
-    if (const Spin* const spin = spin_of(stepper.spins(), bodies[i], i)) {
-      bodies[i].angular_velocity = spin->velocity;
-      if (spin->turned != Mat3<double>::Identity()) bodies[i].shape = turned_true(bodies[i].shape, spin->turned);
-    }
-    move_shape(bodies[i].shape, motion.offset);
-  }
-  if (dt != last_dt) {
-    since = time;
-    last_dt = dt;
-    equal_steps = 0;
-  }
-  time = since + static_cast<double>(++equal_steps) * dt;
-  changed_by_hand = false;
-  report.step = number;
-  report.time = time;
-}
-
-void World::Impl::tell(double start, double dt) {
-  const PhaseClock clock(report.seconds.events);
-  hits.clear();
-  for (const Touch& touch : stepper.touches()) {
-    const double when = touch.time == 1 ? time : start + touch.time * dt;
-    hits.push_back({bodies[touch.first].id, bodies[touch.second].id, when, touch.at_start, touch.normal, touch.point});
-  }
-  if (!plan.events) return;
-  CollisionEvents& told = options.events ? events : unread;
-  for (const Hit& hit : hits) told.meet(hit.first, hit.second, hit.time);
-  told.finish_step(time);
-}
-
-const Body* World::Impl::find(std::uint32_t id) const {
-  const auto at = std::ranges::lower_bound(bodies, id, {}, &Body::id);
-  return at == bodies.end() || at->id != id ? nullptr : &*at;
-}
-
-std::size_t World::Impl::place_of(std::uint32_t id) const {
-  const Body* const found = find(id);
-  if (!found) throw WorldError("world: there is no body with id " + std::to_string(id));
-  return static_cast<std::size_t>(found - bodies.data());
-}
-
-/// If the world can hold what comes of it.
-template <class Change> void World::Impl::change(std::uint32_t id, const Change& by_hand) {
-  Body& body = bodies[place_of(id)];
-  Body changed = body;
-  by_hand(changed);
-  require_valid(changed);
-  body = std::move(changed);
-}
-
-World::World(std::vector<Body> bodies, WorldOptions options) {
-  require_valid(options);
-  impl_ = std::make_unique<Impl>(std::move(bodies), std::move(options));
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 const StepReport& World::step(double dt) {
-  impl_->step(dt);
-  return impl_->report;
+  if (!(dt > 0) || !is_finite(dt)) throw WorldError("world: a step must be > 0 s and finite");
+  if (stepping_) throw WorldError("world: a listener must not step the world that told it");
+  stepper_->run(bodies_, dt, changed_by_hand_);  // throws, or all of the step is known
+  const double start = time_;
+  commit(dt);
+  const RaisedFlag guard(stepping_);
+  tell(start, dt);
+  return report_;
 }
 
-const std::vector<Body>& World::bodies() const { return impl_->bodies; }
-const Body* World::find(std::uint32_t id) const { return impl_->find(id); }
-double World::time() const { return impl_->time; }
-const StepReport& World::report() const { return impl_->report; }
-const std::vector<Hit>& World::hits() const { return impl_->hits; }
-CollisionEvents& World::events() { return impl_->events; }
-const CollisionEvents& World::events() const { return impl_->events; }
-const Plan& World::plan() const { return impl_->plan; }
-const WorldOptions& World::options() const { return impl_->options; }
+void World::commit(double dt) {
+  const std::uint64_t number = report_.step + 1;
+  report_ = stepper_->counts();
+  const PhaseClock clock(report_.seconds.integrate);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!can_move(bodies_[i])) continue;
+    const BodyMotion& motion = stepper_->motions()[i];
+    bodies_[i].velocity = motion.velocity;
+    if (const Spin* const spin = spin_of(stepper_->spins(), bodies_[i], i)) {
+      bodies_[i].angular_velocity = spin->velocity;
+      if (spin->turned != Mat3<double>::Identity()) bodies_[i].shape = turned_true(bodies_[i].shape, spin->turned);
+    }
+    move_shape(bodies_[i].shape, motion.offset);
+  }
+  if (dt != last_dt_) {
+    since_ = time_;
+    last_dt_ = dt;
+    equal_steps_ = 0;
+  }
+  time_ = since_ + static_cast<double>(++equal_steps_) * dt;
+  changed_by_hand_ = false;
+  report_.step = number;
+  report_.time = time_;
+}
+
+void World::tell(double start, double dt) {
+  const PhaseClock clock(report_.seconds.events);
+  hits_.clear();
+  for (const Touch& touch : stepper_->touches()) {
+    const double when = touch.time == 1 ? time_ : start + touch.time * dt;
+    hits_.push_back(
+        {bodies_[touch.first].id, bodies_[touch.second].id, when, touch.at_start, touch.normal, touch.point});
+  }
+  if (!plan_.events) return;
+  CollisionEvents& told = options_.events ? events_ : unread_;
+  for (const Hit& hit : hits_) told.meet(hit.first, hit.second, hit.time);
+  told.finish_step(time_);
+}
+
+const Body* World::find(std::uint32_t id) const {
+  const auto at = std::ranges::lower_bound(bodies_, id, {}, &Body::id);
+  return at == bodies_.end() || at->id != id ? nullptr : &*at;
+}
+
+std::size_t World::place_of(std::uint32_t id) const {
+  const Body* const found = find(id);
+  if (!found) throw WorldError("world: there is no body with id " + std::to_string(id));
+  return static_cast<std::size_t>(found - bodies_.data());
+}
+
+/// If the world can hold what comes of it.
+template <class Change> void World::change(std::uint32_t id, const Change& by_hand) {
+  Body& body = bodies_[place_of(id)];
+  Body changed = body;
+  by_hand(changed);
+  require_valid(changed);
+  body = std::move(changed);
+}
 
 void World::set_velocity(std::uint32_t id, const Vec3<double>& velocity) {
-  impl_->change(id, [&](Body& body) { body.velocity = velocity; });
+  change(id, [&](Body& body) { body.velocity = velocity; });
 }
 
 void World::move(std::uint32_t id, const Vec3<double>& by) {
-  impl_->change(id, [&](Body& body) { move_shape(body.shape, by); });
-  impl_->changed_by_hand = true;
+  change(id, [&](Body& body) { move_shape(body.shape, by); });
+  changed_by_hand_ = true;
 }
 
 void World::remove(std::uint32_t id) {
-  const std::size_t place = impl_->place_of(id);
-  impl_->bodies.erase(impl_->bodies.begin() + static_cast<std::ptrdiff_t>(place));
-  impl_->changed_by_hand = true;
-  impl_->unread.remove(id, impl_->time);
-  impl_->events.remove(id, impl_->time);  // last, for it tells listeners
+  const std::size_t place = place_of(id);
+  bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(place));
+  changed_by_hand_ = true;
+  unread_.remove(id, time_);
+  events_.remove(id, time_);  // last, for it tells listeners
 }
 
 /// In long double, whose range holds the product of any three doubles: never NaN.
 double World::energy() const {
   using Wide = long double;
   Wide sum = 0;
-  for (const Body& body : impl_->bodies) {
+  for (const Body& body : bodies_) {
     if (!is_moved_by_impulses(body)) continue;
-    const Vec3<Wide> v = body.velocity.cast<Wide>(), g = impl_->options.gravity.cast<Wide>();
+    const Vec3<Wide> v = body.velocity.cast<Wide>(), g = options_.gravity.cast<Wide>();
     const Vec3<Wide> place = position(body).cast<Wide>();
     sum += Wide(body.mass) * (v.squaredNorm() / 2 - Wide(body.gravity_scale) * g.dot(place));
     if (body.turns) sum += energy_of_turning(body);
@@ -251,7 +211,7 @@ double World::energy() const {
 
 std::uint64_t World::state_hash() const {
   Digest digest;
-  for (const Body& body : impl_->bodies) {
+  for (const Body& body : bodies_) {
     digest.add(body.id);
     digest.add(body.velocity);
     with_shape(body.shape, [&](const auto& shape) {

@@ -149,9 +149,11 @@ struct Plan {
 Plan plan(std::span<const Body> bodies, const WorldOptions& options);
 
 /// What a plan may omit: the `what` of its lines, in their order.
-std::span<const std::string_view> omission_names();
+inline constexpr auto omission_names = std::to_array<std::string_view>(
+    {"contacts", "events", "response", "broad phase", "pairs of disjoint boxes", "static pairs", "masked pairs",
+     "motion of bodies at rest", "kernels of absent shapes"});
 /// And after these, where bodies turn: a plan of what does not turn does not speak of it.
-std::span<const std::string_view> spin_omission_names();
+inline constexpr std::array<std::string_view, 2> spin_omission_names = {"spin", "spin short of the gap"};
 
 /// What it omits, what it keeps, and why; ends with a newline.
 std::string to_text(const Plan& plan);
@@ -255,6 +257,8 @@ struct TurnsTooFar : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+class Stepper;  // world/step.hpp
+
 class World {
  public:
   /// Throws WorldError: two bodies with one id, a mass that is not > 0, a velocity, size or place that is not finite,
@@ -268,15 +272,15 @@ class World {
   /// dt [s] > 0 and finite, or WorldError. Throws TooManyPairs, LeftTheWorld or TurnsTooFar, and then nothing has changed.
   const StepReport& step(double dt);
 
-  const std::vector<Body>& bodies() const;   ///< in the order of ids
-  const Body* find(std::uint32_t id) const;  ///< nothing if there is none
-  double time() const;                       ///< [s] since the world began
-  const StepReport& report() const;          ///< of the last step
-  const std::vector<Hit>& hits() const;      ///< of the last step, in the order they were processed
-  CollisionEvents& events();                 ///< begin, stay, end; listeners
-  const CollisionEvents& events() const;
-  const Plan& plan() const;
-  const WorldOptions& options() const;
+  const std::vector<Body>& bodies() const { return bodies_; }  ///< in the order of ids
+  const Body* find(std::uint32_t id) const;                    ///< nothing if there is none
+  double time() const { return time_; }                        ///< [s] since the world began
+  const StepReport& report() const { return report_; }         ///< of the last step
+  const std::vector<Hit>& hits() const { return hits_; }       ///< of the last step, in the order they were processed
+  CollisionEvents& events() { return events_; }                ///< begin, stay, end; listeners
+  const CollisionEvents& events() const { return events_; }
+  const Plan& plan() const { return plan_; }
+  const WorldOptions& options() const { return options_; }
 
   /// By hand, between two steps. Throw WorldError as the constructor does, and if there is no such body.
   void set_velocity(std::uint32_t id, const Vec3<double>& velocity);  ///< [m/s]
@@ -287,8 +291,23 @@ class World {
   std::uint64_t state_hash() const;  ///< of every body's id, place and velocity, to the bit; of its turn, if it turns
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void commit(double dt);
+  void tell(double start, double dt);
+  std::size_t place_of(std::uint32_t id) const;
+  template <class Change> void change(std::uint32_t id, const Change& by_hand);
+
+  WorldOptions options_;
+  std::vector<Body> bodies_;
+  Plan plan_;
+  std::unique_ptr<Stepper> stepper_;
+  CollisionEvents events_;
+  CollisionEvents unread_;  // what nobody reads, where nothing is omitted
+  StepReport report_;
+  std::vector<Hit> hits_;
+  double time_ = 0;                 // [s]
+  double since_ = 0, last_dt_ = 0;  // [s] the time is since + equal_steps * last_dt: adding up would drift
+  std::uint64_t equal_steps_ = 0;
+  bool changed_by_hand_ = true, stepping_ = false;
 };
 
 }  // namespace thinwall

@@ -11,6 +11,7 @@
 /// through the edge along v has that on one side, R or more from the line. There k.v is of the sign of N.v.
 
 #include <thinwall/discrete/clear/clear_entry.hpp>
+#include <thinwall/discrete/clear/clear_triangle.hpp>
 #include <thinwall/discrete/clear/vectors.hpp>
 
 namespace thinwall {
@@ -32,14 +33,13 @@ struct ClearFlat {
   }
 
   /// s, u >= 0, s + u <= 1.
-  THINWALL_HOT static ClearFlat triangle(const packed::Lanes& d, const packed::Lanes& f) {
-    using packed::Lanes, packed::all, packed::both, packed::lanes, packed::pair;
-    const Lanes none = all(0);
-    return {d,
-            f,
-            packed::transposed(none, d, f),
-            packed::transposed(d, f - d, none - f),
-            all(1),
+  THINWALL_HOT static ClearFlat triangle(const ClearTriangle& of) {
+    using packed::both, packed::lanes, packed::pair;
+    return {of.d,
+            of.f,
+            of.corners(),
+            of.edges(),
+            packed::all(1),
             lanes(pair(0, 1), pair(0, 0)),
             lanes(pair(0, 0), pair(1, 1)),
             lanes(pair(1, -1), pair(0, 0)),

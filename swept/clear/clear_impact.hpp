@@ -181,7 +181,7 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Triangle<double>>& triangle, con
   using packed::Lanes, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
   const Lanes center = lanes(sphere.shape.center), path = lanes(sphere.displacement), a = lanes(triangle.shape.a);
-  const ClearFlat core = ClearFlat::triangle(lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a);
+  const ClearFlat core = ClearFlat::triangle({lanes(triangle.shape.b) - a, lanes(triangle.shape.c) - a});
   const ClearFlatEntry entry(core, center - a, path - lanes(triangle.displacement), both(r + gap));
   return {both(entry.clear, all_of(clear_sizes(r, r, gap) & clear_of_end(entry.time))), entry.time, entry.normal,
           (center + path * all(entry.time)) - entry.normal * all(r + gap / 2)};

@@ -36,7 +36,7 @@ struct ClearPrism : ClearSegmentTriangle {
 
   /// A side, or of 3 the triangle.
   THINWALL_HOT ClearFlat flat(unsigned k) const {
-    return k < 3 ? ClearFlat::parallelogram(edge[k], packed::all(0) - d) : ClearFlat::triangle(face.d, face.f);
+    return k < 3 ? ClearFlat::parallelogram(edge[k], packed::all(0) - d) : ClearFlat::triangle(face);
   }
 };
 

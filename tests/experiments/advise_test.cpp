@@ -353,7 +353,7 @@ Interval counts_of(double chance) {
 double rounded_up(double length, const Cell& cell) { return length + 0x1p-20 * (length + 1e-6 * step_length(cell)); }
 
 void expect_agreement(const Wish& wish) {
-  SCOPED_TRACE(cell_factors().key(wish.cell));
+  SCOPED_TRACE(cell_factors.key(wish.cell));
   const Fired fired(wish);
   EXPECT_TRUE(fired.self_test_passed());
   const Advice advice = advice_on(wish);

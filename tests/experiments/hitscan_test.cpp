@@ -92,9 +92,6 @@ TEST(Hitscan, nothing_differs_where_nothing_pulls) {
 TEST(Hitscan, agrees_with_theory_and_says_what_the_ray_misses) {
   const Outcome& outcome = small_outcome(hitscan_experiment());
   EXPECT_NE(outcome.answer.find("with a rifle at 100 m (theory 28.7 %"), std::string::npos) << outcome.answer;
-  EXPECT_TRUE(outcome.self_test_passed) << outcome.summary;
-  EXPECT_EQ(table_of(outcome, "self_test").rows.size(), 1U + 4 * 3);
-  EXPECT_EQ(table_of(outcome, "moments").rows.size(), 4U * 2);
   ASSERT_EQ(outcome.figures.size(), 3U);
   EXPECT_EQ(outcome.figures[0].panels.size(), 3U);
   EXPECT_EQ(outcome.figures[2].panels.size(), 2U);
@@ -236,7 +233,7 @@ TEST(HitscanArc, keeps_its_digits_in_long_double) { expect_all_digits<long doubl
 TEST(HitscanArc, solves_the_equation_of_motion) {
   using Vector = Vec3<long double>;
   for (const HitscanCell& c : {some_shot(30, 30, 0), known_shots[1].cell, known_shots[2].cell, known_shots[3].cell}) {
-    SCOPED_TRACE(hitscan_factors().key(c));
+    SCOPED_TRACE(hitscan_factors.key(c));
     const double time = flight_time(c);
     const Vector wind(0, 0, c.wind), gravity(0, -c.gravity, 0);
     const auto pull = [&](const Vector& v) -> Vector { return (wind - v) * c.drag + gravity; };
@@ -264,12 +261,12 @@ const std::array some_cells = {some_shot(30, 30, 0.02), some_shot(50, 30, 0), so
 /// Over fine times: the nearest that the arc comes, and when it is first within reach.
 TEST(HitscanOracle, agrees_with_a_scan_of_the_arc) {
   for (const HitscanCell& c : some_cells) {
-    SCOPED_TRACE(hitscan_factors().key(c));
+    SCOPED_TRACE(hitscan_factors.key(c));
     constexpr int times = 4000;
     const double from = contact_window(c).lower, fine = (contact_window(c).upper - from) / times;
     int touching = 0;
     for (std::uint64_t i = 0; i < 300; ++i) {
-      const Vec3<double> center = random_placement(c, hitscan_factors().stream(c, 1), i).target.center;
+      const Vec3<double> center = random_placement(c, hitscan_factors.stream(c, 1), i).target.center;
       double nearest = std::numeric_limits<double>::infinity(), first = -1;
       for (int k = 0; k <= times; ++k) {
         const auto there = arc_of<double>(c).after(from + fine * k);
@@ -298,7 +295,7 @@ TEST(HitscanPlacement, draws_every_target_that_is_hit) {
     for (int i = 0; i < 360; ++i) {
       const double turn = i * (std::acos(-1.0) / 180);
       const Vec3<double> rim = Vec3<double>(0, std::cos(turn), std::sin(turn)) * disc_radius(c);
-      EXPECT_FALSE(true_impact(c, middle + rim)) << hitscan_factors().key(c) << " " << i;
+      EXPECT_FALSE(true_impact(c, middle + rim)) << hitscan_factors.key(c) << " " << i;
     }
   }
 }
@@ -341,9 +338,9 @@ TEST(HitscanTheory, is_a_lens_in_flat_fire) {
       const HitscanCell c = some_shot(range, 1000, radius);
       const HitscanExpected e = expected_of(hitscan_ray, c);
       const double off = deflection(c);
-      EXPECT_NEAR(e.missed / e.touch, flat_missed(c.target, radius, off), 1e-4) << hitscan_factors().key(c);
-      EXPECT_NEAR(e.false_hits / e.reported, flat_false(c.target, radius, off), 1e-4) << hitscan_factors().key(c);
-      EXPECT_NEAR(e.touch / e.reported, std::pow(reach(c) / c.target, 2), 1e-4) << hitscan_factors().key(c);
+      EXPECT_NEAR(e.missed / e.touch, flat_missed(c.target, radius, off), 1e-4) << hitscan_factors.key(c);
+      EXPECT_NEAR(e.false_hits / e.reported, flat_false(c.target, radius, off), 1e-4) << hitscan_factors.key(c);
+      EXPECT_NEAR(e.touch / e.reported, std::pow(reach(c) / c.target, 2), 1e-4) << hitscan_factors.key(c);
     }
   }
 }

@@ -18,7 +18,7 @@ namespace {
 const std::vector<PlanRace>& few_races() {
   static const std::vector<PlanRace> all = [] {
     std::vector<PlanRace> races;
-    for (const std::string_view name : plan_scene_names())
+    for (const std::string_view name : plan_scene_names)
       races.push_back(race_plans(make_plan_scene(name, 60, 5), {.steps = 8, .rounds = 2, .gate = 0.5}));
     return races;
   }();
@@ -43,9 +43,9 @@ TEST(Plan, has_scenes_that_need_everything_something_and_nothing) {
     return std::ranges::find(races[k].ways, what, &Way::name);
   };
   const auto omits = [&](std::size_t k, std::string_view what) { return find(k, what) != races[k].ways.end(); };
-  ASSERT_EQ(plan_scene_names()[0], "crowd");
+  ASSERT_EQ(plan_scene_names[0], "crowd");
   EXPECT_FALSE(omits(0, "static pairs") || omits(0, "response") || omits(0, "kernels of absent shapes"));
-  ASSERT_EQ(plan_scene_names()[2], "town");
+  ASSERT_EQ(plan_scene_names[2], "town");
   EXPECT_TRUE(omits(2, "static pairs") && omits(2, "masked pairs") && omits(2, "kernels of absent shapes"));
   EXPECT_FALSE(omits(2, "response") || omits(2, "events") || omits(2, "contacts"));
   EXPECT_TRUE(omits(3, "response") && omits(4, "events") && omits(5, "contacts"));
@@ -71,8 +71,7 @@ TEST(Plan, can_keep_whatever_it_could_omit_and_nothing_else) {
       EXPECT_EQ(other.omitted, other.what != line.what) << line.what << " kept: " << other.what;
     }
   }
-  const auto names = omission_names();
-  EXPECT_EQ(whats, std::vector<std::string>(names.begin(), names.end()));
+  EXPECT_EQ(whats, std::vector<std::string>(omission_names.begin(), omission_names.end()));
   WorldOptions options;
   options.keep = {"static bodies"};
   EXPECT_THROW(World({}, options), WorldError);

@@ -40,7 +40,7 @@ std::string whole_text(const Outcome& outcome) {
 TEST_F(Speed, gathers_rows_of_every_program_and_round) {
   write_both();
   const auto run = speed_run(folder.path());
-  EXPECT_EQ(run->units().size(), 2 * bench_program_names().size());
+  EXPECT_EQ(run->units().size(), 2 * bench_program_names.size());
   const Outcome outcome = outcome_of(*run);
   EXPECT_TRUE(outcome.self_test_passed);
   const Table& timings = table_of(outcome, "timings");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -18,6 +19,7 @@
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/lab/files.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/statistics.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
 
 #include "support/said.hpp"
@@ -120,6 +122,16 @@ inline const Outcome& small_outcome(const Experiment& experiment) {
   const std::string name(experiment.name);
   if (!outcomes.contains(name)) outcomes[name] = outcome_of(experiment, small_toml(name));
   return outcomes[name];
+}
+
+/// So many draws in [0, 1), over so many bins: the chi-square statistic lies in its central 99.99 %.
+template <class Draw> void expect_uniform(std::uint64_t bins, std::uint64_t draws, const Draw& draw) {
+  const double parts = static_cast<double>(bins), expected = static_cast<double>(draws) / parts;
+  std::vector<double> counts(bins);
+  for (std::uint64_t i = 0; i < draws; ++i) ++counts[std::min(bins - 1, static_cast<std::uint64_t>(parts * draw(i)))];
+  double sum = 0;
+  for (const double count : counts) sum += (count - expected) * (count - expected) / expected;
+  EXPECT_TRUE(chi_square_range(static_cast<std::int64_t>(bins) - 1, 0.9999).contains(sum)) << sum;
 }
 
 // ---- What is in a result.

@@ -275,10 +275,6 @@ std::span<const ExtremePair> extreme_pairs() {
   return list;
 }
 
-std::vector<std::string_view> extreme_method_names() {
-  std::vector<std::string_view> names;
-  for_each_type(EveryMethod<double>{}, [&]<class Method>(TypeTag<Method>) { names.push_back(Method::name); });
-  return names;
-}
+std::vector<std::string_view> extreme_method_names() { return type_names(EveryMethod<double>{}); }
 
 }  // namespace thinwall

@@ -333,17 +333,9 @@ template <class Set, class S> std::vector<Racer> race(QueryClass kind, const Rac
   return racers;
 }
 
-/// The methods of the list that serve the pair of a set.
-template <class Set> std::vector<std::string_view> methods_that_serve() {
-  std::vector<std::string_view> names;
-  for_each_type(MethodsOf<Set, double>{}, [&]<class Method>(TypeTag<Method>) {
-    if constexpr (takes_part<Set, Method>()) names.push_back(Method::name);
-  });
-  return names;
-}
-
 template <class Set> QuerySet query_set_of() {
-  return {Set::name, Set::title, is_turning<Set>, methods_that_serve<Set>(), &race<Set, float>, &race<Set, double>};
+  const auto names = type_names(MethodsOf<Set, double>{}, []<class M>(TypeTag<M>) { return takes_part<Set, M>(); });
+  return {Set::name, Set::title, is_turning<Set>, names, &race<Set, float>, &race<Set, double>};
 }
 
 }  // namespace

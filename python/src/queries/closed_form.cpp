@@ -1,5 +1,4 @@
 /// Times of impact by the closed form, by the batch kernels where the pair has one; and rays.
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>

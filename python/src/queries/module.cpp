@@ -260,12 +260,6 @@ py::array find_pairs(const std::string& method, const py::array& lower, const py
   return out;
 }
 
-std::vector<std::string> broad_phases() {
-  std::vector<std::string> names;
-  for_each_type(BroadPhases{}, [&]<class Tag>(Tag) { names.emplace_back(Tag::type::name); });
-  return names;
-}
-
 }  // namespace
 
 }  // namespace thinwall::python
@@ -286,6 +280,6 @@ PYBIND11_MODULE(_queries, m) {
   m.def("ask", &ask);
   m.def("methods", &methods);
   m.def("turning_methods", &turning_methods);
-  m.def("broad_phases", &broad_phases);
+  m.def("broad_phases", [] { return type_names(thinwall::BroadPhases{}); });
   m.def("find_pairs", &find_pairs);
 }

@@ -323,9 +323,10 @@ TEST_F(ForeignFiles, beside_ours_stay_whatever_a_run_does) {
 TEST_F(ForeignFiles, beside_ours_stay_in_a_rerun_that_went_on) {
   ASSERT_EQ(run().status, 0);
   ToyControl::interrupt_after = 8;
-  ASSERT_EQ(call({"reproduce", out, "--threads", "1"}).status, 130);
+  expect_reply(call({"reproduce", out, "--threads", "1"}), 130, {"to continue:\nthinwall reproduce " + out});
   write_text(out + ".again/notes.txt", "mine\n");
   expect_reply(call({"reproduce", out}), 0, {out + ".again: stays, for it holds what the rerun did not write\n"});
+  EXPECT_EQ(ToyControl::computed, 12);
   EXPECT_EQ(files_in(out + ".again"), (std::map<std::string, std::string>{{"notes.txt", "mine\n"}}));
 }
 

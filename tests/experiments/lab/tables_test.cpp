@@ -134,13 +134,6 @@ TEST(Factors, draw_from_their_numbers_alone) {
   EXPECT_EQ(grid.stream(cell, 7).seed, 7U);
 }
 
-TEST(Factors, refuse_by_name_what_is_not_allowed) {
-  const auto refusal = [](const std::string& text) { return error_of<UsageError>([&] { cells(text); }); };
-  EXPECT_TRUE(holds(refusal("speed = [0]"), "key 'speed': 0"));
-  EXPECT_TRUE(holds(refusal("step = 2"), "key 'step': 2"));
-  EXPECT_TRUE(holds(refusal("wall = ['finit']"), "did you mean 'finite'?"));
-}
-
 TEST(Terminal, is_as_wide_as_its_columns_need_and_says_once_what_is_always_so) {
   EXPECT_EQ(
       terminal(table("cells", "All.", columns(), {rows[0], rows[1]}), {"method", "shots", "tunneled", "probability"}),

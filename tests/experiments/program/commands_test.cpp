@@ -183,8 +183,9 @@ TEST_F(CiteTest, escapes_every_field) {
 }
 
 TEST_F(CiteTest, refuses_what_holds_no_result) {
-  const auto expect_no_result = [](const std::string& target, const std::string& why) {
-    expect_refusal(call({"cite", target}), {target + ": " + why});
+  const auto expect_no_result = [this](const std::string& target, const std::string& why) {
+    for (const char* command : {"cite", "report", "reproduce"})
+      expect_refused({command, target}, {target + ": " + why});
   };
   expect_no_result(folder / "none", "there is no such folder");
   expect_no_result(folder / std::string(300, 'x'), "cannot be read: File name too long");

@@ -73,11 +73,10 @@ std::string changed_outcome(const DrawnWorld& drawn, std::uint64_t seed) {
   const bool is_asked = drawn.options.response || drawn.options.events;  // else the full plan finds hits for nobody
   if (is_asked) against("full plan", drawn.bodies, [](WorldOptions& o) { o.full_plan = true; });
   against("spin kept", drawn.bodies, [](WorldOptions& o) { o.keep = {"spin", "spin short of the gap"}; });
-  const auto omissions = omission_names();
-  const std::string kept(omissions[seed % omissions.size()]);
+  const std::string kept(omission_names[seed % omission_names.size()]);
   if (is_asked) against(kept + " kept", drawn.bodies, [&](WorldOptions& o) { o.keep = {kept}; });
   against("another order", shuffled(drawn.bodies, seed), [](WorldOptions&) {});
-  const auto& names = pair_finder_names();
+  const auto names = pair_finder_names();
   const std::string name(names[seed % names.size()]);
   against(name, drawn.bodies, [&](WorldOptions& o) { o.broad_phase = name; });
   if (seed % 8 == 0) {  // threads take long to start
