@@ -28,19 +28,13 @@ World rain(std::uint32_t count, const WorldOptions& wanted) {
   std::vector<Body> bodies;
   for (std::uint32_t id = 0; id < count; ++id) {
     const RandomWords words = random_words(key, id, 0), more = random_words(key, id, 1);
-    Body body;
-    body.id = id;
     const Vec3<double> place(uniform(words[0]), uniform(words[1]), uniform(words[2]));
-    body.shape = Sphere<double>{place * side + Vec3<double>(0, radius, 0), radius};
-    body.velocity = Vec3<double>(uniform(more[0]) - 0.5, -0.75 - uniform(more[1]) * 5, uniform(more[2]) - 0.5);
-    body.restitution = 0.5;
-    bodies.push_back(body);
+    const Vec3<double> velocity(uniform(more[0]) - 0.5, -0.75 - uniform(more[1]) * 5, uniform(more[2]) - 0.5);
+    const Sphere<double> ball{place * side + Vec3<double>(0, radius, 0), radius};
+    bodies.push_back({.id = id, .name = {}, .shape = ball, .velocity = velocity, .restitution = 0.5});
   }
-  Body floor;
-  floor.id = count;
-  floor.shape = Aabb<double>{{side / 2, -0.5, side / 2}, {side, 0.5, side}};
-  floor.is_static = true;
-  bodies.push_back(floor);
+  const Aabb<double> floor{{side / 2, -0.5, side / 2}, {side, 0.5, side}};
+  bodies.push_back({.id = count, .name = {}, .shape = floor, .is_static = true});
   WorldOptions options = wanted;
   options.gravity = {0, -9.81, 0};
   return World(std::move(bodies), options);
@@ -83,10 +77,7 @@ void add(const std::string& name, std::uint32_t count, const WorldOptions& optio
 
 const bool added = [] {
   const auto with = [](TimePolicy policy, int substeps = 1) {
-    WorldOptions options;
-    options.policy = policy;
-    options.substeps = substeps;
-    return options;
+    return WorldOptions{.policy = policy, .substeps = substeps};
   };
   const WorldOptions exact = with(TimePolicy::event_driven);
   for (const std::uint32_t count : {1000U, 10000U, 100000U}) {

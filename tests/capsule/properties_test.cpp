@@ -6,6 +6,7 @@
 
 #include <thinwall/discrete/queries.hpp>
 
+#include "support/contacts.hpp"
 #include "support/draw.hpp"
 #include "support/judge.hpp"
 #include "support/property.hpp"
@@ -148,13 +149,10 @@ TYPED_TEST(OneInstant, other_way_round_is_the_same) {
         RC_ASSERT(cores_nearly_touch(truth, rounding));
         return;
       }
-      RC_ASSERT(there.normal == -back.normal);
-      RC_ASSERT(there.point_a == back.point_b);
-      RC_ASSERT(there.point_b == back.point_a);
+      RC_ASSERT(same(there, {back.distance, -back.normal, back.point_b, back.point_a}));
       if (!contact_there) return;
-      RC_ASSERT(contact_there->normal == -contact_back->normal);
-      RC_ASSERT(contact_there->local_a == contact_back->local_b);
-      RC_ASSERT(contact_there->local_b == contact_back->local_a);
+      const Contact<S>& met = *contact_back;
+      RC_ASSERT(same(*contact_there, {met.local_b, met.local_a, -met.normal, met.penetration}));
     }
   });
 }
@@ -172,18 +170,8 @@ TYPED_TEST(OneInstant, same_bits_at_every_size) {
     if (!same_body(oracle::body(large_a), oracle::body(a), k) || !same_body(oracle::body(large_b), oracle::body(b), k))
       return;
     RC_ASSERT(overlaps(large_a, large_b) == overlaps(a, b));
-    const Separation<S> here = separation(a, b), there = separation(large_a, large_b);
-    RC_ASSERT(there.distance == times_power_of_two(here.distance, k));
-    RC_ASSERT(there.normal == here.normal);
-    RC_ASSERT(there.point_a == times_power_of_two(here.point_a, k));
-    RC_ASSERT(there.point_b == times_power_of_two(here.point_b, k));
-    const auto small = contact(a, b), large = contact(large_a, large_b);
-    RC_ASSERT(small.has_value() == large.has_value());
-    if (!small) return;
-    RC_ASSERT(large->penetration == times_power_of_two(small->penetration, k));
-    RC_ASSERT(large->normal == small->normal);
-    RC_ASSERT(large->local_a == times_power_of_two(small->local_a, k));
-    RC_ASSERT(large->local_b == times_power_of_two(small->local_b, k));
+    RC_ASSERT(same(separation(large_a, large_b), scaled(separation(a, b), k)));
+    RC_ASSERT(same(contact(large_a, large_b), scaled(contact(a, b), k)));
   });
 }
 

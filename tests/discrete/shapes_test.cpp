@@ -247,9 +247,7 @@ TYPED_TEST(Rays, graze_a_ball_and_meet_a_point_to_the_bit) {
 
 TYPED_TEST(Rays, a_point_of_a_turned_box_is_hit_at_every_size) {
   using S = TypeParam;
-  Mat3<S> turn;
-  turn << S(0.8), S(-0.6), 0, S(0.6), S(0.8), 0, 0, 0, 1;
-  const Obb<S> point{{0, 0, 0}, {0, 0, 0}, turn};
+  const Obb<S> point{{0, 0, 0}, {0, 0, 0}, turn_in_plane(0, 1, S(0.8), S(0.6))};
   const auto here = raycast(Ray<S>{{0, -8, 0}, {0, 8, 0}}, point);
   ASSERT_TRUE(here.has_value());
   EXPECT_EQ(here->t, S(1));

@@ -91,12 +91,6 @@ template <class A, class B> void check_pair(Bytes& bytes, Reading reading) {
   }
 }
 
-template <class A, class B>
-inline constexpr bool is_pair = [] {
-  if constexpr (ServedPair<A, B>) return A::rank >= B::rank;
-  return false;
-}();
-
 }  // namespace
 
 template <class A> void check_one_pair_of(Bytes& bytes) {
@@ -104,7 +98,7 @@ template <class A> void check_one_pair_of(Bytes& bytes) {
   const Reading reading = kind == 0 ? Reading::raw : kind == 1 ? Reading::unruly : Reading::nasty;
   const auto for_each_partner = [&](const auto& f) {
     for_each_type(Shapes<typename A::Scalar>{}, [&]<class B>(TypeTag<B> tag) {
-      if constexpr (is_pair<A, B>) f(tag);
+      if constexpr (ServedPair<A, B> && A::rank >= B::rank) f(tag);
     });
   };
   visit_one(for_each_partner, bytes(), [&]<class B>(TypeTag<B>) { check_pair<A, B>(bytes, reading); });

@@ -63,18 +63,8 @@ template <Scalar S> class Numbers {
     const S x = (*this)();
     return reading_ != Reading::nasty && bytes_.below(16) == 0 ? x : S(abs(x));
   }
-  Vec3<S> vector() {
-    const S x = (*this)();
-    const S y = (*this)();
-    const S z = (*this)();
-    return {x, y, z};
-  }
-  Vec3<S> sizes() {
-    const S x = size();
-    const S y = size();
-    const S z = size();
-    return {x, y, z};
-  }
+  Vec3<S> vector() { return {(*this)(), (*this)(), (*this)()}; }
+  Vec3<S> sizes() { return {size(), size(), size()}; }
   int below(int count) { return bytes_.below(count); }
   Reading reading() const { return reading_; }
 

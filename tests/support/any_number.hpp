@@ -11,6 +11,7 @@
 #include <thinwall/swept/shapes.hpp>
 
 #include "support/numbers_of.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 
@@ -33,10 +34,7 @@ template <class S> std::vector<S> special_numbers() {
 template <class S> Sphere<S> usual(TypeTag<Sphere<S>>) { return {{0, 0.25, 0}, 1}; }
 template <class S> Aabb<S> usual(TypeTag<Aabb<S>>) { return {{0, 0.5, 0}, {1, 0.5, 1}}; }
 template <class S> Obb<S> usual(TypeTag<Obb<S>>) {
-  Mat3<S> axes;
-  const S c = S(3) / S(5), s = S(4) / S(5);
-  axes << c, -s, 0, s, c, 0, 0, 0, 1;
-  return {{0, 0.5, 0}, {1, 0.5, 1}, axes};
+  return {{0, 0.5, 0}, {1, 0.5, 1}, turn_in_plane<S>(0, 1, S(3) / S(5), S(4) / S(5))};
 }
 template <class S> Triangle<S> usual(TypeTag<Triangle<S>>) { return {{-1, 0, 0}, {1, 0, 0.5}, {0, 1, -0.5}}; }
 template <class S> Capsule<S> usual(TypeTag<Capsule<S>>) { return {{-1, 0, 0}, {1, 0.25, 0}, 0.5}; }

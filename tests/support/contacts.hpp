@@ -1,6 +1,7 @@
 #pragma once
 /// What is known by hand of two shapes, or of a ray and a shape, asked of every query that tells of it.
 
+#include <optional>
 #include <source_location>
 #include <type_traits>
 
@@ -39,6 +40,17 @@ void expect_contact_at(const A& a, const B& b, const std::type_identity_t<Vec3<S
   EXPECT_EQ(found->local_b, local_b);
   EXPECT_EQ(back->local_a, local_b);
   EXPECT_EQ(back->local_b, local_a);
+}
+
+/// The same bits in all that they say.
+template <class S> bool same(const Contact<S>& a, const Contact<S>& b) {
+  return a.local_a == b.local_a && a.local_b == b.local_b && a.normal == b.normal && a.penetration == b.penetration;
+}
+template <class S> bool same(const Separation<S>& a, const Separation<S>& b) {
+  return a.distance == b.distance && a.normal == b.normal && a.point_a == b.point_a && a.point_b == b.point_b;
+}
+template <class Answer> bool same(const std::optional<Answer>& a, const std::optional<Answer>& b) {
+  return a && b ? same(*a, *b) : a.has_value() == b.has_value();
 }
 
 /// Where a ray first meets a shape; no normal: it starts in it, or in touch.

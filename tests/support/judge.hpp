@@ -15,27 +15,11 @@
 
 namespace thinwall::oracle {
 
-template <class S> Body body(const Sphere<S>& s) {
-  Body b;
-  b.center = lift_vector(s.center);
-  b.radius = lift(s.radius);
-  return b;
-}
-
-template <class S> Body body(const Aabb<S>& box) {
-  Body b;
-  b.center = lift_vector(box.center);
-  b.core.box = lift_vector(box.half_extents);
-  return b;
-}
-
+template <class S> Body body(const Sphere<S>& s) { return {lift_vector(s.center), {}, lift(s.radius)}; }
+template <class S> Body body(const Aabb<S>& box) { return {lift_vector(box.center), {lift_vector(box.half_extents)}}; }
 template <class S> Body body(const Capsule<S>& c) {
-  Body b;
   const Vector first = lift_vector(c.a), second = lift_vector(c.b);
-  b.center = Real(0.5) * (first + second);
-  b.core.generators = {Real(0.5) * (second - first)};
-  b.radius = lift(c.radius);
-  return b;
+  return {Real(0.5) * (first + second), {{}, {Real(0.5) * (second - first)}}, lift(c.radius)};
 }
 
 template <class Shape> Body body(const Moving<Shape>& moving) {
@@ -74,9 +58,7 @@ inline oracle::Real size_at(const oracle::Pair& pair, const oracle::Real& time) 
 
 /// How far a point is from the surface of a body.
 inline oracle::Real off_surface(const oracle::Vector& point, const oracle::Body& body) {
-  oracle::Body dot;
-  dot.center = point;
-  return abs(oracle::gap({body, dot, 0}, 0).separation);
+  return abs(oracle::gap({body, {point}, 0}, 0).separation);
 }
 
 // ---- Judges a computed time of impact against the oracle, to the accuracy contract: forward error at most 4 u kappa t,
@@ -93,19 +75,11 @@ struct Allowance {
   int verdict = 0;   ///< [u] a wrong verdict is forgiven if the inputs are this near to making it right
 };
 
-inline ToiStatus status_of(oracle::Verdict verdict) {
-  switch (verdict) {
-    case oracle::Verdict::apart: return ToiStatus::apart;
-    case oracle::Verdict::hit: return ToiStatus::hit;
-    default: return ToiStatus::overlapping;
-  }
-}
-
-inline oracle::Verdict verdict_of(ToiStatus status) {
-  return status == ToiStatus::apart ? oracle::Verdict::apart
-         : status == ToiStatus::hit ? oracle::Verdict::hit
-                                    : oracle::Verdict::overlapping;
-}
+constexpr ToiStatus status_of(oracle::Verdict verdict) { return static_cast<ToiStatus>(verdict); }
+constexpr oracle::Verdict verdict_of(ToiStatus status) { return static_cast<oracle::Verdict>(status); }
+static_assert(status_of(oracle::Verdict::apart) == ToiStatus::apart &&
+              status_of(oracle::Verdict::hit) == ToiStatus::hit &&
+              status_of(oracle::Verdict::overlapping) == ToiStatus::overlapping);
 
 inline std::string_view text(ToiStatus status) {
   constexpr const char* names[] = {"apart", "hit", "overlapping", "gave_up", "invalid"};

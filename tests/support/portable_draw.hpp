@@ -18,10 +18,7 @@ class PortableDraw {
   }
   int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
   bool one_in(int n) { return below(n) == 0; }
-  Vec3<double> vector(double low, double high) {
-    const double x = between(low, high), y = between(low, high);
-    return {x, y, between(low, high)};
-  }
+  Vec3<double> vector(double low, double high) { return {between(low, high), between(low, high), between(low, high)}; }
   Vec3<double> direction() {
     Vec3<double> v;
     do {

@@ -200,14 +200,8 @@ template <class N> struct Spinner {
   }
   Arc<N> arc(const Arm<N>& a, const Phase<N>& now) const {
     if (!turns) return {a.start, {N(0), N(0), N(0)}, {N(0), N(0), N(0)}};
-    Arc<N> made;
-    const N rest = N(1) - now.cosine;
-    for (std::size_t i = 0; i < 3; ++i) {
-      made.place[i] = a.start[i] + now.sine * a.across[i] + rest * a.inward[i];
-      made.speed[i] = angle * N(now.cosine * a.across[i] + now.sine * a.inward[i]);
-      made.pull[i] = angle * N(angle * N(now.cosine * a.inward[i] - now.sine * a.across[i]));
-    }
-    return made;
+    return {place(a, now), angle * (now.cosine * a.across + now.sine * a.inward),
+            angle * (angle * (now.cosine * a.inward - now.sine * a.across))};
   }
   Triple<N> place(const Arm<N>& a, const Phase<N>& now) const {
     if (!turns) return a.start;

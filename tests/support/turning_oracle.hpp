@@ -91,26 +91,15 @@ template <class A, class B> class TurningOracle {
   /// The verdict, and when they first touch, to 10^-digits of the step.
   FirstContact first_contact(int digits = 30) {
     using std::pow;
-    FirstContact found;
-    if (within(0, 0)) {
-      found.verdict = TurningVerdict::overlapping;
-      found.upper = 0;
-      return found;
-    }
-    found.lower = free_until(1);
-    if (found.lower >= 1) {
-      found.verdict = TurningVerdict::apart;
-      return found;
-    }
+    if (within(0, 0)) return {TurningVerdict::overlapping, 0, 0};
+    const Time lower = free_until(1);
+    if (lower >= 1) return {TurningVerdict::apart, lower, 1};
     const Time widest = pow(Time(10), -digits);
-    for (Time ahead = ldexp(Time(1), -125); ahead <= widest && found.lower < 1; ahead *= 4) {
-      const Time upper = std::min(Time(1), Time(found.lower + ahead));
-      if (!within(upper, 0)) continue;
-      found.verdict = TurningVerdict::hit;
-      found.upper = upper;
-      return found;
+    for (Time ahead = ldexp(Time(1), -125); ahead <= widest; ahead *= 4) {
+      const Time upper = std::min(Time(1), Time(lower + ahead));
+      if (within(upper, 0)) return {TurningVerdict::hit, lower, upper};
     }
-    return found;
+    return {TurningVerdict::undecided, lower, 1};
   }
 
  private:

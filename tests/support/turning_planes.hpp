@@ -19,18 +19,14 @@ namespace thinwall::oracle {
 template <class N> struct Jet {
   N value = N(0), slope = N(0), bend = N(0);
 
+  Jet operator-() const { return {-value, -slope, -bend}; }
   Jet& operator+=(const Jet& other) {
     value += other.value;
     slope += other.slope;
     bend += other.bend;
     return *this;
   }
-  Jet& operator-=(const Jet& other) {
-    value -= other.value;
-    slope -= other.slope;
-    bend -= other.bend;
-    return *this;
-  }
+  Jet& operator-=(const Jet& other) { return *this += -other; }
 };
 
 template <class N> Jet<N> product(const Arc<N>& p, const Arc<N>& q) {
@@ -124,7 +120,7 @@ GapJets<N> gap_jets(const Spinners<N>& pair, const PlaneHint<M>& hint, const N& 
     for (std::size_t k = 0; k < body.arms.size(); ++k) {
       if (edges && !body.corners && static_cast<int>(k) == edge) continue;  // square to it
       Jet<N> along = product(n, body.arc(body.arms[k], now));
-      if (body.corners && side < 0) along = {-along.value, -along.slope, -along.bend};
+      if (body.corners && side < 0) along = -along;
       (body.corners ? corners : gap.either).push_back(std::move(along));
     }
   };
@@ -181,8 +177,7 @@ class GapProof {
   bool from(Jet<Ball> jet, std::size_t k) const {
     if (k == gap_.either.size()) return past_corners(jet, gap_.corners_a, &gap_.corners_b);
     const Jet<Ball>& term = gap_.either[k];
-    const Jet<Ball> opposite = {-term.value, -term.slope, -term.bend};
-    const bool up = proves_positive(term, low_, high_), down = !up && proves_positive(opposite, low_, high_);
+    const bool up = proves_positive(term, low_, high_), down = !up && proves_positive(-term, low_, high_);
     if (!up) {
       Jet<Ball> other = jet;
       other += term;

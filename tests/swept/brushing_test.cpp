@@ -56,10 +56,7 @@ class BrushingDraw : PortableDraw {
     return one_in(2) ? size : -size;
   }
   double size() { return std::abs(power(smallest_, 0)); }
-  V vector() {
-    const double x = power(-3, 3), y = power(-3, 3);
-    return {x, y, power(-3, 3)};
-  }
+  V vector() { return {power(-3, 3), power(-3, 3), power(-3, 3)}; }
 
   /// Turned about one axis or another by 2^low to 2^(high + 1).
   Mat3<double> turned(int low, int high) {
@@ -338,8 +335,7 @@ TEST(LevelFaces, are_not_passed) {
 
 /// A little above the floor and rising, or beside a thick box and leaving: at no time >= 0 they touch.
 template <class S> void expect_left() {
-  Mat3<S> yawed;
-  yawed << S(0.8), 0, S(0.6), 0, 1, 0, S(-0.6), 0, S(0.8);
+  const Mat3<S> yawed = turn_in_plane(2, 0, S(0.8), S(0.6));
   const Aabb<S> floor{{0, 0, 0}, {8, 0, 8}}, block{{-1, 0, 0}, {1, 1, 1}};
   for (int eps = 8; eps <= 64; eps *= 2) {
     const S gap = eps * std::numeric_limits<S>::epsilon();

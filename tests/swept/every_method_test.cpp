@@ -117,8 +117,7 @@ TYPED_TEST(EveryMethod, what_is_long_in_contact_is_found_by_all) {  // at any si
 TYPED_TEST(EveryMethod, a_normal_across_a_tiny_gap_does_not_lean) {
   using S = TypeParam;
   const S sine = S(5) / S(13), cosine = S(12) / S(13), height = (S(3) * sine + cosine) / S(4);
-  Mat3<S> tilted;
-  tilted << cosine, -sine, 0, sine, cosine, 0, 0, 0, 1;
+  const Mat3<S> tilted = turn_in_plane(0, 1, cosine, sine);
   const Obb<S> falling{{S(0.25), height + S(0.0078125), 0}, {S(0.75), S(0.25), S(0.5)}, tilted};
   const Aabb<S> upright{{0, -1, 0}, {2, 1, 2}};
   const auto lands = [&](const auto& method, const auto& moving, const auto& floor) {

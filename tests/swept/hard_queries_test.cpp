@@ -12,6 +12,9 @@
 #include <thinwall/swept/methods/centre_ray.hpp>
 #include <thinwall/swept/time_of_impact.hpp>
 
+#include "support/judge.hpp"
+#include "support/shaker.hpp"
+
 namespace thinwall {
 
 namespace {
@@ -383,16 +386,8 @@ TEST(HardQueries, motions_have_the_answers_of_the_table) {
     const auto& [may_be, time, within] = finding.truth;
     EXPECT_NE(std::ranges::find(may_be, toi.status), may_be.end()) << static_cast<int>(toi.status);
     EXPECT_NEAR(toi.time, time, within);
-    const Toi<double> turned = finding.ask(true, 0);
-    EXPECT_EQ(turned.status, toi.status);
-    EXPECT_EQ(turned.time, toi.time);
-    EXPECT_EQ(turned.normal, toi.normal);
-    for (const int scale : {-6, -3, 3, 6}) {
-      const Toi<double> far = finding.ask(false, scale);
-      EXPECT_EQ(far.status, toi.status) << scale;
-      EXPECT_EQ(far.time, toi.time) << scale;
-      EXPECT_EQ(far.normal, toi.normal) << scale;
-    }
+    EXPECT_TRUE(testing::same_answer(finding.ask(true, 0), toi));
+    for (const int scale : {-6, -3, 3, 6}) EXPECT_TRUE(testing::same_answer(finding.ask(false, scale), toi)) << scale;
   }
 }
 
@@ -724,9 +719,7 @@ TEST(TouchToRounding, boxes_beside_each_other_are_parted_by_an_axis) {
 }
 
 TEST(TouchToRounding, parallel_rods_are_parted_across_them) {  // not from one's end to the other's, 2^-24 further on
-  Mat3<double> axes = Mat3<double>::Identity();
-  axes.col(0) << 0.6, 0.8, 0;
-  axes.col(1) << -0.8, 0.6, 0;
+  const Mat3<double> axes = testing::turn_in_plane(0, 1, 0.6, 0.8);
   const V half(0x1p-20, 0x1p-25, 7);
   const auto gap = separation(Obb<double>{V(0x1p-25, -7, 0x1p-24), half, axes}, Obb<double>{V(1, 4, 0), half, axes});
   EXPECT_NEAR(gap.normal[2], 0, 1e-14);
@@ -761,13 +754,9 @@ TEST(TouchToRounding, center_at_a_corner_of_a_sliver_parts_from_it_along_its_pla
 }
 
 TEST(TouchToRounding, boxes_with_two_equally_near_pairs_keep_their_bits_at_any_scale) {
-  Mat3<double> about_z = Mat3<double>::Identity(), about_y = Mat3<double>::Identity();
-  about_z.col(0) << 0.6, 0.8, 0;
-  about_z.col(1) << -0.8, 0.6, 0;
-  about_y.col(0) << 0.6, 0, -0.8;
-  about_y.col(2) << 0.8, 0, 0.6;
   const double h = 0x1.3333333333334p-1;
-  const Obb<double> a{V(2, 4, 6), V(h, h, h), about_z}, b{V(-h, -h, -h), V(h, h, h), about_y};
+  const Obb<double> a{V(2, 4, 6), V(h, h, h), testing::turn_in_plane(0, 1, 0.6, 0.8)};
+  const Obb<double> b{V(-h, -h, -h), V(h, h, h), testing::turn_in_plane(2, 0, 0.6, 0.8)};
   const auto near = separation(a, b);
   for (const int e : {-700, 700}) {
     const auto far = separation(scaled(a, e), scaled(b, e));

@@ -380,8 +380,7 @@ TEST(LadderFilters, a_ray_whose_end_is_no_number_is_careful) {
 
 // From within a plane of another face, at a plate of no thickness, and at its rim: told by products.
 TEST(LadderFilters, a_ray_close_to_a_plane_of_a_turned_box_is_clear) {
-  const double c = 0.6, s = 0.8;
-  const Mat3<double> axes{{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+  const Mat3<double> axes = turn_in_plane(0, 1, 0.6, 0.8);
   const auto is_sure = [&](const V& half, const V& from, const V& by) {
     const Turned box{{0, 0, 0}, half, axes};
     const Ray<double> ray{out_of<double>(box, from), out_of<double>(box, by)};

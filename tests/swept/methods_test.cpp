@@ -400,9 +400,7 @@ TYPED_TEST(Plane, knows_how_far_every_shape_reaches) {
   using S = TypeParam;
   const Vec3<S> x(1, 0, 0), n = safe_unit(Vec3<S>(1, 1, 0));
   const S root = n[0];  // of one half
-  Mat3<S> turned = Mat3<S>::Identity();
-  turned.col(0) = n;
-  turned.col(1) = Vec3<S>(-root, root, 0);
+  const Mat3<S> turned = turn_in_plane(0, 1, root, root);
   const auto near = [](const S& found, const S& wanted) { return largest(S(found - wanted)) <= 16 * unit<S>(); };
   EXPECT_EQ(reach_along(Sphere<S>{{5, 0, 0}, 2}, n), S(2));
   EXPECT_TRUE(near(reach_along(Aabb<S>{{5, 0, 0}, {2, 1, 4}}, n), 3 * root));

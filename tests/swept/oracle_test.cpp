@@ -11,25 +11,13 @@ namespace thinwall::oracle {
 namespace {
 
 Body ball(const Vector& center, const Real& radius, const Vector& displacement = {}) {
-  Body b;
-  b.center = center;
-  b.radius = radius;
-  b.displacement = displacement;
-  return b;
+  return {center, {}, radius, displacement};
 }
-
 Body box(const Vector& center, const Vector& half, const Vector& displacement = {}) {
-  Body b;
-  b.center = center;
-  b.core.box = half;
-  b.displacement = displacement;
-  return b;
+  return {center, {half}, 0, displacement};
 }
-
 Body capsule(const Vector& center, const Vector& half_axis, const Real& radius, const Vector& displacement = {}) {
-  Body b = ball(center, radius, displacement);
-  b.core.generators = {half_axis};
-  return b;
+  return {center, {{}, {half_axis}}, radius, displacement};
 }
 
 void expect_near(const Real& a, const Real& b, int binary_digits = 250) {

@@ -62,13 +62,8 @@ TYPED_TEST(SweptPair, time_of_impact_meets_the_contract) {
 
 /// The clear rung of the ladder answers.
 template <class A, class B> bool is_clear(const Moving<A>& a, const Moving<B>& b) {
-  if constexpr (HasClearImpact<A, B>) {
-    return clear_impact(a, b, 0).clear;
-  } else if constexpr (HasClearImpact<B, A>) {
-    return clear_impact(b, a, 0).clear;
-  } else {
-    return false;
-  }
+  if constexpr (HasClearImpact<A, B>) return clear_impact(a, b, 0).clear;
+  return false;
 }
 
 /// Lengths times 2^k leave time and normal as they are, to the bit; displacements times 2^k divide the time: to the bit too, unless

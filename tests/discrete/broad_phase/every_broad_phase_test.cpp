@@ -73,12 +73,7 @@ template <class Method> Pairs pairs_of(const std::vector<Proxy>& proxies) {
   return pairs;
 }
 
-Proxy box(const Vec3<double>& low, const Vec3<double>& high) {
-  Proxy p;
-  p.low = low;
-  p.high = high;
-  return p;
-}
+Proxy box(const Vec3<double>& low, const Vec3<double>& high) { return {.low = low, .high = high}; }
 Proxy cube(double x, double side = 1) { return box({x, 0, 0}, {x + side, side, side}); }
 
 template <class List> struct AsTypes;

@@ -85,8 +85,7 @@ class MotionDraw : public PortableDraw {
   Vec3<double> place(MotionStyle style) { return style == MotionStyle::grid ? cells(8) : point(2); }
   Vec3<double> cells(int most) {
     const auto cell = [&] { return (below(2 * most + 1) - most) * 0.25; };
-    const double x = cell(), y = cell();
-    return {x, y, cell()};
+    return {cell(), cell(), cell()};
   }
 
   Sphere<double> shape(MotionStyle style, const Mat3<double>&, TypeTag<Sphere<double>>) {
