@@ -28,7 +28,7 @@ template <class A, class B> Vec3<typename A::Scalar> relative_displacement(const
   return a.displacement - b.displacement;
 }
 
-/// The answer for shapes that touch or overlap at the start, this deep; they may turn as well.
+/// The answer for shapes that touch or overlap at the start, which may turn as well: of their separation there, or asking for it.
 template <Scalar S> Toi<S> overlapping_at_start(const Separation<S>& start, int evaluations) {
   return {ToiStatus::overlapping, evaluations, S(0), start.normal, middle(start)};
 }

@@ -93,6 +93,8 @@ void time_rounds(const Steps& steps, const SurveyOptions& options, std::vector<s
   }
 }
 
+constexpr std::array<std::string_view, 2> placements = {"uniform", "clustered"};
+
 }  // namespace
 
 std::unique_ptr<Finder> make_finder(std::string_view name) {
@@ -104,8 +106,6 @@ std::unique_ptr<Finder> make_finder(std::string_view name) {
   });
   return finder;
 }
-
-constexpr std::array<std::string_view, 2> placements = {"uniform", "clustered"};
 
 const Factors<CrowdFactors> crowd_factors = factors<CrowdFactors>(
     choices("placement", &CrowdFactors::placement, placements, "Uniform, or clustered in heaps of about 100."),

@@ -34,7 +34,7 @@ std::string plural_text(std::int64_t count, std::string_view noun);
 /// A name as a person writes it: `long double` for `long_double`.
 std::string spaced(std::string name);
 
-/// The `name` of each.
+/// The `name` of each thing; the things must outlive what is returned.
 template <class Things> std::vector<std::string_view> names_of(const Things& things) {
   std::vector<std::string_view> names;
   for (const auto& thing : things) names.push_back(thing.name);

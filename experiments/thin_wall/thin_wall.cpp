@@ -580,9 +580,9 @@ std::vector<Cell> make_cells(const Settings& settings, std::size_t each) {
   return cells;
 }
 
-}  // namespace
-
 constexpr std::array<std::string_view, 2> walls = {"infinite", "finite"};
+
+}  // namespace
 
 const Factors<Cell> cell_factors =
     factors(numbers("speed", &Cell::speed, allowed_speed, "Speed of the ball."),

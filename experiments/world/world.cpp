@@ -85,6 +85,11 @@ void require_valid(const WorldOptions& options) {
   require(false, "there is no broad phase '" + options.broad_phase + "'; there are: " + names);
 }
 
+WorldOptions checked(WorldOptions options) {
+  require_valid(options);
+  return options;
+}
+
 std::vector<Body> checked_and_sorted(std::vector<Body> bodies) {
   for (const Body& body : bodies) require_valid(body);
   std::ranges::stable_sort(bodies, {}, &Body::id);
@@ -94,7 +99,7 @@ std::vector<Body> checked_and_sorted(std::vector<Body> bodies) {
 }
 
 World::World(std::vector<Body> bodies, WorldOptions options)
-    : options_((require_valid(options), std::move(options))),
+    : options_(checked(std::move(options))),
       bodies_(checked_and_sorted(std::move(bodies))),
       plan_(thinwall::plan(bodies_, options_)),
       stepper_(std::make_unique<Stepper>(options_, plan_)),

@@ -81,8 +81,14 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
                     const S& not_before = S(0)) {
   constexpr int round_limit = 256;
   Entry<S> answer;
+  S least = std::numeric_limits<S>::infinity();  // of all places looked at: a step far past a graze leaves its doubt
+  const auto look = [&](const S& time) {
+    CorePart<S> nearest = closest(p + v * time);
+    least = std::min(least, nearest.distance());
+    return nearest;
+  };
   S free = not_before, now = not_before;  // no contact before `free`; `part` is the nearest at `now`
-  CorePart<S> part = closest(p + v * now);
+  CorePart<S> part = look(now);
   answer.inside = not_before == S(0) && (part.contains_point() || within(part.gap, R));
   if (answer.inside) return answer;
   const S sizes = largest(p, S(R + size)), noise = gap_noise(sizes);
@@ -99,16 +105,15 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       answer.graze = !is_finite(off) || met_at(time - off) != met_at(time) || met_at(time) != met_at(time + off);
     return answer;
   };
-  S least = part.distance();  // of all places looked at: a step far past a graze does not take its doubt away
-  const auto miss = [&](const CorePart<S>& nearest) {
-    answer.graze = std::min(least, nearest.distance()) - R <= near_miss(sizes);
+  const auto miss = [&] {
+    answer.graze = least - R <= near_miss(sizes);
     return answer;
   };
   // This near, the side it is seen from is rounding: what has it inside a moment later did not recede.
   const auto miss_unless_soon_inside = [&](const CorePart<S>& nearest, const S& time) {
     const bool decided = nearest.distance() - R > noise || speed == S(0);
     const bool inside_soon = !decided && closest(p + v * S(time + 4 * noise / speed)).distance() < R;
-    return inside_soon ? hit(time, nearest.outward()) : miss(nearest);
+    return inside_soon ? hit(time, nearest.outward()) : miss();
   };
   // A path along an edge passes a corner where the edge begins, to rounding, and may close in on that; and so with a face.
   int passed = 0;
@@ -116,7 +121,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     const S across = nearest.kind == CorePart<S>::edge ? largest(cross(v, safe_unit(nearest.direction))) : speed;
     const S soon = time + 4 * noise / across;
     if (!is_finite(soon) || ++passed > 4) return false;
-    const CorePart<S> next = closest(p + v * soon);
+    const CorePart<S> next = look(soon);
     if (next.id == nearest.id || !(next.closing_speed(v) > S(0))) return false;
     free = next.distance() > R ? soon : time;  // convex: it has come nearer all the while
     now = soon;
@@ -138,7 +143,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     const PartEntry<S> entry = part_entry(part, p, v, R);
     const S target = std::max(free, entry.exists ? entry.time : entry.closest_time);
     if (!is_finite(target)) return answer;
-    const CorePart<S> there = closest(p + v * target);
+    const CorePart<S> there = look(target);
     if (there.id == part.id) {
       // Where another part was as near, to rounding, a step by its normal may have passed this one's entry, which then proves itself.
       const bool passed_by = entry.exists && entry.time < free && there.distance() < R;
@@ -149,7 +154,6 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
       return miss_unless_soon_inside(there, target);
     }
     const S ahead = there.distance() - R;
-    least = std::min(least, there.distance());
     const bool is_there = entry.exists && entry.time <= free && ahead <= noise;  // what is left is rounding
     if (is_there || (ahead == S(0) && R == S(0))) return hit(target, entry.normal);
     const bool before = ahead > S(0) && there.closing_speed(v) > S(0) && target > free;
@@ -168,8 +172,7 @@ Entry<S> core_entry(const Vec3<S>& p, const Vec3<S>& v, const S& R, const S& siz
     if (!(next > free) || next == now) return hit(std::max(free, next), part.outward());
     free = now = next;
     touched = false;
-    part = closest(p + v * now);
-    least = std::min(least, part.distance());
+    part = look(now);
   }
   answer.gave_up = true;
   answer.time = free;
