@@ -87,7 +87,7 @@ template <class BoxA> bool clear_box_manifold(const BoxA& a, const Obb<double>& 
   const auto boxes = clear_two_boxes(a, b);
   const ClearOverlaps overlaps(boxes.pair.axes(), boxes.pair.d);
   if (!boxes.pair.clear || overlaps.apart()) return boxes.pair.clear;
-  const unsigned least = overlaps.least().axes;
+  const unsigned least = boxes.pair.axes().one_axis_of(overlaps.least().axes);
   const ClearAxis& axis = ClearAxis::of(least);
   if (!overlaps.within() || !axis.alone) return false;
   if (axis.edge_a == 0) {

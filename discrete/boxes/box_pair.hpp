@@ -203,6 +203,19 @@ template <Scalar S> BoxPoints<S> deepest_points_on_face(const BoxPair<S>& pair, 
   return points;
 }
 
+/// The same of boxes that lie level, `between` apart, on the face of a across `axis`.
+THINWALL_HOT BoxPoints<double> points_on_level_face(const ClearBoxAxes& boxes, const packed::Lanes& between, int axis) {
+  const packed::Vectors<packed::Lanes> axes_b = packed::transposed(boxes.rows.x, boxes.rows.y, boxes.rows.z);
+  BoxPair<double> pair;
+  store(boxes.a, pair.half_a);
+  store(boxes.b, pair.half_b);
+  store(between, pair.between);
+  store(axes_b.x, pair.axes.data());
+  store(axes_b.y, pair.axes.data() + 3);
+  store(axes_b.z, pair.axes.data() + 6);
+  return deepest_points_on_face(pair, axis, pair.between[axis] < 0);
+}
+
 // ---- How far apart two boxes are and where, or which way out of each other is shortest.
 //
 // Closest points of boxes apart are a corner of one and the other box, or an edge of each; of the edges only the pair

@@ -74,6 +74,19 @@ struct ClearBoxAxes {
     return is_plain(rows.x) & is_plain(rows.y) & is_plain(rows.z);
   }
 
+  /// Of these of the fifteen, by their bits as ClearAxis has them, the one face of a that all are normal to but for roundings, as of boxes that
+  /// lie level; else all of them.
+  THINWALL_HOT unsigned one_axis_of(unsigned axes) const {
+    if ((axes & (axes - 1U)) == 0U) [[likely]]
+      return axes;
+    const int i = std::countr_zero(axes | 4U);
+    const packed::Lanes along = dot(rows, spread(ClearUpright::axis(i)));
+    const unsigned across = bits(abs(along) <= packed::all(0x1p-51)), its = ~across & 7U;
+    const unsigned products = (across * 0x49U & ~(7U << 3 * i)) << 6U;
+    const bool is_level = packed::is_one_axis(its) == 1U && (axes & ~(1U << i | its << 3U | products)) == 0U;
+    return is_level ? 1U << i : axes;
+  }
+
   /// visit(along, reach, noise, square) of each group: `along` gives the part of a vector, spread, along the three axes, `reach` how
   /// far both boxes reach along them together, `square` the square of their lengths. The axes are a's, b's, and each of a's crossed
   /// with b's, which are not of unit length and may have none.

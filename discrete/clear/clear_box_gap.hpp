@@ -5,6 +5,9 @@
 /// are apart, a corner of one and the other box are nearest, or two edges whose product parts them most; the plane across the gap must
 /// then part them by all of it, which no nearer places allow.
 
+#include <bit>
+
+#include <thinwall/discrete/boxes/box_pair.hpp>
 #include <thinwall/discrete/clear/clear_answers.hpp>
 #include <thinwall/discrete/clear/clear_box_axes.hpp>
 
@@ -145,6 +148,14 @@ template <class FrameA> struct ClearTwoBoxes {
   }
 };
 
+/// Boxes that lie level, and overlap least across a face of a: the middle of what the two faces share. The careful rung finds it.
+THINWALL_HOT ClearFacing clear_level_face(const ClearBoxPair& boxes, int axis) {
+  using packed::all;
+  const packed::Lanes n = all(0) - against(ClearUpright::axis(axis), boxes.d);
+  const BoxPoints<double> points = points_on_level_face(boxes.axes(), boxes.d, axis);
+  return {all_of(boxes.noise < abs(dot(n, boxes.d))), n, packed::lanes(points.on_a), packed::lanes(points.on_b)};
+}
+
 /// Of boxes that are apart nothing more is said, unless `apart_too`.
 template <bool apart_too, class FrameA> THINWALL_HOT ClearContact clear_boxes_gap(const ClearTwoBoxes<FrameA>& two) {
   using packed::Lanes, packed::Pair, packed::all, packed::both;
@@ -152,7 +163,12 @@ template <bool apart_too, class FrameA> THINWALL_HOT ClearContact clear_boxes_ga
   const ClearOverlaps overlaps(boxes.axes(), boxes.d);
   if (overlaps.apart() && !apart_too) return {boxes.clear, false, all(0), all(0), all(0), both(0)};
 
-  const ClearFeatures features(boxes, overlaps.least().axes);
+  const unsigned near = overlaps.least().axes, axes = boxes.axes().one_axis_of(near);
+  if (axes != near && overlaps.within()) [[unlikely]] {
+    const ClearFacing level = clear_level_face(boxes, std::countr_zero(axes));
+    return two.contact(true, level, boxes.overlap(level.n));
+  }
+  const ClearFeatures features(boxes, axes);
   const bool is_corner = overlaps.apart() && !features.edges_face;
   ClearFacing facing = is_corner ? clear_nearest_corner(boxes) : features.facing;
   Pair depth = boxes.overlap(facing.n);

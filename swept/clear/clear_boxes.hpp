@@ -63,9 +63,10 @@ struct ClearBoxes {
     if (all_of(last < first)) return;
 
     const Lanes near = all(first);
-    unsigned axes = 0;
-    for (unsigned i = 0; i < 5; ++i) axes |= bits(near <= entered[i]) << 3U * i;
-    const bool meets = all_of((first_most <= last_least) & (both(0) < first));
+    unsigned last_ones = 0;
+    for (unsigned i = 0; i < 5; ++i) last_ones |= bits(near <= entered[i]) << 3U * i;
+    const unsigned axes = boxes.one_axis_of(last_ones);
+    const bool lies_level = axes != last_ones, meets = all_of((first_most <= last_least) & (both(0) < first));
     const ClearAxis& k = ClearAxis::of(axes);
 
     // Once more along its normal n, across two edges: an axis leans to its face by roundings, which count by all of the face. f and g are
@@ -88,9 +89,14 @@ struct ClearBoxes {
     const Pair on = two_sums(edge_b * gap, edge_a * gap), edges = dot(edge_a, edge_b);
     const Lanes on_edge = edge_a * all((edges * firsts(on) - seconds(on)) / nn);
     from_a = select(is_own, corner_b, select(is_its, corner_a, corner_a + on_edge));
+    if (lies_level) [[unlikely]] {
+      const BoxPoints<double> points = points_on_level_face(boxes, of_a.into(between + v * all(time)), k.a);
+      from_a = of_a.out_of(lanes(Vec3<double>((points.on_a + points.on_b) / 2)));
+    }
     const LanesMask one_corner =
         ((level < ha * abs(f)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
-    clear = both(both(clear, both(k.alone, meets)), both(all_of(one_corner), all_of(both(0x1p-20) <= nn)));
+    clear =
+        both(both(clear, both(k.alone, meets)), both(lies_level || all_of(one_corner), all_of(both(0x1p-20) <= nn)));
   }
 };
 
