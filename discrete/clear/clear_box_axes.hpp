@@ -12,9 +12,11 @@
 
 namespace thinwall {
 
-/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often.
+/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often; and where noise is
+/// 2^-46 of all sizes, to twice as many, as those of a quaternion are.
 struct ClearFrame {
   static constexpr bool is_turned = true;
+  static constexpr double of_quaternion = 0x1p-48;
   const double* numbers;
   packed::Lanes x, y, z;
   packed::Vectors<packed::Lanes> rows;  ///< of each of the world's axes, what the box's have along it
@@ -27,9 +29,9 @@ struct ClearFrame {
         z(packed::lanes(numbers + 6)),
         rows(packed::transposed(x, y, z)),
         squares(dot(rows, rows)) {}
-  THINWALL_HOT packed::LanesMask clear() const {
+  THINWALL_HOT packed::LanesMask clear(double off = 0x1p-49) const {
     const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
-    return abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(0x1p-49);
+    return abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(off);
   }
   /// Over their lengths.
   THINWALL_HOT packed::Lanes per_length() const { return packed::all(1.5) - squares * packed::all(0.5); }
@@ -51,7 +53,7 @@ struct ClearFrame {
 /// A box that is not turned, as ClearFrame is one that is.
 struct ClearUpright {
   static constexpr bool is_turned = false;
-  THINWALL_HOT static packed::LanesMask clear() { return packed::mask(true, true, true); }
+  THINWALL_HOT static packed::LanesMask clear(double = 0) { return packed::mask(true, true, true); }
   THINWALL_HOT static packed::Lanes per_length() { return packed::all(1); }
   THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
   THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }
