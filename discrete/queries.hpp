@@ -6,6 +6,7 @@
 /// `<`; the two differ on a set of measure zero.) Every query wants valid() shapes, and says false, nothing or NaN of others.
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -108,16 +109,17 @@ template <class A, class B> THINWALL_HOT ClearOverlap clear_overlap_either_way(c
   }
 }
 
-/// What ask(a, b, e), a front door, says of shapes of the clear rung divided by 2^e to a size near 1, where no product underflows or
+/// What ask(a, b, e), a front door, says of shapes of doubles or floats divided by 2^e to a size near 1, where no product underflows or
 /// overflows, so that the unit of length changes no bit. Nothing where the size is near 1 as it is or 0, a shape is not valid, or a division
 /// would not be exact.
 template <Shape A, Shape B, class Ask>
 std::optional<std::invoke_result_t<Ask, A, B, int>> asked_near_one(const A& a, const B& b, const Ask& ask) {
-  if constexpr (HasClearContact<A, B> || HasClearContact<B, A>) {
-    const Vec3<double> at = center(a);
-    const double size = extent(moved<double>(a, -at)) + extent(moved<double>(b, -at));  // wherever the origin is
+  using S = typename A::Scalar;
+  if constexpr (std::numeric_limits<S>::digits <= std::numeric_limits<double>::digits) {
+    const Vec3<S> at = center(a);
+    const S size = extent(moved<S>(a, -at)) + extent(moved<S>(b, -at));  // wherever the origin is
     const bool is_none = size == 0 || !is_finite(size);
-    if ((size >= 0x1p-50 && size <= 0x1p50) || is_none || !valid(a) || !valid(b)) return std::nullopt;
+    if ((size >= S(0x1p-50) && size <= S(0x1p50)) || is_none || !valid(a) || !valid(b)) return std::nullopt;
     const int e = binary_exponent(size);
     if (divides_exactly(a, e) && divides_exactly(b, e)) return ask(scaled(a, -e), scaled(b, -e), e);
   }

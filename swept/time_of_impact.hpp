@@ -114,8 +114,8 @@ Toi<float> impact_in_double(const ClosedForm<float>& method, const Moving<A>& a,
 /// When A and B first touch during the step, by `method`.
 /// Returns `invalid` with time NaN for a NaN, an infinity, a negative size, axes that are not orthonormal (valid()) or a
 /// negative min_separation.
-/// Degenerate: touching at the start is `overlapping` with time 0, whatever the motion (but EndOfStep and Substeps look
-/// only at the poses they sample); no relative motion is `apart`, or `overlapping` if they touch.
+/// Degenerate: touching at the start is `overlapping` with time 0, whatever the motion; no relative motion is `apart`, or
+/// `overlapping` if they touch (but EndOfStep and Substeps look only at the poses they sample, each as it is rounded).
 /// Passing A and B the other way round flips the normal and changes nothing else; where both are of one kind, the time may differ by the
 /// method's error.
 template <class Method, Shape A, Shape B>

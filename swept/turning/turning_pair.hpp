@@ -202,8 +202,9 @@ template <Scalar S> struct TurningPair {
     using std::sqrt;
     const S radius = (a.far + b.far + reach) * (S(1) + constant_power_of_two<S, -16>()) + S(16) * margin;
     const S apart = between.squaredNorm() - radius * radius, speed_square = path.squaredNorm();
-    const S far_away = 4096;
+    const S far_away = 4096, fastest = largest(path);
     if (!(between.squaredNorm() + speed_square < far_away * far_away * radius * radius)) return;
+    if (!products_in_range(radius) || (fastest > S(0) && !products_in_range(fastest))) return;
     const S approach = -between.dot(path), under_root = approach * approach - speed_square * apart;
     if (apart > S(0) && (approach <= S(0) || under_root < S(0))) {
       first = S(2);

@@ -117,6 +117,22 @@ TEST(RangeOfDouble, the_least_number_is_a_size) {
   EXPECT_FALSE(overlaps(Sphere<double>{{0, 0, 0}, least}, Sphere<double>{{3 * least, 0, 0}, least}));
 }
 
+// Products of an edge with one all but parallel are shorter by the lean, and of a float soon nothing.
+TEST(RangeOfFloat, boxes_all_but_parallel_overlap_as_far_at_any_size) {
+  constexpr float lean = 1e-10F;
+  Mat3<float> axes;
+  axes << 1, -lean, lean / 3, lean, 1, lean / 2, -lean / 3, -lean / 2, 1;
+  const Aabb<float> a{{0, 0, 0}, {1, 1, 1}};
+  const Obb<float> b{{0.5F, 0.25F, 0.125F}, {1, 1, 1}, axes};
+  for (const int e : {0, -60, -110, -118}) {
+    const Aabb<float> tiny_a = scaled(a, e);
+    const Obb<float> tiny_b = scaled(b, e);
+    EXPECT_TRUE(overlaps(tiny_a, tiny_b)) << e;
+    EXPECT_EQ(std::ldexp(separation(tiny_a, tiny_b).distance, -e), -1.5F) << e;
+    EXPECT_EQ(std::ldexp(contact(tiny_a, tiny_b)->penetration, -e), 1.5F) << e;
+  }
+}
+
 // ---- Which axes an oriented box may have.
 
 template <class S> class ObbAxes : public ::testing::Test {

@@ -257,6 +257,23 @@ TYPED_TEST(SweptMethods, bisection_finds_a_contact_however_short) {  // no pose 
   expect_hit_near(time_of_impact(Bisection<S>{}, fast, plate), S(1) / S(3), thin, thin);
 }
 
+// Next to each other by less than the roundings of where they are later.
+TEST(MethodsOfPoses, leave_apart_what_flies_side_by_side) {
+  const Vec3<double> path(0, 0.25, -1.0000000000000002);
+  const Moving<Sphere<double>> ball{{{-0.5, -0.49999999999999994, 1.7500000000000002}, 0.75}, path};
+  const Moving<Aabb<double>> box{
+      {{0.7499999999999999, -0.9999999999999999, -0.7500000000000001}, {1.4999999999999998, 0.75, 1.75}}, path};
+  EXPECT_FALSE(overlaps(ball.shape, box.shape));
+  EXPECT_EQ(text(time_of_impact(SweepThenConfirm<double>{}, ball, box).status), text(apart));
+  const Vec3<double> fast(0, 211106232532992, 1.9073486328125e-6);
+  const Moving<Sphere<double>> speck{{{0, 2.535301200456459e30, -4194304}, 2.0194839173657902e-28}, fast};
+  const Moving<Triangle<double>> vast{{{549755813888, 10, -1.2912720851596686e20},
+                                       {-1.1175870895385742e-8, 256, -1.3292279957849159e37},
+                                       {-1.1920928955078125e-6, 2.535301200456459e30, 6.352747104407253e-22}},
+                                      fast};
+  EXPECT_EQ(text(time_of_impact(SweptVolumeRay<double>{}, speck, vast).status), text(apart));
+}
+
 TEST(BisectionOfShapes, has_no_tolerance_below_what_their_times_resolve) {  // it would halve for ever
   const Moving<Sphere<double>> shot{{{-4, 0, 0}, 1}, {8, 0, 0}};
   const auto ball = at_rest(Sphere<double>{{0, 0.25, 0}, 1});

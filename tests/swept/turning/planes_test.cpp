@@ -377,6 +377,20 @@ TEST(TurningShapes, what_has_flown_by_is_not_waited_for) {
   EXPECT_EQ(time_of_impact(b, a).status, ToiStatus::apart);
 }
 
+// What parts balls for a while is told by squares of squares, and of a motion so slow beside their size, or beside all numbers, they are nothing.
+TEST(CertifiedTurning, calls_nothing_parted_by_a_square_that_vanishes) {
+  const auto expect_touching = [](double distance, double radius, const V& path, const V& own_path) {
+    const Turning<Sphere<double>> a{{V(0, 0, 0), radius}, path, V::Zero()};
+    const Turning<Sphere<double>> b{{V(0, 0, distance), radius}, V(path + own_path), V::Zero()};
+    EXPECT_NE(time_of_impact(a, b).status, ToiStatus::apart);
+    EXPECT_NE(certified_time_of_impact(a, b).verdict, ToiStatus::apart);
+  };
+  for (const double common : {1e150, 1e154, 1e160}) expect_touching(2, 2, {common, 0, 0}, {0, 0, 1});
+  expect_touching(2, 2, {1e17, 0, 0}, {0, 0, 1e-140});
+  expect_touching(1e-3, 1e-3, V::Zero(), {0, 0, 1e-160});
+  expect_touching(1e-10, 1e-10, V::Zero(), {0, 0, 1e-153});
+}
+
 /// At rest a rounded test is no proof: balls that overlap by 2^-106, and boxes by 2^-33 of axes that are not quite unit.
 TEST(CertifiedTurning, proves_nothing_of_what_rests_within_rounding) {
   const Turning<Sphere<double>> large{{V(0, 0, 0), 1}, V::Zero(), V::Zero()};
