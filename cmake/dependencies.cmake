@@ -60,6 +60,9 @@ macro(thinwall_lookup name)
 endmacro()
 
 function(thinwall_dependency name)
+  if(DEFINED thinwall_version_${name})
+    return()  # two parts need it
+  endif()
   thinwall_lookup(${name})
   set(origin "")
   if(TARGET ${dep_TARGET})

@@ -310,7 +310,7 @@ std::string config_text(const Wish& wish, std::span<const Candidate> candidates)
   std::vector<std::string> methods;
   for (const std::string_view name : method_names()) methods.push_back(fmt::format("\"{}\"", name));
   std::string text = fmt::format(
-      "{}\n#\n# Wanted: {}.\n# Expected:                    tunnel      seen late by  meets the wish\n{}"
+      "{}\n#\n# Wanted: {}.\n# Expected:                   tunnel      seen late by  meets the wish\n{}"
       "# Every run fires the bullet of the textbook as well.\n"
       "experiment = \"thin_wall\"\nshots = {}\n\nspeed = [{}]  # [m/s]\nstep = [{}]  # [s]\n"
       "angle_deg = [{}]  # [deg]\nradius = [{}]  # [m]\nthickness = [{}]  # [m]\nwall = [\"infinite\"]\n\n",

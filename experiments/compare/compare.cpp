@@ -248,12 +248,14 @@ Outcome outcome_of(const Comparison& comparison, const std::vector<Trial>& trial
   }
   Outcome out;
   out.answer = answer_text(comparison, exact, contests);
+  const auto bodies = std::ssize(comparison.scene.bodies);
   const Table shown = table(
       "compare",
-      fmt::format("{}: {} bodies, {} s. Exact run: by events, steps of {} ms; {} pairs meet. Seconds of run time a "
-                  "second of the scene.",
-                  comparison.scene.name, grouped_text(std::ssize(comparison.scene.bodies)), rounded_text(duration, 4),
-                  rounded_text(1e3 * comparison.exact.dt, 4), grouped_text(std::ssize(exact.meetings))),
+      fmt::format(
+          "{}: {} bod{}, {} s. Exact run: by events, steps of {} ms; {} pairs meet. The last column is seconds of "
+          "run time a second of the scene.",
+          comparison.scene.name, grouped_text(bodies), bodies == 1 ? "y" : "ies", rounded_text(duration, 4),
+          rounded_text(1e3 * comparison.exact.dt, 4), grouped_text(std::ssize(exact.meetings))),
       columns_of<Contest>(compare_columns(), run_time_column(duration)), contests);
   out.summary = terminal(shown, {"policy", "dt", "tunneled", "pushed_through", "met", "unmet", "extra", "error_median",
                                  "error_largest", "seconds"});

@@ -72,10 +72,10 @@ std::string break_text(const Survival& s) {
   return fmt::format("{} {}", rounded_text(*s.broken, 3), name(*s.flaw));
 }
 
-/// The power of ten and what is wrong: "4v", "-10e"; "all" where it breaks at the first value, "ok" where it survives.
+/// The power of ten and what is wrong: "4v", "-10e"; "all e" where it breaks at the first value, "ok" where it survives.
 std::string short_break_text(const Survival& s) {
   if (!s.broken) return s.survived ? "ok" : "";
-  return fmt::format("{}{}", s.survived ? fmt::format("{:.0f}", std::log10(*s.broken)) : "all", name(*s.flaw)[0]);
+  return fmt::format("{}{}", s.survived ? fmt::format("{:.0f}", std::log10(*s.broken)) : "all ", name(*s.flaw)[0]);
 }
 
 /// A column an arm.

@@ -241,9 +241,7 @@ std::string parse_folder(const OptionText& text) {
 std::int64_t parse_positive(std::string_view option, const std::string& text, std::int64_t most) {
   const auto count = parse_count(text);
   if (!count || *count < 1 || *count > most) {
-    const char* how = text.find_first_of("eE.") != std::string::npos ? ", in digits alone" : "";
-    throw UsageError(
-        fmt::format("{}: '{}' is not allowed; a whole number from 1 to {}{}", option, one_line(text), most, how));
+    throw UsageError(fmt::format("{}: '{}' is not allowed; a whole number from 1 to {}", option, one_line(text), most));
   }
   return *count;
 }
