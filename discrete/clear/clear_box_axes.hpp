@@ -47,6 +47,8 @@ struct ClearFrame {
     const packed::Vectors<packed::Lanes> part = spread(v);
     return (x * part.x + y * part.y) + z * part.z;
   }
+  /// How far each axis reaches along n, of numbers that all count.
+  THINWALL_HOT packed::Lanes sizes_along(const packed::Lanes& n) const { return dot(abs(rows), spread(abs(n))); }
   THINWALL_HOT packed::Lanes axis(int i) const { return packed::lanes(numbers + 3 * static_cast<std::ptrdiff_t>(i)); }
 };
 
@@ -57,6 +59,7 @@ struct ClearUpright {
   THINWALL_HOT static packed::Lanes per_length() { return packed::all(1); }
   THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
   THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }
+  THINWALL_HOT static packed::Lanes sizes_along(const packed::Lanes& n) { return abs(n); }
   THINWALL_HOT static packed::Lanes axis(int i) {
     return keep(packed::lowest(1U << static_cast<unsigned>(i)), packed::all(1));
   }

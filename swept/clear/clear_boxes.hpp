@@ -90,14 +90,19 @@ struct ClearBoxes {
     const Pair on = two_sums(edge_b * gap, edge_a * gap), edges = dot(edge_a, edge_b);
     const Lanes on_edge = edge_a * all((edges * firsts(on) - seconds(on)) / nn);
     from_a = select(is_own, corner_b, select(is_its, corner_a, corner_a + on_edge));
-    if (lies_level) [[unlikely]] {
+    const LanesMask one_corner =
+        ((level < ha * abs(f)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
+    bool one_place = all_of(one_corner);
+    if (lies_level) [[unlikely]] {  // to less than what rounds them along n; else their edges may be met after a's face
+      const auto lean = [](const Lanes& half, const Lanes& along) {
+        return dot(half, keep(abs(along) <= all(0x1p-20), abs(along)));
+      };
+      const Pair sizes = dot(ha, of_a.sizes_along(n)) + dot(hb, of_b.sizes_along(n));
+      one_place = all_of((lean(ha, f) + lean(hb, g)) * both(0x1p53) <= sizes);
       const BoxPoints<double> points = points_on_level_face(boxes, of_a.into(between + v * all(time)), k.a);
       from_a = of_a.out_of(lanes(Vec3<double>((points.on_a + points.on_b) / 2)));
     }
-    const LanesMask one_corner =
-        ((level < ha * abs(f)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
-    clear =
-        both(both(clear, both(k.alone, meets)), both(lies_level || all_of(one_corner), all_of(both(0x1p-20) <= nn)));
+    clear = both(both(clear, both(k.alone, meets)), both(one_place, all_of(both(0x1p-20) <= nn)));
   }
 };
 
