@@ -237,7 +237,7 @@ THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<dou
                             all_of(noise < abs(dot(x, contact.normal))));
   contact.clear = both(both(contact.clear, all_of(frame.clear(ClearFrame::of_quaternion))),
                        both(all_of(decided), all_of(wide) || one_way));
-  contact.normal = frame.out_of(contact.normal * per_length);
+  contact.normal = nearer_unit(frame.out_of(contact.normal * per_length));
   contact.local_a = frame.out_of(contact.local_a * per_length);
   contact.local_b = (all(0) - contact.normal) * all(r);
   return contact;

@@ -6,7 +6,6 @@
 /// `<`; the two differ on a set of measure zero.) Every query wants valid() shapes, and says false, nothing or NaN of others.
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -115,7 +114,7 @@ template <class A, class B> THINWALL_HOT ClearOverlap clear_overlap_either_way(c
 template <Shape A, Shape B, class Ask>
 std::optional<std::invoke_result_t<Ask, A, B, int>> asked_near_one(const A& a, const B& b, const Ask& ask) {
   using S = typename A::Scalar;
-  if constexpr (std::numeric_limits<S>::digits <= std::numeric_limits<double>::digits) {
+  if constexpr (std::is_same_v<S, double> || std::is_same_v<S, float>) {
     const Vec3<S> at = center(a);
     const S size = extent(moved<S>(a, -at)) + extent(moved<S>(b, -at));  // wherever the origin is
     const bool is_none = size == 0 || !is_finite(size);

@@ -40,7 +40,7 @@ template <Shape A> typename A::Scalar extent(const A& shape) {
 /// The same shape in a wider scalar; of a box, also as true to its axes as that scalar can be.
 template <Scalar W, Shape A> auto widened(const A& shape) { return cast<W>(shape); }
 
-/// True if every length of a shape of doubles, divided by 2^e, is a double: nothing is lost below the range.
+/// True if every length of a shape of doubles or floats, divided by 2^e, is one: nothing is lost below the range.
 template <class T> bool divides_exactly(const T& shape, int e) {
   const T back = scaled(scaled(shape, -e), e);
   return std::memcmp(&back, &shape, sizeof(T)) == 0;  // NOLINT(bugprone-suspicious-memory-comparison): bit for bit

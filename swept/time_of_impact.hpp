@@ -56,8 +56,8 @@ template <Shape A, Shape B>
   return checked_impact(method, a, b);
 }
 
-/// How far shapes are apart at the start, of which that is not clear: careful where it is clear that they overlap, as of turned boxes that lie
-/// level, else infinitely far.
+/// How far shapes are apart at the start, of which that is not clear: careful where it is clear that they overlap, as of turned boxes of which
+/// two ways out are as short, else infinitely far.
 template <Shape A, Shape B> [[gnu::noinline]] Separation<double> doubtful_start(const A& a, const B& b) {
   if constexpr (HasClearOverlap<A, B>) {
     const ClearOverlap overlap = clear_overlap(a, b);
@@ -115,7 +115,7 @@ Toi<float> impact_in_double(const ClosedForm<float>& method, const Moving<A>& a,
 /// Returns `invalid` with time NaN for a NaN, an infinity, a negative size, axes that are not orthonormal (valid()) or a
 /// negative min_separation.
 /// Degenerate: touching at the start is `overlapping` with time 0, whatever the motion; no relative motion is `apart`, or
-/// `overlapping` if they touch (but EndOfStep and Substeps look only at the poses they sample, each as it is rounded).
+/// `overlapping` if they touch. Not by EndOfStep and Substeps, which look only at the poses they sample, as those are rounded.
 /// Passing A and B the other way round flips the normal and changes nothing else; where both are of one kind, the time may differ by the
 /// method's error.
 template <class Method, Shape A, Shape B>

@@ -80,15 +80,18 @@ struct ClearBoxAxes {
   }
 
   /// Of these of the fifteen, by their bits as ClearAxis has them, the one face of a that all are normal to but for roundings, as of boxes that
-  /// lie level; else all of them.
+  /// lie level; else all of them. If one of b's is among them, a's that is level with it is, too: noise is more than they differ by. A short
+  /// product may lean to a's face: but not so that it parts more than that and the face beside it.
   THINWALL_HOT unsigned one_axis_of(unsigned axes) const {
     if ((axes & (axes - 1U)) == 0U) [[likely]]
       return axes;
     const int i = std::countr_zero(axes | 4U);
-    const packed::Lanes along = dot(rows, spread(ClearUpright::axis(i)));
-    const unsigned across = bits(abs(along) <= packed::all(0x1p-51)), its = ~across & 7U;
+    const packed::Lanes level = packed::all(0x1p-51), along = dot(rows, spread(ClearUpright::axis(i)));
+    const unsigned across = bits(abs(along) <= level), its = ~across & 7U;
+    const packed::Lanes own = only(packed::lowest(its), rows);  // of a's axes along that one of b's
     const unsigned products = (across * 0x49U & ~(7U << 3 * i)) << 6U;
-    const bool is_level = packed::is_one_axis(its) == 1U && (axes & ~(1U << i | its << 3U | products)) == 0U;
+    const bool is_level = packed::is_one_axis(its) == 1U && bits(abs(own) <= level) == (7U & ~(1U << i)) &&
+                          (axes & ~(1U << i | its << 3U | products)) == 0U;
     return is_level ? 1U << i : axes;
   }
 

@@ -1,7 +1,8 @@
 #pragma once
 /// The clear cases of box_gap(): two boxes of which one at least is turned, as five groups of three axes.
 ///
-/// Where they overlap one axis alone, beyond all noise, is of least overlap, and leads to a face and a corner, or to two edges. Where they
+/// Where they overlap one axis alone, beyond all noise, is of least overlap, and leads to a face and a corner, or to two edges; or several are,
+/// which are normal to one face of each but for roundings. Where they
 /// are apart, a corner of one and the other box are nearest, or two edges whose product parts them most; the plane across the gap must
 /// then part them by all of it, which no nearer places allow.
 
@@ -143,9 +144,9 @@ template <class FrameA> struct ClearTwoBoxes {
   /// Of two places that face each other, in the world's axes; `depth` is how far the boxes overlap there.
   THINWALL_HOT ClearContact contact(bool touching, const ClearFacing& facing, const packed::Pair& depth) const {
     const packed::Lanes per_a = of_a.per_length();
-    return {packed::both(pair.clear, facing.clear), touching,
-            of_a.out_of(facing.on_a * per_a),       of_a.out_of((facing.on_b - pair.d) * per_a),
-            of_a.out_of(facing.n * per_a),          depth};
+    return {packed::both(pair.clear, facing.clear),     touching,
+            of_a.out_of(facing.on_a * per_a),           of_a.out_of((facing.on_b - pair.d) * per_a),
+            nearer_unit(of_a.out_of(facing.n * per_a)), depth};
   }
 };
 

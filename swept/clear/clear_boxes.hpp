@@ -2,8 +2,8 @@
 /// The clear cases of boxes_entry.hpp: fifteen axes, in five groups of three lanes.
 ///
 /// On each axis the times between which the shadows overlap are known within bounds, by the noise of the numbers they come of. A miss
-/// is one beyond all bounds. Of a hit the bounds say which axis is the last to be shared, and nothing comes near it; its time is
-/// computed once more, by division, from the axis itself.
+/// is one beyond all bounds. Of a hit the bounds say which axis is the last to be shared, and nothing comes near it but what is the same but
+/// for roundings, as where boxes lie level; its time is computed once more, by division, from the axis itself.
 
 #include <thinwall/discrete/obb.hpp>
 
@@ -100,7 +100,7 @@ struct ClearBoxes {
       const Pair sizes = dot(ha, of_a.sizes_along(n)) + dot(hb, of_b.sizes_along(n));
       one_place = all_of((lean(ha, f) + lean(hb, g)) * both(0x1p53) <= sizes);
       const BoxPoints<double> points = points_on_level_face(boxes, of_a.into(between + v * all(time)), k.a);
-      from_a = of_a.out_of(lanes(Vec3<double>((points.on_a + points.on_b) / 2)));
+      from_a = of_a.out_of(lanes(points.on_a));
     }
     clear = both(both(clear, both(k.alone, meets)), both(one_place, all_of(both(0x1p-20) <= nn)));
   }

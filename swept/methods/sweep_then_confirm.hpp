@@ -38,7 +38,7 @@ Toi<typename A::Scalar> impact(const SweepThenConfirm<S>& method, const Moving<A
   using T = typename A::Scalar;
   const T margin(method.min_separation);
   if (overlaps_unchecked(a.shape, b.shape, margin)) return overlapping_at_start(a, b, 1);
-  if (relative_displacement(a, b) == Vec3<T>::Zero()) return {ToiStatus::apart, 1};  // poses round, each by itself
+  if (relative_displacement(a, b) == Vec3<T>::Zero()) return {ToiStatus::apart, 1};  // where they are later is rounded
   const auto entry = first_shoots(a, b) ? enters_track<T>(a, b) : enters_track<T>(b, a);
   if (!entry) return {ToiStatus::apart, 2};
   const A a_then = pose_at(a, entry->t);

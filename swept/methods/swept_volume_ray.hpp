@@ -43,8 +43,9 @@ template <Scalar T, Shape B>
 Toi<T> sweep_and_cast(const Moving<Sphere<T>>& sphere, const Moving<B>& target, const T& margin) {
   if (overlaps_unchecked(sphere.shape, target.shape, margin)) return overlapping_at_start(sphere, target, 1);
   const Vec3<T> motion = relative_displacement(sphere, target);
+  if (motion == Vec3<T>::Zero()) return {ToiStatus::apart, 1};
   const Capsule<T> swept = swept_volume(Moving<Sphere<T>>{sphere.shape, motion});
-  if (motion == Vec3<T>::Zero() || !overlaps_unchecked(swept, target.shape, margin)) return {ToiStatus::apart, 2};
+  if (!overlaps_unchecked(swept, target.shape, margin)) return {ToiStatus::apart, 2};
   Toi<T> toi = cast_center<T>(sphere, target);
   if (toi.status == ToiStatus::hit) {
     toi.evaluations = 3;

@@ -105,17 +105,18 @@ TYPED_TEST(Ladder, clear_decides_what_is_asked_in_float) {  // whose axes, ortho
   EXPECT_GE(share(41, cases / 10, is_clear_shot), 0.99);
 }
 
-// They are off by up to twice as much as those of which one is made across the others.
+/// They are off by up to twice as much as those of which one is made across the others.
+Mat3<double> axes_of_a_quaternion(Shaker<double>& draw) {
+  const double w = draw.plain(), x = draw.plain(), y = draw.plain(), z = draw.plain();
+  const double length = std::sqrt(w * w + x * x + y * y + z * z);
+  return Eigen::Quaternion<double>(w / length, x / length, y / length, z / length).toRotationMatrix();
+}
+
 TEST(Ladder, clear_decides_of_boxes_whose_axes_come_from_a_quaternion) {
-  const auto axes = [](Shaker<double>& draw) {
-    const double w = draw.plain(), x = draw.plain(), y = draw.plain(), z = draw.plain();
-    const double length = std::sqrt(w * w + x * x + y * y + z * z);
-    return Mat3<double>(Eigen::Quaternion<double>(w / length, x / length, y / length, z / length).toRotationMatrix());
-  };
-  const auto is_clear_shot = [&](Shaker<double>& draw) {
+  const auto is_clear_shot = [](Shaker<double>& draw) {
     auto shot = everyday_shot<Turned, Turned>(draw);
-    shot.a.shape.axes = axes(draw);
-    shot.b.shape.axes = axes(draw);
+    shot.a.shape.axes = axes_of_a_quaternion(draw);
+    shot.b.shape.axes = axes_of_a_quaternion(draw);
     const Turned a = shot.a.shape, b = pose_at(shot.b, 0.7);
     const bool all = clear_overlap(a, b).clear && clear_contact(a, b).clear;
     EXPECT_TRUE(!all || (clear_overlap(a, b).overlaps == careful_overlaps(a, b) &&
@@ -315,6 +316,47 @@ TEST(LadderFilters, turned_boxes_that_lie_level_meet_in_the_middle_of_what_their
     turned.b.shape.axes = axes * turn_in_plane<double>(0, 1, 0.6, 0.8);
     EXPECT_TRUE(agrees_if_clear(turned, 0.0));
   }
+}
+
+// Of any sizes, beside each other and across each other's ends, with axes that are a few roundings off.
+TEST(LadderFilters, what_falls_level_agrees) {
+  const auto is_clear_shot = [](Shaker<double>& draw) {
+    const Mat3<double> axes = axes_of_a_quaternion(draw);
+    const auto long_box = [&] {
+      return V(draw.sizes() + V(0.1, 0.1, 0.1)).cwiseProduct(V(power<double>(draw.pick(0, 9)), 1, 1));
+    };
+    const Turned below{V::Zero(), long_box(), axes};
+    Turned above{V::Zero(), long_box(), axes * turn_in_plane<double>(0, 1, 0.6, 0.8)};
+    const double beside = (below.half_extents[0] + above.half_extents[0] * 0.6) * 0.9;
+    above.center = axes * V(beside * draw.plain(), draw.plain() / 8, below.half_extents[2] + above.half_extents[2] + 1);
+    const Motion<Turned, Turned> falls{at_rest(below), {above, V(axes.col(2) * -2.5)}};
+    const Turned within = moved<double>(above, V(axes.col(2) * -1.01));
+    const ClearContact rung = clear_contact(below, within);
+    const auto clear = rung.contact(), careful = careful_contact(below, within);
+    if (rung.clear && clear && careful) {
+      EXPECT_NEAR(clear->penetration, careful->penetration, 4 * u * (magnitude(below) + magnitude(within)));
+      EXPECT_NEAR(clear->normal.norm(), 1, 4 * u);
+    }
+    return agrees_if_clear(falls, 0.0);
+  };
+  EXPECT_GE(share(47, cases, is_clear_shot), 0.8);
+}
+
+TEST(LadderFilters, a_long_box_that_leans_by_roundings_does_not_lie_level) {
+  const auto is_clear_fall = [](const V& half, const Mat3<double>& axes, double lean) {
+    const Turned floor{V::Zero(), {500, 500, 0.1}, axes},
+        above{{0.5, 0.5, 1}, half, axes * turn_in_plane<double>(0, 2, 1, lean)};
+    return is_clear(at_rest(floor), Moving<Turned>{above, {0, 0, -2}});
+  };
+  const Mat3<double> upright = Mat3<double>::Identity();
+  EXPECT_TRUE(is_clear_fall({500, 500, 0.1}, upright, 0));
+  EXPECT_FALSE(is_clear_fall({500, 500, 0.1}, upright, 0x1p-52));
+  EXPECT_TRUE(is_clear_fall({0.1, 0.1, 0.1}, upright, 0x1p-54));
+
+  Turned skewed{V::Zero(), {1, 1, 1}, upright},
+      across{{100.9, 0, 3}, {100, 1, 1}, turn_in_plane<double>(0, 2, 1, 1.49 * 0x1p-50)};
+  skewed.axes(0, 2) = 0.99 * 0x1p-50;
+  agrees_if_clear<Turned, Turned>({at_rest(skewed), {across, {0, 0, -4}}}, 0.0);
 }
 
 TEST(LadderFilters, which_of_two_ways_out_of_a_turned_box_is_shortest_may_be_in_doubt_though_that_it_overlaps_is_not) {
