@@ -81,8 +81,9 @@ template <Scalar S> Manifold<S> touching_manifold(const Obb<S>& a, const Aabb<S>
   return flipped(boxes_manifold(box_pair(b, a)));
 }
 
-/// The clear rung: true if `made`, empty before, holds the answer. Which axis is that of least overlap is clear if it is one alone, but
-/// for roundings; of a face the rest is the careful rung's, and edges meet in the point of clear_contact(), unless their product is all but normal to a face.
+/// The clear rung: true if `made`, empty before, holds the answer. Which axis is that of least overlap is clear if it is one alone, but for
+/// roundings; of a face the rest is the careful rung's, and edges meet in the point of clear_contact(), unless their product is all but normal
+/// to a face.
 template <class BoxA> bool clear_box_manifold(const BoxA& a, const Obb<double>& b, Manifold<double>& made) {
   const auto boxes = clear_two_boxes(a, b);
   const ClearOverlaps overlaps(boxes.pair.axes(), boxes.pair.d);

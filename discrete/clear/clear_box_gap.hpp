@@ -2,9 +2,8 @@
 /// The clear cases of box_gap(): two boxes of which one at least is turned, as five groups of three axes.
 ///
 /// Where they overlap one axis alone, beyond all noise, is of least overlap, and leads to a face and a corner, or to two edges; or several are,
-/// which are normal to one face of each but for roundings. Where they
-/// are apart, a corner of one and the other box are nearest, or two edges whose product parts them most; the plane across the gap must
-/// then part them by all of it, which no nearer places allow.
+/// which are normal to one face of each but for roundings. Where they are apart, a corner of one and the other box are nearest, or two edges
+/// whose product parts them most; the plane across the gap must then part them by all of it, which no nearer places allow.
 
 #include <bit>
 
