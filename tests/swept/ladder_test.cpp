@@ -322,7 +322,7 @@ TEST(LadderFilters, turned_boxes_that_lie_level_meet_in_the_middle_of_what_their
 TEST(LadderFilters, what_falls_level_agrees) {
   const auto is_clear_shot = [](Shaker<double>& draw) {
     const Mat3<double> axes = axes_of_a_quaternion(draw);
-    const auto long_box = [&] {
+    const auto long_box = [&]() -> V {
       return V(draw.sizes() + V(0.1, 0.1, 0.1)).cwiseProduct(V(power<double>(draw.pick(0, 9)), 1, 1));
     };
     const Turned below{V::Zero(), long_box(), axes};
