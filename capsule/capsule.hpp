@@ -239,7 +239,7 @@ THINWALL_HOT ClearContact clear_box_capsule(const Frame& frame, const Vec3<doubl
   ClearContact contact = clear_core_contact(core, nearest, x, 0, capsule.radius);
   const packed::Lanes gap = abs(nearest.gap), out = keep(all(largest_of(gap)) < gap * all(0x1p20), core.d);
   const bool leans = all_of(dot(d, d) * both(0x1p-40) <= dot(out, out));
-  contact.clear = both(both(contact.clear, leans), all_of(frame.clear(ClearFrame::of_quaternion) & (all(0) <= h)));
+  contact.clear = both(both(contact.clear, leans), all_of(frame.clear() & (all(0) <= h)));
   contact.normal = nearer_unit(frame.out_of(contact.normal));
   contact.local_a = frame.out_of(nearest.at + core.d * all(nearest.place));
   contact.local_b = d * all(nearest.place - both(0.5)) - contact.normal * all(capsule.radius);

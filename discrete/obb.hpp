@@ -198,14 +198,13 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& a, const Obb<double>&
   const ClearFrame of_a(a.axes), of_b(b.axes);
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
   const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
-  return clear_boxes_overlap(of_b.into(of_a), ha, hb, of_a.into(between), size,
-                             of_a.clear(ClearFrame::of_quaternion) & of_b.clear(ClearFrame::of_quaternion));
+  return clear_boxes_overlap(of_b.into(of_a), ha, hb, of_a.into(between), size, of_a.clear() & of_b.clear());
 }
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& b, const Aabb<double>& a) {
   const packed::Lanes between = packed::lanes(b.center) - packed::lanes(a.center), ha = packed::lanes(a.half_extents);
   const packed::Lanes hb = packed::lanes(b.half_extents), size = all(sum(abs(between) + (ha + hb)));
   const ClearFrame of_b(b.axes);
-  return clear_boxes_overlap(of_b.rows, ha, hb, between, size, of_b.clear(ClearFrame::of_quaternion));
+  return clear_boxes_overlap(of_b.rows, ha, hb, between, size, of_b.clear());
 }
 
 THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& box, const Sphere<double>& sphere) {
@@ -216,8 +215,7 @@ THINWALL_HOT ClearOverlap clear_overlap(const Obb<double>& box, const Sphere<dou
   const Pair r = both(sphere.radius), distance = root(dot(excess, excess)), size = sum(abs(from_box) + h) + r;
   const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
   const packed::PairMask decided = size * both(0x1p-46) < abs(distance - r);
-  return {both(both(all_of(in_range & decided), all_of(frame.clear(ClearFrame::of_quaternion) & (all(0) <= h))),
-               sphere.radius >= 0),
+  return {both(both(all_of(in_range & decided), all_of(frame.clear() & (all(0) <= h))), sphere.radius >= 0),
           all_of(distance < r)};
 }
 /// In the box's own axes, made of unit length. Clear where no rounding of turning decides, nor says which way out is shortest, or where the
@@ -235,8 +233,7 @@ THINWALL_HOT ClearContact clear_contact(const Obb<double>& box, const Sphere<dou
   const unsigned ways_out = bits(depths <= all(smallest_of(depths) + noise));
   const bool one_way = both(both(all_of(all(noise) < depths), (ways_out & (ways_out - 1)) == 0),
                             all_of(noise < abs(dot(x, contact.normal))));
-  contact.clear = both(both(contact.clear, all_of(frame.clear(ClearFrame::of_quaternion))),
-                       both(all_of(decided), all_of(wide) || one_way));
+  contact.clear = both(both(contact.clear, all_of(frame.clear())), both(all_of(decided), all_of(wide) || one_way));
   contact.normal = nearer_unit(frame.out_of(contact.normal * per_length));
   contact.local_a = frame.out_of(contact.local_a * per_length);
   contact.local_b = (all(0) - contact.normal) * all(r);
@@ -300,8 +297,8 @@ struct ClearTurnedRay {
     const packed::LanesMask in_range = (all(0x1p-48 / packed::most_length) <= noise) & (all(0) <= h) &
                                        (max(noise * all(0x1p48), W) <= all(packed::most_length));
     const packed::Lanes on_box = select(axis, against(h, v), held_within(p + v * all(first), h));
-    return {both(all_of(frame.clear() & in_range), clear), meets, first, center + frame.out_of(on_box),
-            frame.out_of(keep(axis, against(frame.per_length(), v)))};
+    return {both(all_of(frame.clear(ClearFrame::exactly) & in_range), clear), meets, first,
+            center + frame.out_of(on_box), frame.out_of(keep(axis, against(frame.per_length(), v)))};
   }
 };
 

@@ -12,11 +12,11 @@
 
 namespace thinwall {
 
-/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those are that nothing has turned often; and where noise is
-/// 2^-46 of all sizes, to twice as many, as those of a quaternion are.
+/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those of a quaternion are that nothing has turned often; or
+/// `exactly`, to half as many, where noise is less than 2^-46 of all sizes.
 struct ClearFrame {
   static constexpr bool is_turned = true;
-  static constexpr double of_quaternion = 0x1p-48;
+  static constexpr double exactly = 0x1p-49;
   const double* numbers;
   packed::Lanes x, y, z;
   packed::Vectors<packed::Lanes> rows;  ///< of each of the world's axes, what the box's have along it
@@ -29,7 +29,7 @@ struct ClearFrame {
         z(packed::lanes(numbers + 6)),
         rows(packed::transposed(x, y, z)),
         squares(dot(rows, rows)) {}
-  THINWALL_HOT packed::LanesMask clear(double off = 0x1p-49) const {
+  THINWALL_HOT packed::LanesMask clear(double off = 0x1p-48) const {
     const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
     return abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(off);
   }

@@ -33,8 +33,7 @@ struct ClearBoxPair {
     axes_b = packed::transposed(rows.x, rows.y, rows.z);
     size = sum(abs(between) + (ha + hb)), noise = size * both(0x1p-46);
     const packed::PairMask in_range = (size <= both(packed::most_length)) & (both(1 / packed::most_length) <= size);
-    const packed::LanesMask is_valid =
-        (packed::all(0) <= min(ha, hb)) & of_a.clear(ClearFrame::of_quaternion) & of_b.clear(ClearFrame::of_quaternion);
+    const packed::LanesMask is_valid = (packed::all(0) <= min(ha, hb)) & of_a.clear() & of_b.clear();
     clear = both(all_of(is_valid & axes().in_range()), all_of(in_range));
   }
   THINWALL_HOT ClearBoxAxes axes() const { return {rows, ha, hb, all(noise)}; }

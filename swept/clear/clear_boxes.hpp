@@ -41,8 +41,7 @@ struct ClearBoxes {
     const Lanes zero = all(0), size = all(sum((abs(between) + abs(v)) + (ha + hb)));
     const ClearBoxAxes boxes{rows, ha, hb, size * all(0x1p-46)};
     const LanesMask in_range = (size <= all(packed::most_length)) & (all(1 / packed::most_length) <= size) &
-                               (zero <= min(ha, hb)) & boxes.in_range() & of_a.clear(ClearFrame::of_quaternion) &
-                               of_b.clear(ClearFrame::of_quaternion);
+                               (zero <= min(ha, hb)) & boxes.in_range() & of_a.clear() & of_b.clear();
 
     const packed::Vectors<Lanes> D = spread(of_a.into(between)), V = spread(of_a.into(v));
     const Lanes until = all(1 + 0x1p-9);

@@ -118,7 +118,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
     point =
         ((lanes(box.shape.center) + lanes(box.displacement) * all(time)) + frame.out_of(on)) + normal * all(gap / 2);
   }
-  return {both(both(entry.clear, all_of(frame.clear() & (all(0) <= h) & (h <= all(packed::most_length)))),
+  return {both(both(entry.clear,
+                    all_of(frame.clear(ClearFrame::exactly) & (all(0) <= h) & (h <= all(packed::most_length)))),
                all_of(clear_sizes(r, r, gap) & sure)),
           time, normal, point, entry.rounds};
 }
@@ -225,8 +226,8 @@ THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, 
     normal = n / all(length);
   }
   const bool plain = all_of(clear_sizes(r, r, gap) & clear_of_end(time, closing, walk.noise));
-  return {both(both(walk.clear, plain), all_of(frame.clear() & (all(0) <= h))), time, all(0) - normal,
-          ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
+  return {both(both(walk.clear, plain), all_of(frame.clear(ClearFrame::exactly) & (all(0) <= h))), time,
+          all(0) - normal, ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Aabb<double>>& box,
                                    double gap) {
