@@ -12,11 +12,10 @@
 
 namespace thinwall {
 
-/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those of a quaternion are that nothing has turned often; or
-/// `exactly`, to half as many, where noise is less than 2^-46 of all sizes.
+/// The axes of a box. They are clear if they are orthonormal to a few roundings, as those of a quaternion are that nothing has turned often. How
+/// a face leans then, whose normal is across its edges and not quite its axis, counts by all of its length.
 struct ClearFrame {
   static constexpr bool is_turned = true;
-  static constexpr double exactly = 0x1p-49;
   const double* numbers;
   packed::Lanes x, y, z;
   packed::Vectors<packed::Lanes> rows;  ///< of each of the world's axes, what the box's have along it
@@ -29,9 +28,23 @@ struct ClearFrame {
         z(packed::lanes(numbers + 6)),
         rows(packed::transposed(x, y, z)),
         squares(dot(rows, rows)) {}
-  THINWALL_HOT packed::LanesMask clear(double off = 0x1p-48) const {
-    const packed::Vectors<packed::Lanes> next{yzx(rows.x), yzx(rows.y), yzx(rows.z)};
-    return abs(squares - packed::all(1)) + abs(dot(rows, next)) * packed::all(4) <= packed::all(off);
+  /// Of each axis along the next one.
+  THINWALL_HOT packed::Lanes lean() const {
+    return dot(rows, packed::Vectors<packed::Lanes>{yzx(rows.x), yzx(rows.y), yzx(rows.z)});
+  }
+  THINWALL_HOT packed::LanesMask clear() const {
+    return abs(squares - packed::all(1)) + abs(lean()) * packed::all(4) <= packed::all(0x1p-48);
+  }
+  /// No face of half extents h leans by more than a rounding of its place and of the other lengths along its axis: p, and the box's own.
+  THINWALL_HOT bool is_straight(const packed::Lanes& h, const packed::Lanes& p) const {
+    const packed::Vectors<packed::Lanes> H = spread(h);
+    const packed::Lanes off = abs(lean()), leans = off * yzx(h) + yzx(yzx(off * h));
+    return all_of(leans <= sizes_along(abs(p) + ((abs(x) * H.x + abs(y) * H.y) + abs(z) * H.z)) * packed::all(0x1p-53));
+  }
+  /// Of a vector, by what is along each axis, what is along the normals of the faces.
+  THINWALL_HOT packed::Lanes for_normals(const packed::Lanes& along) const {
+    const packed::Lanes off = lean();
+    return along - (off * yzx(along) + yzx(yzx(off * along)));
   }
   /// Over their lengths.
   THINWALL_HOT packed::Lanes per_length() const { return packed::all(1.5) - squares * packed::all(0.5); }
@@ -55,7 +68,7 @@ struct ClearFrame {
 /// A box that is not turned, as ClearFrame is one that is.
 struct ClearUpright {
   static constexpr bool is_turned = false;
-  THINWALL_HOT static packed::LanesMask clear(double = 0) { return packed::mask(true, true, true); }
+  THINWALL_HOT static packed::LanesMask clear() { return packed::mask(true, true, true); }
   THINWALL_HOT static packed::Lanes per_length() { return packed::all(1); }
   THINWALL_HOT static packed::Lanes into(const packed::Lanes& v) { return v; }
   THINWALL_HOT static packed::Lanes out_of(const packed::Lanes& v) { return v; }

@@ -84,10 +84,10 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Aabb<double>>& a, const Moving<A
           clear_face_normal(last.axis, v), point};
 }
 
-/// As against an aligned box, in the box's own axes. A face is met as exactly as they are: what turning rounds of a place counts along one.
-/// Beside an edge or a corner the time is told once more, by the plane of contact, whose normal n is the world's, and g in the box's: what
-/// does not count along it goes. Not clear where the plane moves it by more than turning rounds, as that of a long face does whose normal is
-/// off, or so far along that the ball curves.
+/// As against an aligned box, in the box's own axes. A face that is straight is met as exactly as they are: what turning rounds of a place counts
+/// along one. Beside an edge or a corner, or where faces lean, the time is told once more, by the plane of contact, whose normal n is the world's,
+/// and g in the box's: what does not count along it goes. Not clear where the plane moves it by more than turning rounds, as that of a long face
+/// does whose normal is off, or so far along that the ball curves.
 THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<Sphere<double>>& sphere, double gap) {
   using packed::Lanes, packed::Pair, packed::PairMask, packed::all, packed::both, packed::lanes;
   const double r = sphere.shape.radius;
@@ -102,7 +102,8 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
   Pair time = entry.time;
   PairMask sure = clear_of_end(time);
   Lanes point = (center + path * all(time)) - normal * all(r + gap / 2);
-  if (entry.rounds > 1) {
+  const bool is_straight = frame.is_straight(h, p);
+  if (entry.rounds > 1 || !is_straight) {
     const Lanes turned = frame.out_of(entry.normal), own = frame.into(turned), none = all(0);
     const packed::LanesMask along = abs(entry.normal) <= none;  // across its axis: what it leans there is rounding
     const Lanes n = turned - frame.out_of(keep(along, own)), g = select(along, none, abs(own)) * h;
@@ -111,15 +112,15 @@ THINWALL_HOT ClearToi clear_impact(const Moving<Obb<double>>& box, const Moving<
     const Pair plane = (firsts(toward) - (R * (both(0.5) + square * both(0.5)) + sum(g))) / closing;
     const Pair sizes = two_sums(abs(p) + h, abs(v)), size = firsts(sizes), shift = abs(plane - time);
     const PairMask misses = both(ClearEntry::never) <= time;
-    sure = misses | ((shift * closing <= size * both(0x1p-51)) & (shift * seconds(sizes) <= R * both(0x1p-26)));
+    sure = misses | ((shift * closing <= size * both(is_straight ? 0x1p-51 : 0x1p-48)) &
+                     (shift * seconds(sizes) <= R * both(0x1p-26)));
     time = select(misses, time, max(plane, both(0)));
     sure = sure & clear_of_end(time, closing, size * both(0x1p-44));
     const Lanes on = held_within(frame.into(p + v * all(time)), h);
     point =
         ((lanes(box.shape.center) + lanes(box.displacement) * all(time)) + frame.out_of(on)) + normal * all(gap / 2);
   }
-  return {both(both(entry.clear,
-                    all_of(frame.clear(ClearFrame::exactly) & (all(0) <= h) & (h <= all(packed::most_length)))),
+  return {both(both(entry.clear, all_of(frame.clear() & (all(0) <= h) & (h <= all(packed::most_length)))),
                all_of(clear_sizes(r, r, gap) & sure)),
           time, normal, point, entry.rounds};
 }
@@ -226,8 +227,8 @@ THINWALL_HOT ClearToi clear_capsule_box(const Moving<Capsule<double>>& capsule, 
     normal = n / all(length);
   }
   const bool plain = all_of(clear_sizes(r, r, gap) & clear_of_end(time, closing, walk.noise));
-  return {both(both(walk.clear, plain), all_of(frame.clear(ClearFrame::exactly) & (all(0) <= h))), time,
-          all(0) - normal, ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
+  return {both(both(walk.clear, plain), all_of(frame.clear() & (all(0) <= h))), time, all(0) - normal,
+          ((center + path * all(time)) + frame.out_of(on)) + normal * all(gap / 2), walk.rounds};
 }
 THINWALL_HOT ClearToi clear_impact(const Moving<Capsule<double>>& capsule, const Moving<Aabb<double>>& box,
                                    double gap) {
