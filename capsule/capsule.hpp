@@ -101,7 +101,8 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Sphere<
   gap.distance = safe_norm(between);
   gap.local_a = core * (s - S(1) / S(2));
   gap.along = core;
-  if (gap.distance > gap_noise(largest(from_a, core))) gap.normal = safe_unit(between);
+  if (gap.distance > gap_noise(largest(from_a, core)))
+    gap.normal = S(0) < s && s < S(1) ? unit_across(between, core) : safe_unit(between);
   return gap;
 }
 
@@ -114,7 +115,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& a, const Capsule<S>& b
   gap.local_a = core_a * (closest.s - S(1) / S(2));
   gap.local_b = core_b * (closest.t - S(1) / S(2));
   if (gap.distance > gap_noise(largest(between, core_a, core_b))) {
-    gap.normal = safe_unit(closest.gap);
+    gap.normal = closest_on_parallelogram(between, core_a, core_b).outward();
     return gap;
   }
   const Vec3<S> across = accurate_cross<S>(safe_unit(core_a), safe_unit(core_b));
@@ -132,10 +133,12 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Aabb<S>
   const Vec3<S> excess = excess_of(nearest, box.half_extents);
   CoreGap<S> gap;
   gap.distance = safe_norm(excess);
-  if (gap.distance <= gap_noise(largest(start, along, box.half_extents))) {
-    return segment_through_box(start, core, box.half_extents);
-  }
-  gap.normal = -safe_unit(excess);
+  const S noise = gap_noise(largest(start, along, box.half_extents));
+  if (gap.distance <= noise) return segment_through_box(start, core, box.half_extents);
+  // Across what the core does outside the slabs, if it is but for rounding: not of a stretch that is all as near.
+  const Vec3<S> outside = excess.cwiseSign().cwiseAbs().cwiseProduct(core);
+  const bool across = S(0) < s && s < S(1) && largest(S(excess.dot(safe_unit(outside)))) <= noise;
+  gap.normal = across ? Vec3<S>(-unit_across(excess, outside)) : Vec3<S>(-safe_unit(excess));
   gap.local_a = core * (s - S(1) / S(2));
   gap.local_b = nearest.cwiseMin(box.half_extents).cwiseMax(-box.half_extents);
   return gap;
@@ -186,7 +189,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangl
   gap.along = core != Vec3<S>::Zero() ? core : largest(e1) < largest(e2) ? e2 : e1;
   const S noise = gap_noise(largest(x, core, e1, e2));
   const bool clear = closest.part.depth > S(0) || gap.distance > noise;
-  gap.normal = clear ? Vec3<S>(-safe_unit(closest.part.gap)) : parting_normal(x, core, e1, e2, noise);
+  gap.normal = clear ? Vec3<S>(-closest.part.outward()) : parting_normal(x, core, e1, e2, noise);
   return gap;
 }
 

@@ -6,6 +6,12 @@
 
 namespace thinwall {
 
+/// Unit, along what of a gap is across an edge, of any length: along that it is turned by roundings where it is short beside it.
+template <Scalar S> Vec3<S> unit_across(const Vec3<S>& gap, const Vec3<S>& edge) {
+  const Vec3<S> across = cross<S>(edge, safe_unit(cross(gap, edge)));
+  return safe_unit(across == Vec3<S>::Zero() ? gap : across);
+}
+
 /// A flat part of a convex core, as seen from a point outside.
 template <Scalar S> struct CorePart {
   enum Kind { corner, edge, face };
@@ -23,8 +29,7 @@ template <Scalar S> struct CorePart {
   Vec3<S> outward() const {
     if (contains_point() || kind == corner) return safe_unit(gap);
     if (kind == face) return safe_unit(gap.dot(direction) < S(0) ? Vec3<S>(-direction) : direction);
-    const Vec3<S> across = cross(direction, safe_unit(cross(gap, direction)));
-    return across == Vec3<S>::Zero() ? safe_unit(gap) : safe_unit(across);
+    return unit_across(gap, direction);
   }
   S closing_speed(const Vec3<S>& v) const { return -outward().dot(v); }
 };

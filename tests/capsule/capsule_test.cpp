@@ -1,6 +1,7 @@
 // The capsule at one instant, by hand.
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -206,6 +207,30 @@ TEST(CrossingCores, part_across_both_at_the_smallest_angle) {
     ASSERT_TRUE(found);
     const Capsule<double> parted = moved<double>(b, Vec3<double>(found->normal * found->penetration));
     EXPECT_NEAR(separation(a, parted).distance, 0, 1e-13) << i;
+  }
+}
+
+/// [length] What is between two shapes, or what they overlap by, once the contact is undone.
+template <class A, class B> double left_over(const A& a, const B& b) {
+  const auto found = contact(a, b);
+  if (!found) return std::numeric_limits<double>::infinity();
+  const Vec3<long double> by = found->normal.template cast<long double>() * found->penetration;
+  return static_cast<double>(separation(cast<long double>(a), moved<long double>(cast<long double>(b), by)).distance);
+}
+
+// Beside the length of the core the gap is short, and along the core it is rounding.
+TEST(CrossingCores, what_is_just_beside_a_core_leaves_across_it) {
+  Shaker<double> draw(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3<double> start = draw.plain_vector(), core = draw.plain_vector() + Vec3<double>(2, 0, 0);
+    const Vec3<double> beside = draw.plain_vector() * std::ldexp(1.0, -draw.pick(1, 47));
+    const Vec3<double> at = start + core * (0.5 + 0.4 * draw.plain()) + beside;
+    const Capsule<double> rod{start, start + core, 1};
+    EXPECT_NEAR(left_over(rod, Sphere<double>{at, 0.5}), 0, 1e-13) << i;
+    EXPECT_NEAR(left_over(rod, Aabb<double>{at, {0, 0, 0}}), 0, 1e-13) << i;
+    const Vec3<double> other = draw.plain_vector() + Vec3<double>(0, 2, 0);
+    EXPECT_NEAR(left_over(rod, Capsule<double>{at - other, at + other, 0.5}), 0, 1e-13) << i;
+    EXPECT_NEAR(left_over(rod, Triangle<double>{at - other, at + other, at + Vec3<double>(0, 0, 2)}), 0, 1e-13) << i;
   }
 }
 
