@@ -123,8 +123,8 @@ template <Scalar S> Manifold<S> touching_manifold(const Capsule<S>& a, const Cap
   const Stretch<S> stretch{std::min(first, last), std::max(first, last)};
   const S size = largest(between, core_a, core_b);
   if (!((stretch.last - stretch.first) * safe_norm(core_a) > parallel_sine<S>() * size)) return single_point(a, b, gap);
-  const Manifold<S> ends =
-      ends_of_stretch<S>(a, b.radius, normal, stretch, gap_noise(size), [&](const S& s) -> FacingPoint<S> {
+  const Manifold<S> ends = ends_of_stretch<S>(
+      a, b.radius, normal, stretch, gap_noise(largest(size, a.radius, b.radius)), [&](const S& s) -> FacingPoint<S> {
         const S t = closest_parameter<S>(core_a * s - between, core_b);
         return {(between + core_b * t - core_a * s).dot(normal), core_b * (t - S(1) / S(2))};
       });

@@ -120,12 +120,13 @@ inline bool clear_manifold(const Obb<double>& a, const Aabb<double>& b, Manifold
 template <Scalar S> Manifold<S> touching_manifold(const Aabb<S>& a, const Aabb<S>& b) {
   const CoreGap<S> gap = core_gap(a, b);
   const Vec3<S> between = b.center - a.center;
+  const S noise = gap_noise(largest(between, a.half_extents, b.half_extents));
   Manifold<S> manifold = single_point(a, b, gap);
   for (int i = 0; i < 3; ++i) {
     if (gap.normal[i] != S(0)) continue;
     const S low = std::max(S(-a.half_extents[i]), S(between[i] - b.half_extents[i]));
     const S high = std::min(a.half_extents[i], S(between[i] + b.half_extents[i]));
-    if (!(low < high)) continue;  // the middle that is there already
+    if (!(high - low > noise)) continue;  // the middle that is there already
     for (std::size_t k = 0, known = manifold.size(); k < known; ++k) {
       Contact<S>& first = manifold.contacts[k];
       Contact<S>& second = manifold.contacts[known + k];

@@ -128,6 +128,15 @@ TYPED_TEST(Manifolds, flat_boxes_have_no_point_twice) {
   EXPECT_EQ(manifold(this->floor, Aabb<S>{{0, 0, 1}, {0, 0, 0}}).size(), 1U);
 }
 
+TYPED_TEST(Manifolds, what_is_as_wide_as_a_rounding_has_no_point_twice) {
+  using S = TypeParam;
+  const S fifth = S(1) / S(5);
+  EXPECT_EQ(manifold(Aabb<S>{{0, 0, 0}, {1, fifth, 1}}, Aabb<S>{{2, fifth + fifth / 2, 0}, {1, fifth / 2, 1}}).size(),
+            2U);
+  const Vec3<S> crumb = Vec3<S>(6, 8, 3) * (gap_noise(S(1)) / 100);
+  EXPECT_EQ(manifold(Capsule<S>{{0, 0, 0}, crumb, 1}, Capsule<S>{{0, 0, 0}, crumb / 2, 1}).size(), 1U);
+}
+
 TYPED_TEST(Manifolds, points_of_an_aabb_lie_on_it_unlike_its_contact) {
   using S = TypeParam;
   const Sphere<S> ball{{2, 0, 2}, 1};
