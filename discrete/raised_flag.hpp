@@ -3,16 +3,17 @@
 
 namespace thinwall {
 
-/// Raises the flag, and lowers it when its scope is left, by an exception too.
+/// Raises the flag, and puts it back as it was when its scope is left, by an exception too.
 class RaisedFlag {
  public:
-  explicit RaisedFlag(bool& flag) : flag_(&flag) { *flag_ = true; }
+  explicit RaisedFlag(bool& flag) : flag_(&flag), before_(flag) { flag = true; }
   RaisedFlag(const RaisedFlag&) = delete;
   RaisedFlag& operator=(const RaisedFlag&) = delete;
-  ~RaisedFlag() { *flag_ = false; }
+  ~RaisedFlag() { *flag_ = before_; }
 
  private:
   bool* flag_;
+  bool before_;
 };
 
 }  // namespace thinwall

@@ -197,6 +197,7 @@ void World::remove(std::uint32_t id) {
   bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(place));
   changed_by_hand_ = true;
   unread_.remove(id, time_);
+  const RaisedFlag guard(stepping_);
   events_.remove(id, time_);  // last, for it tells listeners
 }
 

@@ -287,6 +287,19 @@ TEST(World, a_listener_may_remove_what_it_hears_of_and_must_not_step) {
   EXPECT_EQ(kinds(world), "");
 }
 
+TEST(World, a_listener_that_hears_of_a_removal_must_not_step) {
+  World world({ball(1, {0, 0, 0}, {0, 0, 0}), ball(2, {2, 0, 0}, {0, 0, 0}), ball(3, {-2, 0, 0}, {0, 0, 0})}, {});
+  world.step(1);
+  std::string heard;
+  world.events().listen([&](const CollisionEvent& event) {
+    EXPECT_THROW(world.step(1), WorldError);
+    heard += world.events().to_text(event) + "; ";
+  });
+  world.remove(1);
+  EXPECT_EQ(std::count(heard.begin(), heard.end(), ';'), 2) << heard;
+  world.step(1);
+}
+
 TEST(World, hands_move_bodies_between_steps) {
   World world({ball(1, {0, 0, 0}, {0, 0, 0}), wall(2, {9, 0, 0}, {1, 1, 1})}, {.policy = TimePolicy::event_driven});
   world.step(1);
