@@ -27,9 +27,28 @@
 
 namespace thinwall {
 
+/// [1] What an axis of a box may lean from a right angle by roundings, those of a quaternion's included.
+template <Scalar T> inline constexpr T most_lean = 16 * std::numeric_limits<T>::epsilon();
+
+/// [length] By how much the face of a box whose normal is n, which is across its edges, is elsewhere than its own axis has it: what that leans
+/// by roundings counts by all of the face.
+template <Shape A, Scalar T> T lean_of_face(const A& shape, const Vec3<T>& n) {
+  if constexpr (std::is_same_v<A, Obb<T>>) {
+    for (int i = 0; i < 3; ++i) {
+      const auto x = shape.axes.col((i + 1) % 3), y = shape.axes.col((i + 2) % 3), own = shape.axes.col(i);
+      if (!(largest(T(n.dot(x)), T(n.dot(y))) <= most_lean<T>)) continue;
+      const T off_x = largest(T(own.dot(x))), off_y = largest(T(own.dot(y)));
+      return largest(off_x, off_y) <= most_lean<T>
+                 ? off_x * shape.half_extents[(i + 1) % 3] + off_y * shape.half_extents[(i + 2) % 3]
+                 : T(0);
+    }
+  }
+  return 0;
+}
+
 /// An entry's time as settled by its normal (unit, from A to B), or as it was, with `graze` set, where that may not be done.
-/// The plane may move the shapes by two roundings of their size along the normal; or, where nothing wider has the last word, of all of it, by
-/// which what was turned is off.
+/// The plane may move the shapes by two roundings of their size along the normal, or, where nothing wider has the last word, of all of it, by
+/// which what was turned is off; and by what a box's face leans.
 template <class A, class B, Scalar T>
 Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry) {
   using W = Wider<T>;
@@ -47,7 +66,8 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   const Vec3<T> sizes = coordinate_sizes(narrow_a.shape) + coordinate_sizes(narrow_b.shape) + paths * entry.time;
   constexpr int tiny = has_wider<T> ? -40 : -20;
   const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap;
-  const T trusted = 2 * std::numeric_limits<T>::epsilon() * size;
+  const T leans = lean_of_face<A, T>(narrow_a.shape, entry.normal) + lean_of_face<B, T>(narrow_b.shape, entry.normal);
+  const T trusted = 2 * std::numeric_limits<T>::epsilon() * size + leans;
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
   // another plane's time may be known better than this one's: where a wider scalar can say which comes first, this may not pass it
   const W spare = has_wider<T> ? W(std::numeric_limits<T>::epsilon() * entry.time) : W(trusted) / largest(motion);
@@ -63,7 +83,7 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
 template <Scalar T> Vec3<T> freed_of_lean(const Vec3<T>& n, const Vec3<T>& edge) {
   const Vec3<T> along = safe_unit(edge);
   const T lean = n.dot(along);
-  return largest(lean) <= 16 * std::numeric_limits<T>::epsilon() ? Vec3<T>(n - along * lean) : n;
+  return largest(lean) <= most_lean<T> ? Vec3<T>(n - along * lean) : n;
 }
 
 template <Scalar T> Vec3<T> freed_of_leans(const Vec3<T>& n, const Obb<T>& box) {

@@ -503,6 +503,34 @@ TEST(HardQueries, a_path_all_but_along_a_capsule_is_as_exact_from_afar) {
 
 // The plate is 4e4 times as wide as it is thick, and upright but for 2^-49: a normal turned into the other box's axes and back tilts it by
 // more than what its gap is known to.
+// A quaternion's axes are off right angles by roundings, which count by all of a wall's length: its face is where its edges are.
+TEST(HardQueries, a_wall_whose_axes_come_from_a_quaternion_is_met_where_its_edges_are) {
+  testing::Shaker<double> draw(61);
+  const auto ask = [&](const auto& shape, double reach) {
+    Mat3<double> axes = Mat3<double>::Identity();
+    for (int axis = 0; axis < 3; ++axis) {  // each turn of a rounding's length more or less
+      const double angle = draw.plain() * 3;
+      axes = axes * testing::turn_in_plane<double>(axis, (axis + 1) % 3, std::cos(angle), std::sin(angle));
+    }
+    const Obb<double> wall{V::Zero(), {1000, 1000, 1}, axes};
+    const V above = axes * V(draw.plain() * 999, draw.plain() * 999, 2 + reach);
+    const auto shot = Moving{moved<double>(shape, above), V(axes * V(draw.plain(), draw.plain(), -2))};
+    const Vec3<long double> normal =
+        accurate_cross<long double>(axes.col(0).cast<long double>(), axes.col(1).cast<long double>());
+    const long double up = normal.dot(axes.col(2).cast<long double>()), length = std::sqrt(normal.dot(normal));
+    const long double height = normal.dot(above.cast<long double>()) - up - length * reach;
+    const long double closing = -normal.dot(shot.displacement.template cast<long double>());
+    const double size = normal.cast<double>().cwiseAbs().dot(above.cwiseAbs() + half_widths(wall)) + reach;
+    for (const auto& toi :
+         {time_of_impact(shot, at_rest(wall)), careful_impact(ClosedForm<double>{}, at_rest(wall), shot)})
+      EXPECT_NEAR(static_cast<double>((toi.time - height / closing) * closing), 0, 4 * 0x1p-53 * size);
+  };
+  for (int i = 0; i < 20'000; ++i) {
+    ask(Sphere<double>{V::Zero(), 0.25}, 0.25);
+    ask(Sphere<double>{V::Zero(), 0}, 0);
+  }
+}
+
 TEST(HardQueries, a_plate_within_a_gap_is_met_along_its_own_normal) {
   const Moving chip{Obb<double>{V(0x1.b459aa4d227a4p-6, 0x1.1b4631dcddaf8p-6, -0x1.d68639e18b07ep-1),
                                 V(0x1.71fea3ad5c0b9p-16, 0x1.885dcf5aea50cp-7, 0x1.ef240121f0ad5p-7),
