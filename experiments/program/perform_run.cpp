@@ -235,7 +235,6 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
     throw std::runtime_error("the ranks do not work on one run, as the line of another says; nothing was computed");
   std::vector<std::uint8_t> open;
   for (const Unit& unit : units_) open.push_back(journal.finished().contains(unit.key) ? 0 : 1);
-  const auto known = static_cast<std::size_t>(std::ranges::count(open, 0));
   ranks_.share(open);
 
   Ending ending = finished;
@@ -255,7 +254,6 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
     throw std::runtime_error(
         "another rank kept what it finished where rank 0 does not find it: all must see the same --out");
   }
-  all.resumed = known;
   return all;
 }
 
@@ -379,6 +377,13 @@ int perform_run(RunWish wish, const Call& call) try {
   }
   for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
   call.err << size_text(record) << std::endl;
+  if (!wish.merged) {
+    const auto& finished = folder.journal().finished();
+    for (const Unit& unit : units) record.resumed_units += finished.contains(unit.key);
+  }
+  if (const auto done = static_cast<std::int64_t>(record.resumed_units); done > 0)
+    call.err << fmt::format("goes on: {} of {} are done", grouped_text(done), plural_text(std::ssize(units), "unit"))
+             << std::endl;
   UnitResults results;
   {
     ProgressBar bar(!wish.watch && stderr_is_terminal());
@@ -390,10 +395,6 @@ int perform_run(RunWish wish, const Call& call) try {
   if (!results.complete) {
     guard.reset();
     return interrupted(wish, call);
-  }
-  if (!wish.merged && results.resumed > 0) {
-    record.resumed_units = results.resumed;
-    call.err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
   }
   if (wish.shard) {
     record.finished = std::chrono::system_clock::now();
