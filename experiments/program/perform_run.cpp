@@ -26,6 +26,7 @@
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/shards.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
 
@@ -122,7 +123,7 @@ template <class Told> int reply(const RunWish& wish, const RunRecord& run, const
     reply["report"] = report;
     call.out << json_line(reply);
   } else {
-    call.out << summary_text(told.summary) << told.answer << "\n\nreport: " << one_line(report) << "\n";
+    call.out << summary_text(told.summary) << wrapped(told.answer) << "\nreport: " << one_line(report) << "\n";
   }
   call.out.flush();
   if (told.self_test_passed) return troubles.empty() ? exit_done : exit_failed;

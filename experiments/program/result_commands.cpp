@@ -18,6 +18,7 @@
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/run.hpp>
@@ -60,7 +61,7 @@ ordered_json result_json(const KeptResult& result) {
 }
 
 std::string result_text(const KeptResult& result) {
-  std::string out = result.question + "\n\n" + result.answer + "\n\n" + summary_text(result.summary);
+  std::string out = wrapped(result.question) + "\n" + wrapped(result.answer) + "\n" + summary_text(result.summary);
   if (!result.self_test_passed) out += "The self-test failed: do not cite these numbers.\n\n";
   return out + "report: " + one_line((result.folder / "report.html").string()) + "\n";
 }

@@ -58,6 +58,12 @@ TEST_F(ReportTest, prints_question_answer_and_summary) {
   EXPECT_EQ(json.at("drawn"), nlohmann::json::array());
 }
 
+TEST_F(ReportTest, breaks_a_long_answer_between_words) {
+  const std::string words = "squares squares squares squares ";
+  change("manifest.json", "The squares", words + words + words + words);
+  EXPECT_TRUE(holds(call({"report", out}).out, words + words + words.substr(0, 31) + "\nsquares"));
+}
+
 TEST_F(ReportTest, counts_a_single_thread_as_one) {
   for (const std::string count : {"1 thread", "2 threads"}) {
     ASSERT_EQ(call({"run", "toy", "--threads", count.substr(0, 1), "--out", out + count}).status, 0);
