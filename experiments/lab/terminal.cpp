@@ -18,9 +18,14 @@ std::size_t width(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+/// What stands in brackets is one word: a unit is not broken over two lines.
 std::vector<std::string_view> words_of(std::string_view text) {
-  std::vector<std::string_view> words = split(text, ' ');
-  std::erase(words, "");
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    const std::size_t bracket = text[at] == '[' ? text.find(']', at) : at;
+    end = std::min(text.find(' ', bracket == text.npos ? at : bracket), text.size());
+    if (end > at) words.push_back(text.substr(at, end - at));
+  }
   return words;
 }
 

@@ -146,6 +146,7 @@ TEST(Terminal, is_as_wide_as_its_columns_need_and_says_once_what_is_always_so) {
 TEST(Terminal, breaks_lines_and_leaves_what_is_too_wide_to_the_file) {
   EXPECT_EQ(wrapped("one two\n\nthree"), "one two\n\nthree\n");
   EXPECT_EQ(wrapped(std::string(99, 'a') + " bc"), std::string(99, 'a') + "\nbc\n");
+  EXPECT_EQ(wrapped(std::string(98, 'a') + " [b c] [d e"), std::string(98, 'a') + "\n[b c] [d e\n");
   Row wide = rows[0];
   wide.method = std::string(120, 'x');
   const std::string cut = terminal(table("cells", "All.", columns(), {wide, rows[1]}), {"method", "tunneled"});
