@@ -7,7 +7,6 @@
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
-#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {
@@ -110,10 +109,10 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
     });
   }
   for (const auto& row : all.rows) out += line([&](std::size_t j) { return one_line(row[j].text); });
-  const std::size_t left = all.columns.size() - widths.size();
-  return out + (left > 0 ? wrapped(fmt::format("And {} in data/{}.csv.",
-                                               plural_text(static_cast<std::int64_t>(left), "column"), table.name))
-                         : "");
+  std::string left;
+  for (std::size_t j = widths.size(); j < all.columns.size(); ++j)
+    left += (left.empty() ? "" : ", ") + all.columns[j].header;
+  return out + (left.empty() ? "" : wrapped(fmt::format("And {} in data/{}.csv.", left, table.name)));
 }
 
 }  // namespace thinwall
