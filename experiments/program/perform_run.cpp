@@ -70,7 +70,8 @@ std::string time_text(const RunEstimate& told, double seconds) {
   if (told.tried() == 0) return "for how long, cannot be told";
   // What begins a unit, a trial alone or not, is counted for each.
   const bool mostly_beginning = told.cut_tried > 0 && told.trials == 1;
-  return (told.unknown > 0 ? "at least " : mostly_beginning ? "at most " : "about ") + duration_text(seconds);
+  const char* const bound = told.unknown > 0 ? "at least " : mostly_beginning ? "at most " : "about ";
+  return bound + duration_text(seconds) + " on an idle machine";
 }
 
 int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all, const Call& call) {
