@@ -347,7 +347,13 @@ int perform_run(RunWish wish, const Call& call) try {
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, wish, call, units);
   if (wish.list_cells) return list_cells(wish, record, units, call.out);
-  if (wish.dry_run) return dry_run(wish, record, all, call);
+  const auto tell = [&](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) call.err << note << "\n";
+  };
+  if (wish.dry_run) {
+    tell(chosen.run->notes());
+    return dry_run(wish, record, all, call);
+  }
 
   record.program = this_program_sha256();
   const Journal::Rows merged = wish.merged ? all_rows(*wish.merged, units) : Journal::Rows();
@@ -359,7 +365,7 @@ int perform_run(RunWish wish, const Call& call) try {
                        {.threads = record.threads, .stop = stop_requested, .on_progress = {}});
   }
   ResultFolder folder(wish.out, record);
-  for (const std::string& note : folder.notes()) call.err << note << "\n";
+  tell(folder.notes());
   if (const auto& kept = folder.complete()) {
     return reply(wish, record, *kept, call);
   }
@@ -377,7 +383,7 @@ int perform_run(RunWish wish, const Call& call) try {
       std::_Exit(interrupted(wish, call));  // what was staged is the next run's to remove: this one may still write
     });
   }
-  for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
+  tell(chosen.run->notes());
   call.err << size_text(record) << std::endl;
   if (!wish.merged) {
     const auto& finished = folder.journal().finished();
@@ -409,7 +415,7 @@ int perform_run(RunWish wish, const Call& call) try {
   record.finished = std::chrono::system_clock::now();
   const auto notes = write_results(folder, record, outcome);
   guard.reset();
-  for (const std::string& note : notes) call.err << note << "\n";
+  tell(notes);
   return reply(wish, record, outcome, call);
 } catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
   const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
