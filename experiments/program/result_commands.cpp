@@ -278,11 +278,9 @@ Rerun prepare(const ReproduceText& text) try {
 
 /// Throws UsageError if this build cannot run it.
 RunWish wish_of(const Rerun& rerun, const ReproduceText& text, std::span<const Experiment> experiments) {
-  RunRecord record;
-  static_cast<RunIdentity&>(record) = rerun.recorded.run;
   RunWish wish;
-  wish.target = (rerun.result / "resolved.toml").string();  // the same text, unless somebody changed it
-  wish.request.text = resolved_toml(record);
+  wish.target = (rerun.result / manifest_name).string() + " (config as TOML)";
+  wish.request.text = config_toml(rerun.recorded.run);
   wish.request.options = {rerun.recorded.run.seed, rerun.recorded.run.trials, parse_threads(text.threads)};
   wish.request.benchmarks = text.benchmarks.value_or("");
   wish.out = rerun.out.string();

@@ -96,7 +96,8 @@ TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
   ASSERT_EQ(run().status, 0);
   const std::string good = read_text(out + "/manifest.json");
   change_manifest("/config/cels", 3);
-  expect_refused({"reproduce", out}, {"key 'cels': unknown key; did you mean 'cells'?"});
+  expect_refused({"reproduce", out},
+                 {out + "/manifest.json (config as TOML):3: key 'cels': unknown key; did you mean 'cells'?"});
   write_text(out + "/manifest.json", good);
   change_manifest("/experiment", "tyo");
   expect_refused({"reproduce", out}, {"'tyo' is not allowed; did you mean 'toy'?"});
