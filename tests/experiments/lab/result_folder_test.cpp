@@ -384,6 +384,11 @@ TEST_F(ForeignFiles, are_not_followed_where_they_are_links) {
   fs::rename(out + "/journal.tsv", folder / "journal");
   fs::create_symlink(folder / "journal", out + "/journal.tsv");
   expect_refused_run();
+  fs::remove_all(out);
+  ASSERT_EQ(run().status, 0);
+  fs::remove(out + "/data/cells.csv");
+  fs::create_symlink(folder / "mine/cells.csv", out + "/data/cells.csv");
+  expect_reply(run(), 0, {"complete already; nothing was computed (data/cells.csv was changed since"});
   EXPECT_EQ(files_in(folder / "mine"), mine);
 }
 
