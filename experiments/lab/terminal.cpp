@@ -1,12 +1,15 @@
 #include <thinwall/experiments/lab/terminal.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <thinwall/experiments/lab/escape.hpp>
 #include <thinwall/experiments/lab/table_text.hpp>
+#include <thinwall/experiments/lab/text.hpp>
 
 namespace thinwall {
 namespace {
@@ -80,12 +83,20 @@ std::string wrapped(std::string_view text) {
 }
 
 std::string terminal(const Table& table, std::initializer_list<std::string_view> names) {
-  const ShownTable all = shown(names.size() == 0 ? table : only_columns(table, names));
+  ShownTable all = shown(names.size() == 0 ? table : only_columns(table, names));
   std::vector<std::vector<std::string>> headers;
   std::vector<std::size_t> widths;
   std::size_t height = 0, whole = 0;
   for (std::size_t j = 0; j < all.columns.size(); ++j) {
     std::size_t widest = 0;
+    std::vector<std::string*> numbers;
+    for (auto& row : all.rows) numbers.push_back(&row[j].text);
+    const auto tiny = std::ranges::count_if(numbers, [](const std::string* text) {
+      const double size = std::abs(std::strtod(text->c_str(), nullptr));
+      return size > 0 && size < 1e-5;
+    });
+    // a few that are rounding alone are none to write all others by
+    if (tiny == 0 || 4 * tiny >= std::ssize(numbers)) in_one_notation(numbers);
     for (const auto& row : all.rows) widest = std::max(widest, width(row[j].text));
     for (const std::string_view word : words_of(all.columns[j].header)) widest = std::max(widest, width(word));
     whole += widest + (j > 0 ? 2 : 0);
