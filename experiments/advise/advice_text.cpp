@@ -1,6 +1,7 @@
 #include <thinwall/experiments/advise/advice.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -160,7 +161,7 @@ std::string time_text(const Measured& time) {
 
 std::string step_text(const std::optional<double>& step) {
   if (!step) return "none";
-  return *step == allowed_step.upper ? "any" : rounded_down_text(*step, 4) + " s";
+  return *step == allowed_step.upper ? "any" : rounded_down_text(*step, 4);
 }
 
 /// Poses may do at the wish's spin and step and not at every slower spin.
@@ -168,26 +169,41 @@ bool does_at_its_spin_alone(const AdviceRow& row, const Wish& wish) {
   return row.meets && row.longest_step.value_or(0) < wish.cell.step;
 }
 
-std::string row_text(const AdviceRow& row, const char* mark, const Wish& wish) {
-  const std::optional<double>& chance = row.theory.probability;
-  const bool never_seen = chance && *chance == 1;
+/// Of a method: how late it is seen, in m and in steps, and the longest step that does.
+using RowNumbers = std::array<std::string, 3>;
+
+RowNumbers numbers_of(const AdviceRow& row, const Wish& wish) {
+  const bool never_seen = row.theory.probability == 1;
   const std::optional<double> latest = never_seen ? std::nullopt : row.theory.largest_lateness();
-  return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}{}\n", mark, row.method.name,
-                     chance ? in_percent(*chance) : "-", latest ? rounded_text(*latest, 3) : "-",
-                     latest ? rounded_text(*latest / step_length(wish.cell), 3) : "-", time_text(row.cost.clear),
-                     time_text(row.cost.contact), step_text(row.longest_step),
+  return {latest ? rounded_text(*latest, 3) : "-", latest ? rounded_text(*latest / step_length(wish.cell), 3) : "-",
+          step_text(row.longest_step)};
+}
+
+std::string row_text(const AdviceRow& row, const RowNumbers& numbers, const char* mark, const Wish& wish) {
+  const std::optional<double>& chance = row.theory.probability;
+  return fmt::format("{} {:<24} {:<10} {:<9} {:<9} {:<12} {:<12} {}{}{}\n", mark, row.method.name,
+                     chance ? in_percent(*chance) : "-", numbers[0], numbers[1], time_text(row.cost.clear),
+                     time_text(row.cost.contact), numbers[2], numbers[2].front() <= '9' ? " s" : "",
                      does_at_its_spin_alone(row, wish) ? " *" : "");
 }
 
 std::string table_text(const Advice& advice) {
   std::string text = header;
   bool met = true, truly = true;
-  for (const AdviceRow& row : advice.rows) {
+  std::vector<RowNumbers> numbers;
+  for (const AdviceRow& row : advice.rows) numbers.push_back(numbers_of(row, advice.wish));
+  for (std::size_t k = 0; k < std::tuple_size_v<RowNumbers>; ++k) {
+    std::vector<std::string*> column;
+    for (RowNumbers& row : numbers) column.push_back(&row[k]);
+    in_one_notation(column);
+  }
+  for (std::size_t i = 0; i < advice.rows.size(); ++i) {
+    const AdviceRow& row = advice.rows[i];
     if (truly && row.meets && !row.may_be_advised()) text += "These meet it too, with false hits:\n";
     if (met && !row.meets) text += "These do not meet the wish at this step:\n";
     met = row.meets;
     truly = row.may_be_advised();
-    text += row_text(row, &row == advice.advised() ? ">" : " ", advice.wish);
+    text += row_text(row, numbers[i], &row == advice.advised() ? ">" : " ", advice.wish);
   }
   if (std::ranges::any_of(advice.rows, [&](const AdviceRow& row) { return does_at_its_spin_alone(row, advice.wish); }))
     text += "* At this spin it meets the wish at this step; at every slower spin, at the step given.\n";

@@ -259,7 +259,9 @@ std::unique_ptr<Run> configure(const Settings& settings, const RunOptions& optio
     for (std::size_t i = 0; i < all.size(); ++i) all[i].survey = done.results[i];
     return outcome_of(all);
   };
-  return make_run(finish, std::move(tasks));
+  const std::vector<std::string> notes = {fmt::format(
+      "trials are balls; each broad phase is timed in up to {} (--trials)", plural_text(how.rounds, "round"))};
+  return make_run(finish, notes, std::move(tasks));
 }
 
 }  // namespace

@@ -268,8 +268,8 @@ std::vector<std::string> check_data(const fs::path& folder, Faults& faults) {
 
 std::vector<std::string> check_result(const fs::path& folder) {
   const bool complete = fs::exists(folder / "manifest.json");
-  if (const std::string shard = complete ? "" : shard_in(folder); !shard.empty())
-    return {fmt::format("shard.json: is shard {} of a run; thinwall merge makes a result of all of them", shard)};
+  if (const std::string part = complete ? "" : part_of_run(folder); !part.empty())
+    return {"manifest.json: missing; the folder " + part};
   Faults faults;
   const std::vector<std::string> tables = check_data(folder, faults);
   check_figures(folder, faults);

@@ -444,9 +444,11 @@ KeptResult kept_result(const fs::path& folder, const std::string& file) {
   return out;
 }
 
-std::string shard_in(const fs::path& folder) {
-  const auto seal = parse_seal(file_text(folder / seal_name));
-  return seal ? to_text(seal->shard) : "";
+std::string part_of_run(const fs::path& folder) {
+  if (const auto seal = parse_seal(file_text(folder / seal_name)))
+    return fmt::format("is shard {} of a run; thinwall merge makes a result of all of them", to_text(seal->shard));
+  if (!fs::exists(folder / journal_name)) return "";
+  return "holds a run that is not finished; the run's own command continues it";
 }
 
 void require_result(const fs::path& folder) {
@@ -454,13 +456,10 @@ void require_result(const fs::path& folder) {
   if (!fs::is_directory(folder)) refuse_place(folder, "is not a folder; name the folder of a result");
   const fs::path file = folder / manifest_name;
   if (!fs::exists(file)) {
-    if (const std::string shard = shard_in(folder); !shard.empty())
-      refuse_place(folder, fmt::format("is shard {} of a run; thinwall merge makes a result of all of them", shard));
-    const bool unfinished = fs::exists(folder / journal_name);
-    refuse_place(folder,
-                 unfinished
-                     ? "holds a run that is not finished: no manifest.json yet; the run's own command continues it"
-                     : "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it");
+    const std::string part = part_of_run(folder);
+    refuse_place(folder, part.empty()
+                             ? "holds no manifest.json; name the folder of a result, as `thinwall run` leaves it"
+                             : part);
   }
   if (!fs::is_regular_file(file)) refuse_place(folder, "its manifest.json is not a file");
 }

@@ -123,8 +123,8 @@ struct KeptResult : Manifest {
 /// What the manifest in `folder` says. Throws UsageError, naming it as `file`, if it is damaged or not ours.
 KeptResult kept_result(const std::filesystem::path& folder, const std::string& file);
 
-/// `1/3` if `folder` holds a finished shard of a run; empty if not.
-std::string shard_in(const std::filesystem::path& folder);
+/// What a folder without manifest is, if it holds a finished shard or a run that is not finished, and what makes a result of it; else empty.
+std::string part_of_run(const std::filesystem::path& folder);
 
 /// Throws UsageError if `folder` holds no complete result.
 void require_result(const std::filesystem::path& folder);

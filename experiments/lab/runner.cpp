@@ -318,7 +318,7 @@ UnitResults compute_units(std::span<const Unit> units, Journal& journal, const R
     out.seconds[i] = known->second.seconds;
     progress.trials_resumed += units[i].trials;
   }
-  out.resumed = progress.units_done = units.size() - open.size();
+  progress.units_done = units.size() - open.size();
   progress.trials_done = progress.trials_resumed;
 
   std::mutex mutex;

@@ -85,7 +85,6 @@ struct Progress {
 struct UnitResults {
   std::vector<std::string> results;  ///< by the order of the units, whichever ended first
   std::vector<double> seconds;       ///< of computing each
-  std::size_t resumed = 0;           ///< units read from the journal
   bool complete = false;             ///< false if the run was stopped
 };
 

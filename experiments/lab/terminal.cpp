@@ -1,6 +1,8 @@
 #include <thinwall/experiments/lab/terminal.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,9 +20,14 @@ std::size_t width(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+/// What stands in brackets is one word: a unit is not broken over two lines.
 std::vector<std::string_view> words_of(std::string_view text) {
-  std::vector<std::string_view> words = split(text, ' ');
-  std::erase(words, "");
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    const std::size_t bracket = text[at] == '[' ? text.find(']', at) : at;
+    end = std::min(text.find(' ', bracket == text.npos ? at : bracket), text.size());
+    if (end > at) words.push_back(text.substr(at, end - at));
+  }
   return words;
 }
 
@@ -76,12 +83,20 @@ std::string wrapped(std::string_view text) {
 }
 
 std::string terminal(const Table& table, std::initializer_list<std::string_view> names) {
-  const ShownTable all = shown(names.size() == 0 ? table : only_columns(table, names));
+  ShownTable all = shown(names.size() == 0 ? table : only_columns(table, names));
   std::vector<std::vector<std::string>> headers;
   std::vector<std::size_t> widths;
   std::size_t height = 0, whole = 0;
   for (std::size_t j = 0; j < all.columns.size(); ++j) {
     std::size_t widest = 0;
+    std::vector<std::string*> numbers;
+    for (auto& row : all.rows) numbers.push_back(&row[j].text);
+    const auto tiny = std::ranges::count_if(numbers, [](const std::string* text) {
+      const double size = std::abs(std::strtod(text->c_str(), nullptr));
+      return size > 0 && size < 1e-5;
+    });
+    // a few that are rounding alone are none to write all others by
+    if (tiny == 0 || 4 * tiny >= std::ssize(numbers)) in_one_notation(numbers);
     for (const auto& row : all.rows) widest = std::max(widest, width(row[j].text));
     for (const std::string_view word : words_of(all.columns[j].header)) widest = std::max(widest, width(word));
     whole += widest + (j > 0 ? 2 : 0);
@@ -105,10 +120,10 @@ std::string terminal(const Table& table, std::initializer_list<std::string_view>
     });
   }
   for (const auto& row : all.rows) out += line([&](std::size_t j) { return one_line(row[j].text); });
-  const std::size_t left = all.columns.size() - widths.size();
-  return out + (left > 0 ? wrapped(fmt::format("And {} in data/{}.csv.",
-                                               plural_text(static_cast<std::int64_t>(left), "column"), table.name))
-                         : "");
+  std::string left;
+  for (std::size_t j = widths.size(); j < all.columns.size(); ++j)
+    left += (left.empty() ? "" : ", ") + all.columns[j].header;
+  return out + (left.empty() ? "" : wrapped(fmt::format("And {} in data/{}.csv.", left, table.name)));
 }
 
 }  // namespace thinwall

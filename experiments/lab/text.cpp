@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -75,6 +76,23 @@ std::string rounded_text(double value, int digits) {
   if (!std::isfinite(value) || value == 0) return exact_text(value);
   const std::string text = to_text(value, std::chars_format::scientific, digits - 1);
   return exact_text(std::strtod(text.c_str(), nullptr));  // the rounded value itself
+}
+
+void in_one_notation(const std::vector<std::string*>& texts) {
+  std::vector<std::pair<std::string*, double>> numbers;
+  bool is_small_or_large = false;
+  std::array<bool, 2> seen{};  // without and with a power of ten
+  for (std::string* const text : texts) {
+    char* end = nullptr;
+    const double number = std::strtod(text->c_str(), &end);  // the page's library has no std::from_chars of it
+    if (*end != 0 || number == 0 || !std::isfinite(number)) continue;
+    numbers.emplace_back(text, number);
+    seen[text->find('e') == text->npos ? 0 : 1] = true;
+    is_small_or_large |= std::abs(number) < 1e-5 || std::abs(number) >= 1e7;
+  }
+  if (!seen[0] || !seen[1]) return;
+  const auto format = is_small_or_large ? std::chars_format::scientific : std::chars_format::fixed;
+  for (const auto& [text, number] : numbers) *text = to_text(number, format);
 }
 
 std::string grouped_text(std::int64_t value) {

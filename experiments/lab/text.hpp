@@ -22,6 +22,9 @@ std::string exact_text(double value);
 /// `digits` significant digits, for a reader: 0.0123, 1.2e-05, 1500000.
 std::string rounded_text(double value, int digits);
 
+/// Of a column's texts, makes the numbers of one notation if they are of both: plain from 1e-5 to 1e7, or with powers of ten.
+void in_one_notation(const std::vector<std::string*>& texts);
+
 /// Thousands apart: 12,000,000.
 std::string grouped_text(std::int64_t value);
 

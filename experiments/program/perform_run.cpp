@@ -26,6 +26,7 @@
 #include <thinwall/experiments/lab/runner.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
 #include <thinwall/experiments/lab/shards.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
 
@@ -69,7 +70,8 @@ std::string time_text(const RunEstimate& told, double seconds) {
   if (told.tried() == 0) return "for how long, cannot be told";
   // What begins a unit, a trial alone or not, is counted for each.
   const bool mostly_beginning = told.cut_tried > 0 && told.trials == 1;
-  return (told.unknown > 0 ? "at least " : mostly_beginning ? "at most " : "about ") + duration_text(seconds);
+  const char* const bound = told.unknown > 0 ? "at least " : mostly_beginning ? "at most " : "about ";
+  return bound + duration_text(seconds) + " on an idle machine";
 }
 
 int dry_run(const RunWish& wish, const RunRecord& run, std::span<const Unit> all, const Call& call) {
@@ -122,7 +124,7 @@ template <class Told> int reply(const RunWish& wish, const RunRecord& run, const
     reply["report"] = report;
     call.out << json_line(reply);
   } else {
-    call.out << summary_text(told.summary) << told.answer << "\n\nreport: " << one_line(report) << "\n";
+    call.out << summary_text(told.summary) << wrapped(told.answer) << "\nreport: " << one_line(report) << "\n";
   }
   call.out.flush();
   if (told.self_test_passed) return troubles.empty() ? exit_done : exit_failed;
@@ -235,7 +237,6 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
     throw std::runtime_error("the ranks do not work on one run, as the line of another says; nothing was computed");
   std::vector<std::uint8_t> open;
   for (const Unit& unit : units_) open.push_back(journal.finished().contains(unit.key) ? 0 : 1);
-  const auto known = static_cast<std::size_t>(std::ranges::count(open, 0));
   ranks_.share(open);
 
   Ending ending = finished;
@@ -255,7 +256,6 @@ UnitResults Crew::compute(ResultFolder& folder, const std::string& identity, con
     throw std::runtime_error(
         "another rank kept what it finished where rank 0 does not find it: all must see the same --out");
   }
-  all.resumed = known;
   return all;
 }
 
@@ -347,7 +347,13 @@ int perform_run(RunWish wish, const Call& call) try {
   if (wish.out.empty()) wish.out = default_folder(chosen, wish.shard);
   RunRecord record = record_of(chosen, wish, call, units);
   if (wish.list_cells) return list_cells(wish, record, units, call.out);
-  if (wish.dry_run) return dry_run(wish, record, all, call);
+  const auto tell = [&](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) call.err << note << "\n";
+  };
+  if (wish.dry_run) {
+    tell(chosen.run->notes());
+    return dry_run(wish, record, all, call);
+  }
 
   record.program = this_program_sha256();
   const Journal::Rows merged = wish.merged ? all_rows(*wish.merged, units) : Journal::Rows();
@@ -359,7 +365,7 @@ int perform_run(RunWish wish, const Call& call) try {
                        {.threads = record.threads, .stop = stop_requested, .on_progress = {}});
   }
   ResultFolder folder(wish.out, record);
-  for (const std::string& note : folder.notes()) call.err << note << "\n";
+  tell(folder.notes());
   if (const auto& kept = folder.complete()) {
     return reply(wish, record, *kept, call);
   }
@@ -377,8 +383,15 @@ int perform_run(RunWish wish, const Call& call) try {
       std::_Exit(interrupted(wish, call));  // what was staged is the next run's to remove: this one may still write
     });
   }
-  for (const std::string& note : chosen.run->notes()) call.err << note << "\n";
+  tell(chosen.run->notes());
   call.err << size_text(record) << std::endl;
+  if (!wish.merged) {
+    const auto& finished = folder.journal().finished();
+    for (const Unit& unit : units) record.resumed_units += finished.contains(unit.key);
+  }
+  if (const auto done = static_cast<std::int64_t>(record.resumed_units); done > 0)
+    call.err << fmt::format("goes on: {} of {} are done", grouped_text(done), plural_text(std::ssize(units), "unit"))
+             << std::endl;
   UnitResults results;
   {
     ProgressBar bar(!wish.watch && stderr_is_terminal());
@@ -391,10 +404,6 @@ int perform_run(RunWish wish, const Call& call) try {
     guard.reset();
     return interrupted(wish, call);
   }
-  if (!wish.merged && results.resumed > 0) {
-    record.resumed_units = results.resumed;
-    call.err << fmt::format("{} of {} units were read from the journal\n", results.resumed, units.size());
-  }
   if (wish.shard) {
     record.finished = std::chrono::system_clock::now();
     folder.seal(record);
@@ -406,7 +415,7 @@ int perform_run(RunWish wish, const Call& call) try {
   record.finished = std::chrono::system_clock::now();
   const auto notes = write_results(folder, record, outcome);
   guard.reset();
-  for (const std::string& note : notes) call.err << note << "\n";
+  tell(notes);
   return reply(wish, record, outcome, call);
 } catch (const std::system_error& error) {  // of a full disk, mostly; the journal keeps what was finished
   const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);

@@ -18,6 +18,7 @@
 #include <thinwall/experiments/lab/manifest.hpp>
 #include <thinwall/experiments/lab/result_folder.hpp>
 #include <thinwall/experiments/lab/settings.hpp>
+#include <thinwall/experiments/lab/terminal.hpp>
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/program/command.hpp>
 #include <thinwall/experiments/program/run.hpp>
@@ -60,7 +61,7 @@ ordered_json result_json(const KeptResult& result) {
 }
 
 std::string result_text(const KeptResult& result) {
-  std::string out = result.question + "\n\n" + result.answer + "\n\n" + summary_text(result.summary);
+  std::string out = wrapped(result.question) + "\n" + wrapped(result.answer) + "\n" + summary_text(result.summary);
   if (!result.self_test_passed) out += "The self-test failed: do not cite these numbers.\n\n";
   return out + "report: " + one_line((result.folder / "report.html").string()) + "\n";
 }
@@ -277,11 +278,9 @@ Rerun prepare(const ReproduceText& text) try {
 
 /// Throws UsageError if this build cannot run it.
 RunWish wish_of(const Rerun& rerun, const ReproduceText& text, std::span<const Experiment> experiments) {
-  RunRecord record;
-  static_cast<RunIdentity&>(record) = rerun.recorded.run;
   RunWish wish;
-  wish.target = (rerun.result / "resolved.toml").string();  // the same text, unless somebody changed it
-  wish.request.text = resolved_toml(record);
+  wish.target = (rerun.result / manifest_name).string() + " (config as TOML)";
+  wish.request.text = config_toml(rerun.recorded.run);
   wish.request.options = {rerun.recorded.run.seed, rerun.recorded.run.trials, parse_threads(text.threads)};
   wish.request.benchmarks = text.benchmarks.value_or("");
   wish.out = rerun.out.string();

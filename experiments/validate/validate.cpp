@@ -187,7 +187,8 @@ QueryFile::QueryFile(const fs::path& file) : lines_(file) {
     }
   }
   if (!found)
-    throw UsageError(lines_.shown() + ": is in no folder named vertex-face or edge-edge, so what meets is not known");
+    throw UsageError(lines_.shown() +
+                     ": is in no folder named vertex-face or edge-edge; queries of shapes that turn need --turning");
 }
 
 bool QueryFile::next_row(RationalPoint& vertex, bool& answer) {

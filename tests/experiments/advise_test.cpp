@@ -222,6 +222,13 @@ TEST(AdviceText, fits_a_terminal) {
   }
 }
 
+TEST(AdviceText, has_one_notation_in_a_column) {
+  const std::string text = advice_text(advice_on(bullet_wish));
+  EXPECT_TRUE(holds(text, "\n  bisection                0          2.48e-09  1.49e-08 "));
+  EXPECT_TRUE(holds(text, "\n  end_of_step              70 %       5e-02     3e-01 "));
+  EXPECT_TRUE(holds(text, " 0.005 s\n"));
+}
+
 TEST(AdviceText, says_what_to_use_and_what_it_costs) {
   EXPECT_EQ(
       advice_sentence(advice_on(bullet_wish)),

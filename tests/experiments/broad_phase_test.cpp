@@ -140,6 +140,11 @@ TEST(BroadPhase, tells_of_the_largest_worlds_within_the_terminal) {
   EXPECT_EQ(value_of(table_of(outcome, "growth"), 0, "counts"), Value(std::int64_t{6}));
 }
 
+TEST(BroadPhase, says_what_its_trials_are) {
+  EXPECT_EQ(run_of(broad_phase_experiment(), "rounds = 7")->notes(),
+            std::vector<std::string>{"trials are balls; each broad phase is timed in up to 7 rounds (--trials)"});
+}
+
 TEST(BroadPhase, self_test_fails_who_misses_a_pair_or_invents_one) {
   std::vector<SurveyRow> rows = {made_up_row(10, {made_up_finding("r_tree", 1)})};
   EXPECT_TRUE(all_right(rows));

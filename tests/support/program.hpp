@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -125,10 +126,11 @@ class ProgramProcess : boost::noncopyable {
   bool ended_ = false;
 };
 
-/// The number in `12 of 34 units were read from the journal`, which a run that goes on says on a line of its own; 0 if it does not.
+/// The number in `goes on: 12 of 34 units are done`, which a run that goes on says on a line of its own; 0 if it does not.
 inline long units_read(const std::string& said) {
-  const auto note = said.find(" units were read from the journal");
-  return note == std::string::npos ? 0 : std::stol(said.substr(said.rfind('\n', note) + 1));
+  const std::string_view begin = "goes on: ";
+  const auto note = said.find(begin);
+  return note == std::string::npos ? 0 : std::stol(said.substr(note + begin.size()));
 }
 
 // ---- The headline experiment in small, for tests of the program as it is: many units, every kind of file, in half a second.

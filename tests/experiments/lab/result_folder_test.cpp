@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <thinwall/experiments/lab/comparison.hpp>
@@ -25,7 +26,7 @@ TEST_F(ResultFolderTest, goes_on_after_an_interruption_and_ends_with_the_same_by
   EXPECT_EQ(reply.out, "");
   EXPECT_TRUE(holds(reply.err, "to continue:\nthinwall run toy --out " + out + " --threads 1\n"));
   EXPECT_EQ(files_in(out).size(), 1u) << "the journal alone";
-  expect_reply(run({"--threads", "1"}), 0, {"8 of 20 units were read from the journal\n"});
+  expect_reply(run({"--threads", "1"}), 0, {"goes on: 8 of 20 units are done\n"});
   EXPECT_EQ(ToyControl::computed, 12);
   EXPECT_EQ(read_text(out + "/data/cells.csv"), whole.at("data/cells.csv"));
   EXPECT_EQ(read_text(out + "/datapackage.json"), whole.at("datapackage.json"));
@@ -48,7 +49,7 @@ TEST_F(ResultFolderTest, computes_a_damaged_row_again_and_says_so) {
   expect_reply(
       run(), 0,
       {out + "/journal.tsv:5: the row of 'cell 3' is damaged, or of another run; that unit is computed again\n",
-       "7 of 20 units were read"});
+       "goes on: 7 of 20 units are done\n"});
 }
 
 TEST_F(ResultFolderTest, answers_at_once_where_the_result_lies_already) {
@@ -125,7 +126,7 @@ TEST_F(ResultFolderTest, goes_on_with_its_own_journal_that_another_build_has_set
       interrupt(1);
       EXPECT_TRUE(holds(read_text(out + "/journal.old.tsv"), "777000")) << "the other's";
     }
-    expect_reply(run(), 0, {(has_begun ? "9" : "8") + std::string(" of 20 units were read from the journal\n")});
+    expect_reply(run(), 0, {fmt::format("goes on: {} of 20 units are done\n", has_begun ? 9 : 8)});
     EXPECT_EQ(files_in(out).count("journal.old.tsv"), 0u);
     std::filesystem::remove_all(out);
   }
@@ -383,6 +384,11 @@ TEST_F(ForeignFiles, are_not_followed_where_they_are_links) {
   fs::rename(out + "/journal.tsv", folder / "journal");
   fs::create_symlink(folder / "journal", out + "/journal.tsv");
   expect_refused_run();
+  fs::remove_all(out);
+  ASSERT_EQ(run().status, 0);
+  fs::remove(out + "/data/cells.csv");
+  fs::create_symlink(folder / "mine/cells.csv", out + "/data/cells.csv");
+  expect_reply(run(), 0, {"complete already; nothing was computed (data/cells.csv was changed since"});
   EXPECT_EQ(files_in(folder / "mine"), mine);
 }
 

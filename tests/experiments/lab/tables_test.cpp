@@ -143,13 +143,28 @@ TEST(Terminal, is_as_wide_as_its_columns_need_and_says_once_what_is_always_so) {
       "end_of_step        25         0.25\n");
 }
 
+TEST(Terminal, has_one_notation_in_a_column) {
+  const auto shown = [&](double x, double y) {
+    Table two = table("cells", "", columns(), {rows[0], rows[1]});
+    const std::size_t at = place_of(two, "theory");
+    two.rows[0][at] = x;
+    two.rows[1][at] = y;
+    const std::string text = terminal(two, {"theory"});
+    return text.substr(text.find('\n') + 1);
+  };
+  EXPECT_EQ(shown(0.25, 2.5e-6), "2.5e-01\n2.5e-06\n");
+  EXPECT_EQ(shown(0.25, 1e-4), "  0.25\n0.0001\n");
+  EXPECT_EQ(shown(0, 2.5e-6), "      0\n2.5e-06\n");
+}
+
 TEST(Terminal, breaks_lines_and_leaves_what_is_too_wide_to_the_file) {
   EXPECT_EQ(wrapped("one two\n\nthree"), "one two\n\nthree\n");
   EXPECT_EQ(wrapped(std::string(99, 'a') + " bc"), std::string(99, 'a') + "\nbc\n");
+  EXPECT_EQ(wrapped(std::string(98, 'a') + " [b c] [d e"), std::string(98, 'a') + "\n[b c] [d e\n");
   Row wide = rows[0];
   wide.method = std::string(120, 'x');
   const std::string cut = terminal(table("cells", "All.", columns(), {wide, rows[1]}), {"method", "tunneled"});
-  EXPECT_TRUE(holds(cut, "And 1 column in data/cells.csv."));
+  EXPECT_TRUE(holds(cut, "And tunneled in data/cells.csv."));
   EXPECT_THROW(terminal(table("cells", "All.", columns(), rows), {"nothing"}), std::logic_error);
 }
 

@@ -96,7 +96,8 @@ TEST_F(ReproduceTest, refuses_what_it_cannot_run) {
   ASSERT_EQ(run().status, 0);
   const std::string good = read_text(out + "/manifest.json");
   change_manifest("/config/cels", 3);
-  expect_refused({"reproduce", out}, {"key 'cels': unknown key; did you mean 'cells'?"});
+  expect_refused({"reproduce", out},
+                 {out + "/manifest.json (config as TOML):3: key 'cels': unknown key; did you mean 'cells'?"});
   write_text(out + "/manifest.json", good);
   change_manifest("/experiment", "tyo");
   expect_refused({"reproduce", out}, {"'tyo' is not allowed; did you mean 'toy'?"});
@@ -110,13 +111,14 @@ struct SceneProgram : ToyProgram {
 };
 
 TEST_F(SceneProgram, run_leaves_a_full_folder_with_a_trace) {
-  expect_reply(call({"run", file, "--out", out, "--trace", "--threads", "1"}), 0, {"1 more went unseen"});
+  ASSERT_EQ(call({"run", file, "--out", out, "--trace", "--threads", "1"}).status, 0);
   for (const char* name :
        {"manifest.json", "report.html", "resolved.toml", "trace.jsonl", "data/steps.csv", "data/plan.csv",
         "data/events.csv", "data/tunneled.csv", "data/timings.csv", "plots/tracks.gp"}) {
     EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
   }
   EXPECT_EQ(manifest()["experiment"], "scene");
+  EXPECT_TRUE(holds(manifest()["answer"].get<std::string>(), "1 more went unseen"));
   EXPECT_EQ(manifest()["config"]["trace"], true);
   EXPECT_TRUE(manifest()["files"].contains("trace.jsonl"));
 }

@@ -58,6 +58,12 @@ TEST_F(ReportTest, prints_question_answer_and_summary) {
   EXPECT_EQ(json.at("drawn"), nlohmann::json::array());
 }
 
+TEST_F(ReportTest, breaks_a_long_answer_between_words) {
+  const std::string words = "squares squares squares squares ";
+  change("manifest.json", "The squares", words + words + words + words);
+  EXPECT_TRUE(holds(call({"report", out}).out, words + words + words.substr(0, 31) + "\nsquares"));
+}
+
 TEST_F(ReportTest, counts_a_single_thread_as_one) {
   for (const std::string count : {"1 thread", "2 threads"}) {
     ASSERT_EQ(call({"run", "toy", "--threads", count.substr(0, 1), "--out", out + count}).status, 0);
@@ -91,9 +97,12 @@ TEST_F(ReportTest, sees_what_became_of_the_manifest) {
   write_text(out + "/manifest.json", "{}");
   expect_fault("manifest.json: key 'thinwall_manifest': missing");
   std::filesystem::remove(out + "/manifest.json");
-  expect_fault("manifest.json: missing");
-  EXPECT_EQ(call({"report", out, "--check"}).status, 1);
-  EXPECT_EQ(call({"report", out}).status, 2);
+  const std::string said = "holds a run that is not finished; the run's own command continues it\n";
+  EXPECT_EQ(refusal(call({"report", out})), out + ": " + said);
+  expect_reply(call({"report", out, "--check"}), 1,
+               {"manifest.json: missing; the folder " + said + out + ": 1 fault\n"});
+  std::filesystem::remove(out + "/journal.tsv");
+  expect_fault("manifest.json: missing; without one a folder is not complete");
 }
 
 TEST_F(ReportTest, sees_a_manifest_that_was_edited) {
@@ -153,7 +162,7 @@ TEST_F(ReportTest, says_of_a_shard_that_it_is_one) {
   for (const char* command : {"report", "cite"}) EXPECT_EQ(refusal(call({command, shard})), shard + ": " + said);
   const Reply reply = call({"report", shard, "--check"});
   EXPECT_EQ(reply.status, 1);
-  EXPECT_EQ(reply.out, "shard.json: " + said + shard + ": 1 fault\n");
+  EXPECT_EQ(reply.out, "manifest.json: missing; the folder " + said + shard + ": 1 fault\n");
 }
 
 TEST_F(ReportTest, prints_a_folders_name_on_one_line_that_drives_no_terminal) {

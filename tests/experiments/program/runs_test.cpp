@@ -116,7 +116,7 @@ TEST_F(ToyRunTest, writes_nothing_on_a_dry_run) {
   const Reply reply = run({"--dry-run", "--threads", "1"});
   EXPECT_EQ(reply.status, 0);
   EXPECT_TRUE(reply.out.starts_with("toy: 20 units, 200 trials on 1 thread\nabout ")) << reply.out;
-  EXPECT_TRUE(holds(reply.out, " s (16 units tried with "));
+  EXPECT_TRUE(holds(reply.out, " s on an idle machine (16 units tried with "));
   EXPECT_EQ(ToyControl::computed, 0);
   EXPECT_FALSE(std::filesystem::exists(out));
   const auto json = nlohmann::json::parse(run({"--dry-run", "--json"}).out);

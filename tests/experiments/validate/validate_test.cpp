@@ -136,7 +136,9 @@ TEST_F(ValidateTest, folders_without_queries_are_refused) {
   EXPECT_TRUE(holds(refusal(call_validate(std::string(300, 'a'))), ": cannot be read: File name too long\n"));
   const std::string stray = write("a.csv", falling("1,2", 1));
   EXPECT_EQ(refusal(call_validate(stray)), stray + ": is not a folder\n");
-  EXPECT_TRUE(holds(refusal(call_validate(empty)), stray + ": is in no folder named"));
+  EXPECT_EQ(refusal(call_validate(empty)), stray +
+                                               ": is in no folder named vertex-face or edge-edge; queries of shapes "
+                                               "that turn need --turning\n");
   EXPECT_TRUE(holds(refusal(call_validate("")), "a folder of published queries is missing"));
 }
 
