@@ -272,7 +272,6 @@ struct ClearTurnedRay {
   ClearFrame frame;
   packed::Lanes center, h;
   packed::Vectors<packed::Lanes> start;
-  bool is_straight;
   packed::Lanes p, v, noise;
   packed::Lanes P, W, reach, near, far, enter;  ///< as ClearSlabs
   packed::Pair first;
@@ -282,9 +281,8 @@ struct ClearTurnedRay {
         center(packed::lanes(box.center)),
         h(packed::lanes(box.half_extents)),
         start(packed::spread(ray.origin) - packed::spread(box.center)),
-        is_straight(frame.is_straight(h, packed::lanes(ray.origin) - center)),
-        p(normal_to_faces(dot(frame.rows, start))),
-        v(normal_to_faces(frame.into(ray.direction))),
+        p(dot(frame.rows, start)),
+        v(frame.into(ray.direction)),
         noise(((abs(start.x) + abs(start.y)) + (abs(start.z) + h)) * packed::all(0x1p-48)),
         P(against(p, v)),
         W(abs(v)),
@@ -293,19 +291,15 @@ struct ClearTurnedRay {
         far(P + reach),
         enter(near / W),
         first(largest_of(max(enter, packed::all(0)))) {}
-  /// What it meets by the one face that `axis` names.
+  /// What it meets by the one face that `axis` names: when, by the face's own normal, from which its axis leans.
   THINWALL_HOT ClearRayHit hit(bool clear, bool meets, const packed::LanesMask& axis) const {
     using packed::all, packed::both;
     const packed::LanesMask in_range = (all(0x1p-48 / packed::most_length) <= noise) & (all(0) <= h) &
                                        (max(noise * all(0x1p48), W) <= all(packed::most_length));
     const packed::Lanes on_box = select(axis, against(h, v), held_within(p + v * all(first), h));
-    return {both(all_of(frame.clear() & in_range), clear), meets, first, center + frame.out_of(on_box),
-            frame.out_of(normal_to_faces(keep(axis, against(frame.per_length(), v))))};
-  }
-
- private:
-  THINWALL_HOT packed::Lanes normal_to_faces(const packed::Lanes& along) const {
-    return is_straight ? along : frame.for_normals(along);
+    const packed::Lanes later = frame.leaning(on_box) / v;
+    return {both(all_of(frame.clear() & in_range), clear), meets, first + sum(keep(axis, later)),
+            center + frame.out_of(on_box), frame.out_of(keep(axis, against(frame.per_length(), v)))};
   }
 };
 

@@ -35,16 +35,16 @@ struct ClearFrame {
   THINWALL_HOT packed::LanesMask clear() const {
     return abs(squares - packed::all(1)) + abs(lean()) * packed::all(4) <= packed::all(0x1p-48);
   }
-  /// No face of half extents h leans by more than a rounding of its place and of the other lengths along its axis: p, and the box's own.
+  /// No face of half extents h leans by more than u of all sizes along its axis: a place p and the box.
   THINWALL_HOT bool is_straight(const packed::Lanes& h, const packed::Lanes& p) const {
     const packed::Vectors<packed::Lanes> H = spread(h);
     const packed::Lanes off = abs(lean()), leans = off * yzx(h) + yzx(yzx(off * h));
     return all_of(leans <= sizes_along(abs(p) + ((abs(x) * H.x + abs(y) * H.y) + abs(z) * H.z)) * packed::all(0x1p-53));
   }
-  /// Of a vector, by what is along each axis, what is along the normals of the faces.
-  THINWALL_HOT packed::Lanes for_normals(const packed::Lanes& along) const {
+  /// By how much less than along its axis a place in the box's own axes is along the normal of each face, which is across the other two.
+  THINWALL_HOT packed::Lanes leaning(const packed::Lanes& place) const {
     const packed::Lanes off = lean();
-    return along - (off * yzx(along) + yzx(yzx(off * along)));
+    return off * yzx(place) + yzx(yzx(off * place));
   }
   /// Over their lengths.
   THINWALL_HOT packed::Lanes per_length() const { return packed::all(1.5) - squares * packed::all(0.5); }
