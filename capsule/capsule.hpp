@@ -11,6 +11,7 @@
 #include <thinwall/capsule/segment.hpp>
 #include <thinwall/capsule/segment_box.hpp>
 #include <thinwall/capsule/segment_triangle.hpp>
+#include <thinwall/discrete/directions.hpp>
 #include <thinwall/discrete/entry/flat_entry.hpp>
 #include <thinwall/discrete/obb.hpp>
 
@@ -102,7 +103,7 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Sphere<
   gap.local_a = core * (s - S(1) / S(2));
   gap.along = core;
   if (gap.distance > gap_noise(largest(from_a, core)))
-    gap.normal = S(0) < s && s < S(1) ? unit_across(between, core) : safe_unit(between);
+    gap.normal = S(0) < s && s < S(1) ? unit_across(safe_unit(between), safe_unit(core)) : safe_unit(between);
   return gap;
 }
 
@@ -114,11 +115,17 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& a, const Capsule<S>& b
   gap.distance = safe_norm(closest.gap);
   gap.local_a = core_a * (closest.s - S(1) / S(2));
   gap.local_b = core_b * (closest.t - S(1) / S(2));
+  const Vec3<S> unit_a = safe_unit(core_a), unit_b = safe_unit(core_b), across = accurate_cross<S>(unit_a, unit_b);
   if (gap.distance > gap_noise(largest(between, core_a, core_b))) {
-    gap.normal = closest_on_parallelogram(between, core_a, core_b).outward();
+    const bool on_a = S(0) < closest.s && closest.s < S(1), on_b = S(0) < closest.t && closest.t < S(1);
+    gap.normal = safe_unit(closest.gap);
+    if (on_a && on_b && largest(across) > parallel_sine<S>()) {
+      gap.normal = safe_unit(gap.normal.dot(across) < S(0) ? Vec3<S>(-across) : across);
+    } else if (on_a || on_b) {
+      gap.normal = unit_across(gap.normal, on_a ? unit_a : unit_b);
+    }
     return gap;
   }
-  const Vec3<S> across = accurate_cross<S>(safe_unit(core_a), safe_unit(core_b));
   gap.along = core_a == Vec3<S>::Zero() ? core_b : core_a;
   if (largest(across) <= gap_noise(S(1))) return gap;
   gap.normal = towards_positive<S>(safe_unit(across));
@@ -136,9 +143,9 @@ template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Aabb<S>
   const S noise = gap_noise(largest(start, along, box.half_extents));
   if (gap.distance <= noise) return segment_through_box(start, core, box.half_extents);
   // Across what the core does outside the slabs, if it is but for rounding: not of a stretch that is all as near.
-  const Vec3<S> outside = excess.cwiseSign().cwiseAbs().cwiseProduct(core);
-  const bool across = S(0) < s && s < S(1) && largest(S(excess.dot(safe_unit(outside)))) <= noise;
-  gap.normal = across ? Vec3<S>(-unit_across(excess, outside)) : Vec3<S>(-safe_unit(excess));
+  const Vec3<S> out = safe_unit(excess), outside = safe_unit<S>(excess.cwiseSign().cwiseAbs().cwiseProduct(core));
+  const bool across = S(0) < s && s < S(1) && largest(S(excess.dot(outside))) <= noise;
+  gap.normal = across ? Vec3<S>(-unit_across(out, outside)) : Vec3<S>(-out);
   gap.local_a = core * (s - S(1) / S(2));
   gap.local_b = nearest.cwiseMin(box.half_extents).cwiseMax(-box.half_extents);
   return gap;
@@ -179,10 +186,11 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Triangle<
 /// Degenerate: a core that pierces the triangle leaves past its nearer end or the nearest edge; one that only touches it
 /// along the plane's normal, or across the edge it touches.
 template <Scalar S> CoreGap<S> core_gap(const Capsule<S>& capsule, const Triangle<S>& triangle) {
-  const PrismPart<S> closest = closest_on_core_and_triangle(capsule, triangle);
+  PrismPart<S> closest = closest_on_core_and_triangle(capsule, triangle);
   const Vec3<S> core = capsule.b - capsule.a;
   CoreGap<S> gap;
   gap.distance = closest.part.distance();
+  closest.part.gap = safe_unit(closest.part.gap);  // at any scale
   gap.local_a = core * (closest.s - S(1) / S(2));
   gap.local_b = closest.on_triangle - (center(triangle) - triangle.a);
   const Vec3<S> x = capsule.a - triangle.a, e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;

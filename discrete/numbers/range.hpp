@@ -41,7 +41,7 @@ template <Scalar S> int binary_exponent(const S& x) {
 /// x * 2^e, correctly rounded even where 2^e itself is out of range.
 template <Scalar S> S times_power_of_two(const S& x, int e) {
   using std::ldexp;
-  return ldexp(x, e);
+  return e == 0 ? x : S(ldexp(x, e));
 }
 template <Scalar S> Vec3<S> times_power_of_two(const Vec3<S>& v, int e) {
   return {times_power_of_two(v[0], e), times_power_of_two(v[1], e), times_power_of_two(v[2], e)};
