@@ -28,7 +28,7 @@
 namespace thinwall {
 
 /// [1] What an axis of a box may lean from a right angle by roundings, those of a quaternion's included.
-template <Scalar T> inline constexpr T most_lean = 16 * std::numeric_limits<T>::epsilon();
+template <Scalar T> T most_lean() { return 16 * std::numeric_limits<T>::epsilon(); }
 
 /// [length] By how much the face of a box whose normal is n, which is across its edges, is elsewhere than its own axis has it: what that leans
 /// by roundings counts by all of the face.
@@ -36,9 +36,9 @@ template <Shape A, Scalar T> T lean_of_face(const A& shape, const Vec3<T>& n) {
   if constexpr (std::is_same_v<A, Obb<T>>) {
     for (int i = 0; i < 3; ++i) {
       const auto x = shape.axes.col((i + 1) % 3), y = shape.axes.col((i + 2) % 3), own = shape.axes.col(i);
-      if (!(largest(T(n.dot(x)), T(n.dot(y))) <= most_lean<T>)) continue;
+      if (!(largest(T(n.dot(x)), T(n.dot(y))) <= most_lean<T>())) continue;
       const T off_x = largest(T(own.dot(x))), off_y = largest(T(own.dot(y)));
-      return largest(off_x, off_y) <= most_lean<T>
+      return largest(off_x, off_y) <= most_lean<T>()
                  ? off_x * shape.half_extents[(i + 1) % 3] + off_y * shape.half_extents[(i + 2) % 3]
                  : T(0);
     }
@@ -83,7 +83,7 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
 template <Scalar T> Vec3<T> freed_of_lean(const Vec3<T>& n, const Vec3<T>& edge) {
   const Vec3<T> along = safe_unit(edge);
   const T lean = n.dot(along);
-  return largest(lean) <= most_lean<T> ? Vec3<T>(n - along * lean) : n;
+  return largest(lean) <= most_lean<T>() ? Vec3<T>(n - along * lean) : n;
 }
 
 template <Scalar T> Vec3<T> freed_of_leans(const Vec3<T>& n, const Obb<T>& box) {
