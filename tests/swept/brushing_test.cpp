@@ -408,12 +408,16 @@ TEST(AxesLengths, count_for_a_ray) {
   }
 }
 
-/// A floor leans by what its axes do, more than sizes round far from its middle.
-TEST(AxesLengths, are_not_clear_where_axes_lean) {
+/// A floor whose long edges lean by 8 u is 40 u lower or higher at a ball than at its middle, where its own axis has all of it.
+TEST(AxesLengths, are_not_all_where_edges_lean) {
   Obb<double> floor{V::Zero(), {10, 1, 0x1p-4}, Mat3<double>::Identity()};
   const Moving<Ball> ball{{{5, 0, 0x1p-3 + 0x1p-5}, 0x1p-5}, {0, 0, -0.125}};
-  EXPECT_TRUE(clear_impact(at_rest(floor), ball, 0.0).clear);
   floor.axes(2, 0) = 0x1p-50;
+  const ClearToi clear = clear_impact(at_rest(floor), ball, 0.0);
+  EXPECT_TRUE(clear.clear);
+  for (const auto& toi : {clear.toi(), careful_impact(ClosedForm<double>{}, at_rest(floor), ball)})
+    EXPECT_NEAR(toi.time, 0.5 - 5 * 0x1p-50 / 0.125, 8 * 0x1p-53);
+  floor.axes(2, 0) = 0x1p-49;
   EXPECT_FALSE(clear_impact(at_rest(floor), ball, 0.0).clear);
 }
 

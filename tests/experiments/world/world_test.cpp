@@ -288,7 +288,7 @@ TEST(World, a_listener_may_remove_what_it_hears_of_and_must_not_step) {
 }
 
 TEST(World, a_listener_that_hears_of_a_removal_must_not_step) {
-  World world({ball(1, {0, 0, 0}, {0, 0, 0}), ball(2, {2, 0, 0}, {0, 0, 0}), ball(3, {-2, 0, 0}, {0, 0, 0})}, {});
+  World world({ball(1, {0, 0, 0}, {0, 0, 0}), ball(2, {1, 0, 0}, {0, 0, 0}), ball(3, {-1, 0, 0}, {0, 0, 0})}, {});
   world.step(1);
   std::string heard;
   world.events().listen([&](const CollisionEvent& event) {
