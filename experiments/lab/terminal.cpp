@@ -25,7 +25,7 @@ std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
     const std::size_t bracket = text[at] == '[' ? text.find(']', at) : at;
-    end = std::min(text.find(' ', bracket == text.npos ? at : bracket), text.size());
+    end = std::min(text.find(' ', bracket == std::string_view::npos ? at : bracket), text.size());
     if (end > at) words.push_back(text.substr(at, end - at));
   }
   return words;

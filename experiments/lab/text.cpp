@@ -87,7 +87,7 @@ void in_one_notation(const std::vector<std::string*>& texts) {
     const double number = std::strtod(text->c_str(), &end);  // the page's library has no std::from_chars of it
     if (*end != 0 || number == 0 || !std::isfinite(number)) continue;
     numbers.emplace_back(text, number);
-    seen[text->find('e') == text->npos ? 0 : 1] = true;
+    seen[text->find('e') == std::string::npos ? 0 : 1] = true;
     is_small_or_large |= std::abs(number) < 1e-5 || std::abs(number) >= 1e7;
   }
   if (!seen[0] || !seen[1]) return;

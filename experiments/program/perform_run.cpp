@@ -389,9 +389,10 @@ int perform_run(RunWish wish, const Call& call) try {
     const auto& finished = folder.journal().finished();
     for (const Unit& unit : units) record.resumed_units += finished.contains(unit.key);
   }
-  if (const auto done = static_cast<std::int64_t>(record.resumed_units); done > 0)
+  if (const auto done = static_cast<std::int64_t>(record.resumed_units); done > 0) {
     call.err << fmt::format("goes on: {} of {} are done", grouped_text(done), plural_text(std::ssize(units), "unit"))
              << std::endl;
+  }
   UnitResults results;
   {
     ProgressBar bar(!wish.watch && stderr_is_terminal());

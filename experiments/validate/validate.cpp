@@ -186,9 +186,10 @@ QueryFile::QueryFile(const fs::path& file) : lines_(file) {
       found = true;
     }
   }
-  if (!found)
+  if (!found) {
     throw UsageError(lines_.shown() +
                      ": is in no folder named vertex-face or edge-edge; queries of shapes that turn need --turning");
+  }
 }
 
 bool QueryFile::next_row(RationalPoint& vertex, bool& answer) {
