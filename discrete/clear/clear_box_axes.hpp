@@ -38,14 +38,11 @@ struct ClearFrame {
   /// No face of half extents h leans by more than u of all sizes along its axis: a place p and the box.
   THINWALL_HOT bool is_straight(const packed::Lanes& h, const packed::Lanes& p) const {
     const packed::Vectors<packed::Lanes> H = spread(h);
-    const packed::Lanes off = abs(lean()), leans = off * yzx(h) + yzx(yzx(off * h));
-    return all_of(leans <= sizes_along(abs(p) + ((abs(x) * H.x + abs(y) * H.y) + abs(z) * H.z)) * packed::all(0x1p-53));
+    return all_of(leaning(abs(lean()), h) <=
+                  sizes_along(abs(p) + ((abs(x) * H.x + abs(y) * H.y) + abs(z) * H.z)) * packed::all(0x1p-53));
   }
   /// By how much less than along its axis a place in the box's own axes is along the normal of each face, which is across the other two.
-  THINWALL_HOT packed::Lanes leaning(const packed::Lanes& place) const {
-    const packed::Lanes off = lean();
-    return off * yzx(place) + yzx(yzx(off * place));
-  }
+  THINWALL_HOT packed::Lanes leaning(const packed::Lanes& place) const { return leaning(lean(), place); }
   /// Over their lengths.
   THINWALL_HOT packed::Lanes per_length() const { return packed::all(1.5) - squares * packed::all(0.5); }
   /// Vectors in the box's own axes, and one of these in the world's.
@@ -63,6 +60,11 @@ struct ClearFrame {
   /// How far each axis reaches along n, of numbers that all count.
   THINWALL_HOT packed::Lanes sizes_along(const packed::Lanes& n) const { return dot(abs(rows), spread(abs(n))); }
   THINWALL_HOT packed::Lanes axis(int i) const { return packed::lanes(numbers + 3 * static_cast<std::ptrdiff_t>(i)); }
+
+ private:
+  THINWALL_HOT static packed::Lanes leaning(const packed::Lanes& off, const packed::Lanes& place) {
+    return off * yzx(place) + yzx(yzx(off * place));
+  }
 };
 
 /// A box that is not turned, as ClearFrame is one that is.

@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include <Eigen/Geometry>
+
 #include <thinwall/capsule/capsule.hpp>
 #include <thinwall/discrete/queries.hpp>
 #include <thinwall/discrete/type_list.hpp>
@@ -41,6 +43,12 @@ template <class S> class Shaker {
     axes.col(1) = safe_unit(thinwall::cross<S>(axes.col(0), plain_vector()));
     axes.col(2) = thinwall::cross<S>(axes.col(0), axes.col(1));
     return axes;
+  }
+  /// Those of a quaternion, which are off right angles by several times as many roundings as those of which one is made across the others.
+  Mat3<S> quaternion_axes() {
+    using std::sqrt;
+    const S w = plain(), x = plain(), y = plain(), z = plain(), length = sqrt(w * w + x * x + y * y + z * z);
+    return Eigen::Quaternion<S>(w / length, x / length, y / length, z / length).toRotationMatrix();
   }
   S coordinate() {
     if (style_ == Style::lattice || (style_ == Style::mixed && pick(0, 1) == 0)) return S(pick(-4, 4)) / S(2);

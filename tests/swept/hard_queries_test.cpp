@@ -501,17 +501,11 @@ TEST(HardQueries, a_path_all_but_along_a_capsule_is_as_exact_from_afar) {
   EXPECT_NEAR(toi.time, 0.7036581263548225, 1.2e-13);
 }
 
-// The plate is 4e4 times as wide as it is thick, and upright but for 2^-49: a normal turned into the other box's axes and back tilts it by
-// more than what its gap is known to.
 // A quaternion's axes are off right angles by roundings, which count by all of a wall's length: its face is where its edges are.
 TEST(HardQueries, a_wall_whose_axes_come_from_a_quaternion_is_met_where_its_edges_are) {
   testing::Shaker<double> draw(61);
   const auto ask = [&](const auto& shape, double reach) {
-    Mat3<double> axes = Mat3<double>::Identity();
-    for (int axis = 0; axis < 3; ++axis) {  // each turn of a rounding's length more or less
-      const double angle = draw.plain() * 3;
-      axes = axes * testing::turn_in_plane<double>(axis, (axis + 1) % 3, std::cos(angle), std::sin(angle));
-    }
+    const Mat3<double> axes = draw.quaternion_axes();
     const Obb<double> wall{V::Zero(), {1000, 1000, 1}, axes};
     const V above = axes * V(draw.plain() * 999, draw.plain() * 999, 2 + reach);
     const auto shot = Moving{moved<double>(shape, above), V(axes * V(draw.plain(), draw.plain(), -2))};
@@ -531,6 +525,8 @@ TEST(HardQueries, a_wall_whose_axes_come_from_a_quaternion_is_met_where_its_edge
   }
 }
 
+// The plate is 4e4 times as wide as it is thick, and upright but for 2^-49: a normal turned into the other box's axes and back tilts it by
+// more than what its gap is known to.
 TEST(HardQueries, a_plate_within_a_gap_is_met_along_its_own_normal) {
   const Moving chip{Obb<double>{V(0x1.b459aa4d227a4p-6, 0x1.1b4631dcddaf8p-6, -0x1.d68639e18b07ep-1),
                                 V(0x1.71fea3ad5c0b9p-16, 0x1.885dcf5aea50cp-7, 0x1.ef240121f0ad5p-7),

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
 
 #include <thinwall/discrete/boxes/box_manifold.hpp>
 #include <thinwall/swept/shapes.hpp>
@@ -105,13 +104,6 @@ TYPED_TEST(Ladder, clear_decides_what_is_asked_in_float) {  // whose axes, ortho
   EXPECT_GE(share(41, cases / 10, is_clear_shot), 0.99);
 }
 
-/// They are off by up to twice as much as those of which one is made across the others.
-Mat3<double> axes_of_a_quaternion(Shaker<double>& draw) {
-  const double w = draw.plain(), x = draw.plain(), y = draw.plain(), z = draw.plain();
-  const double length = std::sqrt(w * w + x * x + y * y + z * z);
-  return Eigen::Quaternion<double>(w / length, x / length, y / length, z / length).toRotationMatrix();
-}
-
 template <class T> class LadderOfTurned : public ::testing::Test {};
 using TurnedPairs =
     ::testing::Types<PairOf<Turned, Ball>, PairOf<Rod, Turned>, PairOf<Turned, Box>, PairOf<Turned, Turned>>;
@@ -122,8 +114,8 @@ TYPED_TEST(LadderOfTurned, clear_decides_of_boxes_whose_axes_come_from_a_quatern
   using B = typename TypeParam::B;
   const auto is_clear_shot = [](Shaker<double>& draw) {
     auto shot = everyday_shot<A, B>(draw);
-    if constexpr (std::is_same_v<A, Turned>) shot.a.shape.axes = axes_of_a_quaternion(draw);
-    if constexpr (std::is_same_v<B, Turned>) shot.b.shape.axes = axes_of_a_quaternion(draw);
+    if constexpr (std::is_same_v<A, Turned>) shot.a.shape.axes = draw.quaternion_axes();
+    if constexpr (std::is_same_v<B, Turned>) shot.b.shape.axes = draw.quaternion_axes();
     const bool in_time = agrees_if_clear(shot, 0.0);
     if constexpr (HasClearOverlap<A, B> && HasClearContact<A, B>) {
       const A a = shot.a.shape;
@@ -141,9 +133,9 @@ TYPED_TEST(LadderOfTurned, clear_decides_of_boxes_whose_axes_come_from_a_quatern
 // To which an axis is at right angles to a few roundings, which count by all of the box's length.
 TEST(LadderFilters, a_ray_meets_the_face_that_the_other_axes_span) {
   const auto is_clear_ray = [](Shaker<double>& draw) {
-    Turned plate{V::Zero(), {500, 500, 0.1}, axes_of_a_quaternion(draw)};
+    Turned plate{V::Zero(), {500, 500, 0.1}, draw.quaternion_axes()};
     while (ClearFrame(plate.axes).is_straight(packed::lanes(plate.half_extents), packed::all(0)))
-      plate.axes = axes_of_a_quaternion(draw);
+      plate.axes = draw.quaternion_axes();
     const V above(draw.plain() * 499, draw.plain() * 499, 1), aside = draw.plain_vector() * 0.3;
     const Ray<double> ray{V(plate.axes * above), V(plate.axes * (V(0, 0, -1) + aside))};
     const ClearRayHit rung = raycast_from_afar(ray, plate);
@@ -352,7 +344,7 @@ TEST(LadderFilters, turned_boxes_that_lie_level_meet_in_the_middle_of_what_their
 // Of any sizes, beside each other and across each other's ends, with axes that are a few roundings off.
 TEST(LadderFilters, what_falls_level_agrees) {
   const auto is_clear_shot = [](Shaker<double>& draw) {
-    const Mat3<double> axes = axes_of_a_quaternion(draw);
+    const Mat3<double> axes = draw.quaternion_axes();
     const auto long_box = [&]() -> V {
       return V(draw.sizes() + V(0.1, 0.1, 0.1)).cwiseProduct(V(power<double>(draw.pick(0, 9)), 1, 1));
     };
