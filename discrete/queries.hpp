@@ -108,17 +108,17 @@ template <class A, class B> THINWALL_HOT ClearOverlap clear_overlap_either_way(c
   }
 }
 
-/// What ask(a, b, e), a front door, says of shapes of doubles or floats divided by 2^e to a size near 1, where no product underflows or
-/// overflows, so that the unit of length changes no bit. Nothing where the size is near 1 as it is or 0, a shape is not valid, or a division
-/// would not be exact.
-template <Shape A, Shape B, class Ask>
+/// What ask(a, b, e), a front door, says of a shape and another or a ray, of doubles or floats, divided by 2^e to a size near 1, where no product
+/// underflows or overflows, so that the unit of length changes no bit. Nothing where the size is near 1 as it is or 0, one is not valid, or a
+/// division would not be exact.
+template <class A, Shape B, class Ask>
 std::optional<std::invoke_result_t<Ask, A, B, int>> asked_near_one(const A& a, const B& b, const Ask& ask) {
-  using S = typename A::Scalar;
+  using S = typename B::Scalar;
   if constexpr (std::is_same_v<S, double> || std::is_same_v<S, float>) {
     const Vec3<S> at = center(a);
     const S size = extent(moved<S>(a, -at)) + extent(moved<S>(b, -at));  // wherever the origin is
     const bool is_none = size == 0 || !is_finite(size);
-    if ((size >= S(0x1p-50) && size <= S(0x1p50)) || is_none || !valid(a) || !valid(b)) return std::nullopt;
+    if ((size >= S(0x1p-32) && size <= S(0x1p32)) || is_none || !valid(a) || !valid(b)) return std::nullopt;
     const int e = binary_exponent(size);
     if (divides_exactly(a, e) && divides_exactly(b, e)) return ask(scaled(a, -e), scaled(b, -e), e);
   }
@@ -222,6 +222,12 @@ template <Shape A, Shape B> THINWALL_HOT Separation<typename A::Scalar> separati
 /// The careful rung of raycast(): any input, at any scale.
 template <Scalar S, Shape A>
 [[gnu::noinline]] std::optional<RayHit<S>> careful_raycast(const Ray<S>& ray, const A& shape) {
+  const auto ask = [&](const Ray<S>& near_ray, const A& near_shape, int e) {
+    auto hit = scaled(raycast(near_ray, near_shape), e);
+    if (hit && hit->normal == Vec3<S>::Zero()) hit->point = ray.origin;
+    return hit;
+  };
+  if (const auto near = asked_near_one(ray, shape, ask)) return *near;
   // An infinite t or point: t overflows, or a triangle seems to be hit because lengths 2^500 apart underflow beside each other.
   const auto finite = [](const std::optional<RayHit<S>>& hit) {
     return hit && is_finite(hit->t) && is_finite(hit->point) ? hit : std::nullopt;

@@ -43,6 +43,11 @@ template <Scalar S> bool valid(const Ray<S>& ray) {
 template <Scalar S> Ray<S> scaled(const Ray<S>& ray, int e) {
   return {times_power_of_two(ray.origin, e), times_power_of_two(ray.direction, e), ray.max_t};
 }
+template <Scalar S> Vec3<S> center(const Ray<S>& ray) { return ray.origin; }
+template <Scalar S> Ray<S> moved(const Ray<S>& ray, const Vec3<S>& by) {
+  return {ray.origin + by, ray.direction, ray.max_t};
+}
+template <Scalar S> S extent(const Ray<S>& ray) { return magnitude(ray); }
 
 /// Where a ray first meets a shape.
 template <Scalar S> struct RayHit {
@@ -50,6 +55,10 @@ template <Scalar S> struct RayHit {
   Vec3<S> point = Vec3<S>::Zero();   ///< [length] on the shape's surface; the origin if the ray starts inside
   Vec3<S> normal = Vec3<S>::Zero();  ///< unit, outward; zero if the ray starts inside or touching
 };
+
+template <Scalar S> RayHit<S> scaled(const RayHit<S>& hit, int e) {
+  return {hit.t, times_power_of_two(hit.point, e), hit.normal};
+}
 
 /// The same contact with every length multiplied by 2^e.
 template <Scalar S> Contact<S> scaled(const Contact<S>& c, int e) {

@@ -10,6 +10,7 @@
 #include "support/draw.hpp"
 #include "support/judge.hpp"
 #include "support/property.hpp"
+#include "support/shaker.hpp"
 
 namespace thinwall::testing {
 namespace {
@@ -215,9 +216,6 @@ TYPED_TEST(RayAtOneInstant, raycast_is_the_motion_of_a_point) {
 
 TYPED_TEST(RayAtOneInstant, has_the_same_bits_at_every_size) {
   using S = typename TypeParam::Scalar;
-  const auto cast = [](const Ray<S>& ray, const TypeParam& target) {
-    return is_capsule<TypeParam> ? careful_raycast(ray, target) : raycast(ray, target);  // another rung may answer
-  };
   check_property(1000, [&] {
     const Style style = *rc::gen::element(Style::lattice, Style::plain);
     const auto [point, b] = draw_pair<PairOf<Sphere<S>, TypeParam>>(style);
@@ -225,13 +223,39 @@ TYPED_TEST(RayAtOneInstant, has_the_same_bits_at_every_size) {
     const int k = draw_scale<S>();
     const Ray<S> large{times_power_of_two(ray.origin, k), times_power_of_two(ray.direction, k), S(1)};
     if (!same_body(oracle::body(scaled(b, k)), oracle::body(b), k)) return;
-    const auto found = cast(large, scaled(b, k)), expected = cast(ray, b);
+    const auto found = raycast(large, scaled(b, k)), expected = raycast(ray, b);
     RC_ASSERT(found.has_value() == expected.has_value());
     if (!found) return;
     RC_ASSERT(found->t == expected->t);
     RC_ASSERT(found->normal == expected->normal);
     RC_ASSERT(found->point == times_power_of_two(expected->point, k));
   });
+}
+
+template <class T> class RayAtEverySize : public ::testing::Test {};
+using AllTargets = ::testing::Types<Sphere<float>, Sphere<double>, Aabb<float>, Aabb<double>, Obb<float>, Obb<double>,
+                                    Capsule<float>, Capsule<double>, Triangle<float>, Triangle<double>>;
+TYPED_TEST_SUITE(RayAtEverySize, AllTargets);
+
+/// The same, whichever rung answers at either size, at every shape and turned any way.
+TYPED_TEST(RayAtEverySize, says_the_same) {
+  using S = typename TypeParam::Scalar;
+  Shaker<S> draw(23);
+  for (int i = 0; i < 20'000; ++i) {
+    const TypeParam target = drawn(draw, TypeTag<TypeParam>{});
+    const Vec3<S> origin = draw.vector(), direction = draw.vector();
+    const Ray<S> ray{origin, direction};
+    const auto expected = raycast(ray, target);
+    for (const int k : {-90, -70, -52, -36, 36, 52, 70, 90}) {
+      if (!divides_exactly(ray, -k) || !divides_exactly(target, -k)) continue;
+      const auto found = raycast(scaled(ray, k), scaled(target, k));
+      ASSERT_EQ(found.has_value(), expected.has_value()) << i << " " << k;
+      if (!found) continue;
+      EXPECT_EQ(found->t, expected->t) << i << " " << k;
+      EXPECT_EQ(found->normal, expected->normal) << i << " " << k;
+      EXPECT_EQ(found->point, times_power_of_two(expected->point, k)) << i << " " << k;
+    }
+  }
 }
 
 }  // namespace
