@@ -86,8 +86,8 @@ struct ClearBoxes {
                 to_b = select(along_b, zero, against(zero - hb, g * side));
     const Lanes corner_b = (between + v * all(time)) - of_b.out_of(to_b);
     const Lanes corner_a = of_a.out_of(to_a), gap = corner_a - corner_b;
-    const Pair on = two_sums(edge_b * gap, edge_a * gap), edges = dot(edge_a, edge_b);
-    const Lanes on_edge = edge_a * all((edges * firsts(on) - seconds(on)) / nn);
+    const Lanes on_edge =
+        edge_a * all(dot(n, cross(edge_b, gap)) / nn);  // products of which lose less where edges are all but parallel
     from_a = select(is_own, corner_b, select(is_its, corner_a, corner_a + on_edge));
     const LanesMask one_corner =
         ((level < ha * abs(f)) | along_a | is_own) & ((level < hb * abs(g)) | along_b | is_its);
