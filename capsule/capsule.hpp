@@ -76,15 +76,38 @@ template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Sphere<S>
   return within<S>((sphere.center - capsule.a) - (capsule.b - capsule.a) * s, reach);
 }
 
+/// From the box [-h, h] to the nearest of the segment p + s d; zero where that pierces the box, be it a plate without thickness.
+template <Scalar S> Vec3<S> excess_of_segment(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h) {
+  const auto [first, last] = stretch_between_faces(p, d, h);
+  if (first <= last) return Vec3<S>::Zero();
+  return excess_of<S>(p + d * closest_parameter_to_box(p, d, h), h);
+}
+
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Aabb<S>& box, const S& reach) {
-  const auto [first, last] = stretch_between_faces<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents);
-  if (first <= last) return true;  // the core pierces the box, be it a plate without thickness
-  const S s = closest_core_parameter(capsule, box);
-  return within(excess_of<S>((capsule.a - box.center) + (capsule.b - capsule.a) * s, box.half_extents), reach);
+  return within(excess_of_segment<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents), reach);
+}
+
+/// The same in the wider scalar, of the box as its axes span it, whatever they lean.
+template <Scalar W, Scalar S> bool cores_within_wider(const Capsule<S>& capsule, const Obb<S>& box, const S& reach) {
+  const Capsule<W> core = cast<W>(capsule);
+  const Obb<W> given = cast<W>(box);
+  const auto along_axes =
+      [&](const Vec3<W>& v) -> Vec3<W> {  // x for which axes * x is v, but for squares of what they lean
+    const Vec3<W> x = into(given, v);
+    return x + into<W>(given, v - out_of(given, x));
+  };
+  const Vec3<W> p = along_axes(core.a - given.center), d = along_axes(core.b - core.a);
+  return within(out_of(given, excess_of_segment(p, d, given.half_extents)), W(reach));
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Obb<S>& box, const S& reach) {
-  return cores_within(into(box, capsule), own_aabb(box), reach);
+  const Capsule<S> own = into(box, capsule);
+  const Vec3<S> excess = excess_of_segment<S>(own.a, own.b - own.a, box.half_extents);
+  if constexpr (has_wider<S>) {  // where roundings decide
+    const S noise = gap_noise(largest(own.a, own.b, box.half_extents));
+    if (largest(S(safe_norm(excess) - reach)) <= noise) return cores_within_wider<Wider<S>>(capsule, box, reach);
+  }
+  return within(excess, reach);
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& a, const Capsule<S>& b, const S& reach) {

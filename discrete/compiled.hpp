@@ -21,7 +21,7 @@ namespace thinwall {
   THINWALL_INSTANTIATION S accurate_discriminant<S>(const Vec3<S>&, const Vec3<S>&, const S&);             \
   THINWALL_INSTANTIATION Entry<S> ball_entry<S>(const Vec3<S>&, const Vec3<S>&, const S&);                 \
   THINWALL_INSTANTIATION CoreGap<S> gap_from_box<S>(const Vec3<S>&, const Vec3<S>&);                       \
-  THINWALL_INSTANTIATION bool boxes_overlap<S>(const BoxPair<S>&);                                         \
+  THINWALL_INSTANTIATION BoxesOverlap boxes_overlap<S>(const BoxPair<S>&);                                 \
   THINWALL_INSTANTIATION BoxPoints<S> closest_points<S>(const BoxPair<S>&);                                \
   THINWALL_INSTANTIATION CoreGap<S> box_gap<S>(const BoxPair<S>&);                                         \
   THINWALL_INSTANTIATION Vec3<S> gap_from_triangle<S>(const Vec3<S>&, const Triangle<S>&);                 \

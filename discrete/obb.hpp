@@ -139,14 +139,44 @@ template <class A, Scalar S> BoxPair<S> box_pair(const A& a, const Obb<S>& b) {
   return box_pair<S>(a, b, b.center - a.center);
 }
 
-template <Scalar S> bool boxes_within(const BoxPair<S>& pair, const S& reach) {
-  return boxes_overlap(pair) || (reach > S(0) && box_gap(pair).distance <= reach);
+/// Whether two boxes overlap, by their edges as given, whatever those lean: the fifteen axes are each across two of the six.
+template <Scalar W, Scalar S> bool edges_overlap(const Obb<S>& a, const Obb<S>& b) {
+  const Obb<W> wide_a = cast<W>(a), wide_b = cast<W>(b);
+  const Vec3<W> between = wide_b.center - wide_a.center;
+  const auto edge = [&](int k) -> Vec3<W> { return k < 3 ? wide_a.axes.col(k) : wide_b.axes.col(k - 3); };
+  for (int i = 1; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const Vec3<W> n = cross(edge(i), edge(j));
+      W reach = 0;
+      for (int k = 0; k < 6; ++k)
+        reach += (k < 3 ? wide_a.half_extents[k] : wide_b.half_extents[k - 3]) * largest(W(n.dot(edge(k))));
+      if (largest(W(between.dot(n))) > reach) return false;
+    }
+  }
+  return true;
+}
+template <Scalar W, Scalar S> bool edges_overlap(const Aabb<S>& a, const Obb<S>& b) {
+  return edges_overlap<W>(to_obb(a), b);
+}
+
+/// Where roundings decide, as the wider scalar has it.
+template <class A, Scalar S> bool boxes_within(const A& a, const Obb<S>& b, const S& reach) {
+  const BoxPair<S> pair = box_pair(a, b);
+  const BoxesOverlap answer = boxes_overlap(pair);
+  const S distance = answer.overlap || reach == S(0) ? S(0) : box_gap(pair).distance;
+  if constexpr (has_wider<S>) {
+    using W = Wider<S>;
+    if (reach == S(0) && answer.in_doubt) return edges_overlap<W>(a, b);
+    if (distance > S(0) && largest(S(distance - reach)) <= box_noise(pair))
+      return box_gap(box_pair(widened<W>(a), widened<W>(b))).distance <= W(reach);
+  }
+  return answer.overlap || (reach > S(0) && distance <= reach);
 }
 template <Scalar S> bool cores_within(const Obb<S>& a, const Obb<S>& b, const S& reach) {
-  return boxes_within(box_pair(a, b), reach);
+  return boxes_within(a, b, reach);
 }
 template <Scalar S> bool cores_within(const Obb<S>& a, const Aabb<S>& b, const S& reach) {
-  return boxes_within(box_pair(b, a), reach);
+  return boxes_within(b, a, reach);
 }
 
 template <Scalar S> CoreGap<S> core_gap(const Obb<S>& a, const Obb<S>& b) { return out_of(a, box_gap(box_pair(a, b))); }

@@ -62,20 +62,39 @@ template <Scalar S> struct EdgeAxis {
   }
 };
 
-template <Scalar S> bool boxes_overlap(const BoxPair<S>& pair) {
+/// The rounding of a length computed from the two.
+template <Scalar S> S box_noise(const BoxPair<S>& pair) {
+  return gap_noise(largest(pair.between, pair.half_a, pair.half_b));
+}
+
+/// Whether two boxes share a point, and whether roundings decide that.
+struct BoxesOverlap {
+  bool overlap = true, in_doubt = false;
+};
+
+template <Scalar S> BoxesOverlap boxes_overlap(const BoxPair<S>& pair) {
+  BoxesOverlap answer;
+  const S noise = box_noise(pair);
+  const auto parts = [&answer](const S& spare, const S& unsure) {
+    if (!(spare < unsure)) return false;  // nearly always, where they overlap
+    answer.overlap = answer.overlap && spare >= S(0);
+    answer.in_doubt = answer.in_doubt || spare > -unsure;
+    return spare < -unsure;
+  };
   const Mat3<S> size = pair.axes.cwiseAbs();
-  const Vec3<S> reach_a = pair.half_a + size * pair.half_b;
-  if ((pair.between.cwiseAbs().array() > reach_a.array()).any()) return false;
-  const Vec3<S> reach_b = pair.half_b + size.transpose() * pair.half_a;
+  const Vec3<S> spare_a = (pair.half_a + size * pair.half_b) - pair.between.cwiseAbs();
+  if (parts(spare_a.minCoeff(), noise)) return {false, false};
   const Vec3<S> on_b = pair.axes.transpose() * pair.between;
-  if ((on_b.cwiseAbs().array() > reach_b.array()).any()) return false;
+  const Vec3<S> spare_b = (pair.half_b + size.transpose() * pair.half_a) - on_b.cwiseAbs();
+  if (parts(spare_b.minCoeff(), noise)) return {false, false};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const EdgeAxis<S> axis(pair, i, j);
-      if (largest(axis.along(pair.between)) > axis.reach(pair)) return false;
+      const S spare = axis.reach(pair) - largest(axis.along(pair.between));
+      if (parts(spare, noise * S(largest(axis.on_u) + largest(axis.on_v)))) return {false, false};
     }
   }
-  return true;
+  return answer;
 }
 
 /// A point of each box, in A's axes, relative to A's center.
@@ -118,11 +137,6 @@ template <Scalar S> BoxFace face_along(const BoxPair<S>& pair, const Vec3<S>& n,
 template <Scalar S> BoxPair<S> scaled(const BoxPair<S>& pair, int e) {
   return {times_power_of_two(pair.half_a, e), times_power_of_two(pair.half_b, e), times_power_of_two(pair.between, e),
           pair.axes};
-}
-
-/// The rounding of a length computed from the two.
-template <Scalar S> S box_noise(const BoxPair<S>& pair) {
-  return gap_noise(largest(pair.between, pair.half_a, pair.half_b));
 }
 
 /// The face of B that looks most squarely at the face of A across `axis`, clipped to it: seen as its polygons are,
@@ -417,7 +431,7 @@ template <Scalar S> Vec3<S> straightened(const BoxPair<S>& pair, const BoxPoints
 template <Scalar S> CoreGap<S> box_gap(const BoxPair<S>& pair) {
   CoreGap<S> gap;
   BoxPoints<S> points;
-  if (!boxes_overlap(pair)) {
+  if (!boxes_overlap(pair).overlap) {
     points = closest_points(pair);
     gap.distance = safe_norm<S>(points.on_b - points.on_a);
     gap.normal = straightened(pair, points, safe_unit<S>(points.on_b - points.on_a));

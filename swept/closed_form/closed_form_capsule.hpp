@@ -68,6 +68,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
   const T gap(method.min_separation), reach = capsule.shape.radius + gap;
+  if (cores_within(capsule.shape, box.shape, reach)) return overlapping_at_start(capsule, box, 1);
   const Vec3<T>& h = box.shape.half_extents;
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
   const Vec3<T> edge = shape.b - shape.a, core = into(box.shape, edge), motion = relative_displacement(capsule, box);
@@ -78,6 +79,9 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   };
   const Entry<T> own = reach > T(0) ? capsule_box_entry<T>(start, own_motion, reach, core, h)
                                     : entry_at_safe_scale<T>(sharp, path.start, motion, reach, edge, h);
+  if constexpr (has_wider<T>) {
+    if (own.inside) return toi_by_wider(method, capsule, box);  // by roundings
+  }
   Entry<T> entry = own;
   entry.come_later(path.base_time);
   if (reach > T(0)) {  // across an edge of the box, maybe, and the core: the longer one has the last word

@@ -66,11 +66,13 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
                        [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
-/// When two moving boxes come within `gap` of each other; the normal in A's axes.
-template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap) {
-  Entry<T> entry;
-  entry.inside = boxes_within(moving.pair, gap);
-  if (entry.inside) return entry;
+/// When two moving boxes come within `gap` of each other, or that they are `inside` at the start; the normal in A's axes.
+template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap, bool inside) {
+  if (inside) {
+    Entry<T> entry;
+    entry.inside = true;
+    return entry;
+  }
   return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
 }
 
@@ -112,7 +114,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
                          gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
   MovingBoxPair<T> moving{box_pair(a.shape, b.shape, path.start), into(a.shape, motion), into(b.shape, path.start),
                           into(b.shape, motion)};
-  Entry<T> entry = boxes_entry(moving, gap);
+  Entry<T> entry = boxes_entry(moving, gap, cores_within(a.shape, b.shape, gap));
   const Vec3<T> touching = moving.touching_point(entry);
   entry.come_later(path.base_time);
   entry.normal = world_normal(a.shape, b.shape, moving, entry);
@@ -129,7 +131,7 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
                          gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
   MovingBoxPair<T> moving{box_pair(b.shape, a.shape, path.start), motion, into(a.shape, path.start),
                           into(a.shape, motion)};
-  Entry<T> entry = boxes_entry(moving, gap);
+  Entry<T> entry = boxes_entry(moving, gap, cores_within(a.shape, b.shape, gap));
   const Vec3<T> touching = moving.touching_point(entry);
   entry.come_later(path.base_time);
   entry.normal = world_normal(to_obb(b.shape), a.shape, moving, entry);

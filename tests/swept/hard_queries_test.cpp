@@ -501,6 +501,36 @@ TEST(HardQueries, a_path_all_but_along_a_capsule_is_as_exact_from_afar) {
   EXPECT_NEAR(toi.time, 0.7036581263548225, 1.2e-13);
 }
 
+// Apart at the start by a rounding or two of their sizes, at 50 digits: what is turned into a box's axes is off by as much.
+TEST(HardQueries, what_is_apart_by_a_rounding_of_what_is_turned_does_not_overlap) {
+  const auto are_apart = [](const auto& a, const auto& b) {
+    return !overlaps(a, b) && !overlaps(b, a) && !contact(a, b) &&
+           time_of_impact(at_rest(a), at_rest(b)).status == ToiStatus::apart;
+  };
+  Mat3<double> pitched, turned;
+  pitched << 1, 0, 0, 0, 0.50000000000000011, -0.8660254037844386, 0, 0.8660254037844386, 0.50000000000000011;
+  turned << -0.70710678118654791, 0.70710678118654713, 0, -0.70710678118654713, -0.70710678118654791, 0, 0, 0, 1;
+  EXPECT_TRUE(are_apart(Aabb<double>{V(0, -260.80121467478062, 0), V(71, 0.1, 284)},
+                        Obb<double>{V::Zero(), V(3, 29.5, 284), pitched}));
+  EXPECT_TRUE(are_apart(Capsule<double>{V(20.9, 3.248528137423857, 0.55), V(-25.7, 3.2485281374238597, 0.55), 2.4},
+                        Obb<double>{V::Zero(), V(0.7, 0.5, 4.8), turned}));
+}
+
+TEST(HardQueries, edges_that_are_all_but_parallel_meet_at_a_point_of_both) {  // one of them 1300 long
+  Mat3<double> axes;
+  axes.col(0) << -0.24835351637513869, 0.94523302415796362, -0.21179013420198473;
+  axes.col(1) << 0.95592948774035924, 0.27450085901331689, 0.10415417835788246;
+  axes.col(2) << 0.15658654275689965, -0.17658937805582173, -0.97174937416254625;
+  const Moving rod{Aabb<double>{V(-22.133252183286928, -1.9424433218296717, 1646.5425785702751), V(9.4, 1.6, 659.6)},
+                   V(12.1, -2.2397138587058771, 9.1314665761377469)};
+  const auto box = at_rest(Obb<double>{V(0, 0, 1000), V(0.9, 6.8, 9.4), axes});
+  const auto toi = time_of_impact(rod, box);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  const Sphere<double> there{toi.point, 0};
+  EXPECT_NEAR(separation(pose_at(rod, toi.time), there).distance, 0, 1e-13);
+  EXPECT_NEAR(separation(box.shape, there).distance, 0, 1e-13);
+}
+
 // A quaternion's axes are off right angles by roundings, which count by all of a wall's length: its face is where its edges are.
 TEST(HardQueries, a_wall_whose_axes_come_from_a_quaternion_is_met_where_its_edges_are) {
   testing::Shaker<double> draw(61);
