@@ -83,16 +83,25 @@ template <Scalar S> Vec3<S> excess_of_segment(const Vec3<S>& p, const Vec3<S>& d
   return excess_of<S>(p + d * closest_parameter_to_box(p, d, h), h);
 }
 
+/// Whether the segment p + s d comes within `reach` of the box [-h, h]; where roundings decide, what wider() says.
+template <Scalar S, class Wide>
+bool segment_within(const Vec3<S>& p, const Vec3<S>& d, const Vec3<S>& h, const S& reach, const Wide& wider) {
+  const Vec3<S> excess = excess_of_segment(p, d, h);
+  const bool in_doubt = largest(S(safe_norm(excess) - reach)) <= gap_noise(largest(p, d, h));
+  return has_wider<S> && in_doubt ? wider() : within(excess, reach);
+}
+
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Aabb<S>& box, const S& reach) {
-  return within(excess_of_segment<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents), reach);
+  using W = Wider<S>;
+  return segment_within<S>(capsule.a - box.center, capsule.b - capsule.a, box.half_extents, reach,
+                           [&] { return cores_within(cast<W>(capsule), cast<W>(box), W(reach)); });
 }
 
 /// The same in the wider scalar, of the box as its axes span it, whatever they lean.
 template <Scalar W, Scalar S> bool cores_within_wider(const Capsule<S>& capsule, const Obb<S>& box, const S& reach) {
   const Capsule<W> core = cast<W>(capsule);
   const Obb<W> given = cast<W>(box);
-  const auto along_axes =
-      [&](const Vec3<W>& v) -> Vec3<W> {  // x for which axes * x is v, but for squares of what they lean
+  const auto along_axes = [&](const Vec3<W>& v) -> Vec3<W> {  // axes * x is v, but for squares of what they lean
     const Vec3<W> x = into(given, v);
     return x + into<W>(given, v - out_of(given, x));
   };
@@ -102,12 +111,8 @@ template <Scalar W, Scalar S> bool cores_within_wider(const Capsule<S>& capsule,
 
 template <Scalar S> bool cores_within(const Capsule<S>& capsule, const Obb<S>& box, const S& reach) {
   const Capsule<S> own = into(box, capsule);
-  const Vec3<S> excess = excess_of_segment<S>(own.a, own.b - own.a, box.half_extents);
-  if constexpr (has_wider<S>) {  // where roundings decide
-    const S noise = gap_noise(largest(own.a, own.b, box.half_extents));
-    if (largest(S(safe_norm(excess) - reach)) <= noise) return cores_within_wider<Wider<S>>(capsule, box, reach);
-  }
-  return within(excess, reach);
+  return segment_within<S>(own.a, own.b - own.a, box.half_extents, reach,
+                           [&] { return cores_within_wider<Wider<S>>(capsule, box, reach); });
 }
 
 template <Scalar S> bool cores_within(const Capsule<S>& a, const Capsule<S>& b, const S& reach) {

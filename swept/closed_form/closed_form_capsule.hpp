@@ -53,10 +53,14 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const T gap(method.min_separation);
   const Vec3<T>& h = box.shape.half_extents;
   const T reach = capsule.shape.radius + gap;
+  if (cores_within(capsule.shape, box.shape, reach)) return overlapping_at_start(capsule, box, 1);
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
   const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(capsule, box);
   const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
+  if constexpr (has_wider<T>) {
+    if (own.inside) return toi_by_wider(method, capsule, box);  // by roundings
+  }
   Entry<T> entry = flipped(own);
   entry.come_later(path.base_time);
   return toi_or_wider(method, capsule, box, entry, [&](const T& time) -> Vec3<T> {

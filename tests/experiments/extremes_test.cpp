@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <thinwall/experiments/accuracy/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/extremes/model.hpp>
 #include <thinwall/experiments/models/truth.hpp>
@@ -404,27 +403,6 @@ TEST(ExtremesConfig, refuses_what_cannot_be_asked) {
                                           {"tolerance = 0.5", "key 'tolerance'"},
                                           {"one_in_at_50_digits = 0", "key 'one_in_at_50_digits'"},
                                           {"pair = ['capsule_obb']\nprecision = ['50_digits']", "key 'precision'"}});
-}
-
-// ---- Queries of the experiment accuracy that once missed its contract, each of them alone.
-
-AccuracyTally ask(std::string_view pair, Inquiry inquiry, std::int64_t number) {
-  return called(accuracy_pairs, pair).ask(inquiry, 0, number, 1);
-}
-
-TEST(AccuracyHardQueries, graze_in_turned_axes_is_asked_again) {
-  EXPECT_LE(ask("capsule_obb", Inquiry::verdicts, 4139).largest_wrong, 1);
-}
-
-TEST(AccuracyHardQueries, turned_axes_lose_nothing_of_the_time) {
-  for (const std::int64_t number : {23856, 55465}) {
-    const AccuracyTally tally = ask("obb_obb", Inquiry::in_double, number);
-    ASSERT_EQ(tally.hits, 1) << number;
-    EXPECT_LE(tally.forward.largest(), 4) << number;
-  }
-  const AccuracyTally tally = ask("capsule_obb", Inquiry::in_double, 5567);
-  ASSERT_EQ(tally.hits, 1);
-  EXPECT_LE(tally.forward.largest(), 4);
 }
 
 }  // namespace
