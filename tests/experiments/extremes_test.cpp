@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <thinwall/experiments/accuracy/model.hpp>
 #include <thinwall/experiments/experiment_list.hpp>
 #include <thinwall/experiments/extremes/model.hpp>
 #include <thinwall/experiments/models/truth.hpp>
