@@ -24,6 +24,7 @@ template <thinwall::Scalar S> struct Obb {
 template <Scalar S> Obb(Vec3<S>, Vec3<S>, Mat3<S>) -> Obb<S>;
 
 template <Scalar S> Obb<S> to_obb(const Aabb<S>& box) { return {box.center, box.half_extents, Mat3<S>::Identity()}; }
+template <Scalar S> const Obb<S>& to_obb(const Obb<S>& box) { return box; }
 
 template <Scalar S> Vec3<S> center(const Obb<S>& box) { return box.center; }
 template <Scalar S> S skin_radius(const Obb<S>&) { return S(0); }
@@ -140,8 +141,8 @@ template <class A, Scalar S> BoxPair<S> box_pair(const A& a, const Obb<S>& b) {
 }
 
 /// Whether two boxes overlap, by their edges as given, whatever those lean: the fifteen axes are each across two of the six.
-template <Scalar W, Scalar S> bool edges_overlap(const Obb<S>& a, const Obb<S>& b) {
-  const Obb<W> wide_a = cast<W>(a), wide_b = cast<W>(b);
+template <Scalar W, class A, Scalar S> bool edges_overlap(const A& a, const Obb<S>& b) {
+  const Obb<W> wide_a = cast<W>(to_obb(a)), wide_b = cast<W>(b);
   const Vec3<W> between = wide_b.center - wide_a.center;
   const auto edge = [&](int k) -> Vec3<W> { return k < 3 ? wide_a.axes.col(k) : wide_b.axes.col(k - 3); };
   for (int i = 1; i < 6; ++i) {
@@ -154,9 +155,6 @@ template <Scalar W, Scalar S> bool edges_overlap(const Obb<S>& a, const Obb<S>& 
     }
   }
   return true;
-}
-template <Scalar W, Scalar S> bool edges_overlap(const Aabb<S>& a, const Obb<S>& b) {
-  return edges_overlap<W>(to_obb(a), b);
 }
 
 /// Where roundings decide, as the wider scalar has it.

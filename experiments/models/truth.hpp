@@ -53,7 +53,8 @@ template <class R> Sounding<R> sound(const oracle::Problem<R>& problem, const R&
 }
 
 /// The least separation of the step over its scale, to a thousandth of itself: < 0 where they touch. It is convex, and lies
-/// above its tangents. `noise` [1] is what matters to nobody.
+/// above its tangents. `noise` [1] is what matters to nobody. Where they are deepest between two faces, one before and one after, either parts
+/// them: the one of which less of the input has to change.
 template <class R> R least_margin(const oracle::Problem<R>& problem, const R& tolerance, const R& noise) {
   Sounding<R> before = sound(problem, R(0), tolerance), after = sound(problem, R(1), tolerance);
   if (!(before.closing > 0)) return before.margin();
@@ -72,7 +73,9 @@ template <class R> R least_margin(const oracle::Problem<R>& problem, const R& to
     const Sounding<R> between = sound(problem, next, tolerance);
     (between.closing > 0 ? before : after) = between;
   }
-  return (before.gap < after.gap ? before : after).margin();
+  const Sounding<R>& best = before.gap < after.gap ? before : after;
+  const bool both = 2 * std::max(before.gap, after.gap) <= best.gap && best.gap < 0;
+  return both ? R(best.gap / std::max(before.scale, after.scale)) : best.margin();
 }
 
 /// Errors of the time of a hit that is one.

@@ -48,9 +48,10 @@ template <Shape A, Scalar T> T lean_of_face(const A& shape, const Vec3<T>& n) {
 
 /// An entry's time as settled by its normal (unit, from A to B), or as it was, with `graze` set, where that may not be done.
 /// The plane may move the shapes by two roundings of their size along the normal, or, where nothing wider has the last word, of all of it, by
-/// which what was turned is off; and by what a box's face leans.
+/// which what was turned is off; and by what a box's face leans, or `off` [length].
 template <class A, class B, Scalar T>
-Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry) {
+Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& gap, Entry<T> entry,
+                 const T& off = T(0)) {
   using W = Wider<T>;
   const auto a = cast<W>(narrow_a);
   const auto b = cast<W>(narrow_b);
@@ -67,7 +68,7 @@ Entry<T> settled(const Moving<A>& narrow_a, const Moving<B>& narrow_b, const T& 
   constexpr int tiny = has_wider<T> ? -40 : -20;
   const T size = (has_wider<T> ? entry.normal.cwiseAbs().dot(sizes) : sizes.sum()) + gap;
   const T leans = lean_of_face<A, T>(narrow_a.shape, entry.normal) + lean_of_face<B, T>(narrow_b.shape, entry.normal);
-  const T trusted = 2 * std::numeric_limits<T>::epsilon() * size + leans;
+  const T trusted = 2 * std::numeric_limits<T>::epsilon() * size + std::max(leans, off);
   const W outside = std::max(W(entry.not_before) - time, time - W(entry.not_after));
   // another plane's time may be known better than this one's: where a wider scalar can say which comes first, this may not pass it
   const W spare = has_wider<T> ? W(std::numeric_limits<T>::epsilon() * entry.time) : W(trusted) / largest(motion);
@@ -105,6 +106,36 @@ template <class Method, class A, class B, Scalar T = typename A::Scalar>
 THINWALL_COLD Toi<T> toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
   using W = Wider<T>;
   return cast<T>(impact(ClosedForm<W>{W(method.min_separation)}, widened<W>(a), widened<W>(b)));
+}
+
+template <class A>
+concept AnyBox = requires(const A& shape) { shape.half_extents; };
+
+/// The same of what is turned. The wider scalar answers of the nearest boxes of orthonormal axes: what those given lean from them counts by all
+/// of an edge. So the plane in which two boxes meet settles the time once more, if it is across the edges given but for those that clearly lean.
+template <class Method, class A, class B, Scalar T = typename A::Scalar>
+THINWALL_COLD Toi<T> turned_toi_by_wider(const Method& method, const Moving<A>& a, const Moving<B>& b) {
+  Toi<T> toi = toi_by_wider(method, a, b);
+  if constexpr (AnyBox<A> && AnyBox<B>) {
+    if (toi.status != ToiStatus::hit) return toi;
+    const Obb<T> first = to_obb(a.shape), second = to_obb(b.shape);
+    Entry<T> entry;
+    entry.time = toi.time;
+    entry.normal = freed_of_leans(freed_of_leans(toi.normal, first), second);
+    bool is_plane = true;
+    T off = 0;
+    for (const Obb<T>& box : {first, second}) {
+      const Vec3<T> leans = (box.axes.transpose() * entry.normal).cwiseAbs();
+      for (int i = 0; i < 3; ++i) {
+        const bool clearly = leans[i] >= constant_power_of_two<T, -10>();
+        is_plane = is_plane && (clearly || leans[i] <= std::numeric_limits<T>::epsilon() / 4);
+        if (clearly) off += most_lean<T>() * box.half_extents[i];
+      }
+    }
+    const Entry<T> given = settled(a, b, T(method.min_separation), entry, off);
+    if (is_plane && !given.graze && given.time <= T(1)) toi.time = given.time;
+  }
+  return toi;
 }
 
 /// Whether roundings may decide that an entry near the end of the step comes in time.
@@ -164,7 +195,7 @@ Toi<T> toi_of_turned(const Method& method, const Moving<A>& a, const Moving<B>& 
   if (found.inside || found.gave_up) return toi_of(method, a, b, found, point);
   const Entry<T> entry = found.may_hit() && !found.graze ? settled(a, b, T(method.min_separation), found) : found;
   if constexpr (has_wider<T>) {
-    if (entry.graze) return toi_by_wider(method, a, b);
+    if (entry.graze) return turned_toi_by_wider(method, a, b);
   }
   return toi_of(method, a, b, entry, point);
 }

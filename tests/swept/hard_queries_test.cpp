@@ -579,6 +579,19 @@ TEST(HardQueries, edges_that_are_all_but_parallel_meet_at_a_point_of_both) {  //
   EXPECT_NEAR(separation(box.shape, there).distance, 0, 1e-13);
 }
 
+TEST(HardQueries, what_is_asked_wider_is_answered_of_the_edges_given) {  // one 979 long, which leans by roundings
+  const Moving plate{
+      Obb<double>{V(-40.982985201705276, 489.83745987050469, 0.5), V(26.75, 1, 0.25), Mat3<double>::Identity()},
+      V(242.84308088782774, -140.20551812142537, -0.5)};
+  const auto rod = at_rest(Obb<double>{V(0, 0, 0), V(0.25, 0.5, 489.5),
+                                       leaning(V(-0.43739825234106888, -0.0095642513993939859, -0.89921704495863919),
+                                               V(-0.89892055550320449, -0.023139810642283987, 0.43750015320825802),
+                                               V(-0.024992073599214459, 0.99968648798441206, 0.0015238105535230195))});
+  const auto toi = time_of_impact(ClosedForm<double>{0.5}, plate, rod);
+  ASSERT_EQ(toi.status, ToiStatus::hit);
+  EXPECT_NEAR(toi.time, 0.0038730991659893443044, 4 * 0x1p-53 * 0.337526);
+}
+
 // A quaternion's axes are off right angles by roundings, which count by all of a wall's length: its face is where its edges are.
 TEST(HardQueries, a_wall_whose_axes_come_from_a_quaternion_is_met_where_its_edges_are) {
   testing::Shaker<double> draw(61);
