@@ -66,16 +66,6 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
                        [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
 
-/// When two moving boxes come within `gap` of each other, or that they are `inside` at the start; the normal in A's axes.
-template <Scalar T> Entry<T> boxes_entry(MovingBoxPair<T>& moving, const T& gap, bool inside) {
-  if (inside) {
-    Entry<T> entry;
-    entry.inside = true;
-    return entry;
-  }
-  return gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
-}
-
 /// The normal of an entry that is in A's axes, in the world's: from the edges of contact as given, where there are any,
 /// because a face's normal that is turned twice tilts the face, and so does an axis not quite at right angles to it.
 template <Scalar T>
@@ -100,21 +90,16 @@ Vec3<T> world_normal(const Obb<T>& a, const Obb<T>& b, const MovingBoxPair<T>& m
   return safe_unit(n.dot(turned) < T(0) ? Vec3<T>(-n) : n);
 }
 
+/// Of boxes apart at the start, in A's axes.
 template <Scalar S, Scalar T>
-Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
-  // in the axes of the larger one, as what is turned into those of the other is off by a rounding of its size; but how far the two overlap
-  // as asked, as the front door does
-  if (largest(b.shape.half_extents) > largest(a.shape.half_extents)) {
-    const Toi<T> toi = flipped(impact(method, b, a));
-    return toi.status == ToiStatus::overlapping ? overlapping_at_start(a, b, toi.evaluations) : toi;
-  }
+Toi<T> impact_of_apart(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Obb<T>>& b) {
   const T gap(method.min_separation);
   const Vec3<T> motion = relative_displacement(b, a);
   const NearPath<T> path(b.shape.center - a.shape.center, motion,
                          gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
   MovingBoxPair<T> moving{box_pair(a.shape, b.shape, path.start), into(a.shape, motion), into(b.shape, path.start),
                           into(b.shape, motion)};
-  Entry<T> entry = boxes_entry(moving, gap, cores_within(a.shape, b.shape, gap));
+  Entry<T> entry = gap > T(0) ? rounded_boxes_entry(moving, gap) : sharp_boxes_entry(moving);
   const Vec3<T> touching = moving.touching_point(entry);
   entry.come_later(path.base_time);
   entry.normal = world_normal(a.shape, b.shape, moving, entry);
@@ -123,20 +108,14 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   });
 }
 
-template <Scalar S, Scalar T>
-Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<Aabb<T>>& b) {
-  const T gap(method.min_separation);
-  const Vec3<T> motion = relative_displacement(a, b);
-  const NearPath<T> path(a.shape.center - b.shape.center, motion,
-                         gap + a.shape.half_extents.sum() + b.shape.half_extents.sum());
-  MovingBoxPair<T> moving{box_pair(b.shape, a.shape, path.start), motion, into(a.shape, path.start),
-                          into(a.shape, motion)};
-  Entry<T> entry = boxes_entry(moving, gap, cores_within(a.shape, b.shape, gap));
-  const Vec3<T> touching = moving.touching_point(entry);
-  entry.come_later(path.base_time);
-  entry.normal = world_normal(to_obb(b.shape), a.shape, moving, entry);
-  return toi_of_turned(method, a, b, flipped(entry),
-                       [&](const T& time) -> Vec3<T> { return (b.shape.center + b.displacement * time) + touching; });
+/// In the axes that are exact, or of the larger one, as what is turned into those of the other is off by a rounding of its size.
+template <Scalar S, Scalar T, AnyBox B>
+Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<B>& b) {
+  if (cores_within(a.shape, b.shape, T(method.min_separation))) return overlapping_at_start(a, b, 1);
+  const Moving<Obb<T>> other{to_obb(b.shape), b.displacement};
+  const bool in_axes_of_b =
+      std::is_same_v<B, Aabb<T>> || largest(b.shape.half_extents) > largest(a.shape.half_extents);
+  return in_axes_of_b ? flipped(impact_of_apart(method, other, a)) : impact_of_apart(method, a, other);
 }
 
 /// The triangle with the corner that is nearest to x first where it is so large, beside what it meets there, that a place
