@@ -95,7 +95,8 @@ template <class BoxA> bool clear_box_manifold(const BoxA& a, const Obb<double>& 
     const BoxPair<double> pair = box_pair(a, b);
     const bool of_b = axis.its > 0;
     const double to_b = of_b ? pair.between.dot(pair.axes.col(axis.b)) : pair.between[axis.a];
-    made = out_of(a, manifold_on<double>({of_b ? axis.b : axis.a, of_b, of_b ? to_b >= 0 : to_b < 0}, pair));
+    if (!all_of(boxes.pair.noise < abs(packed::both(to_b)))) return false;  // either side: contact() tells which
+    made = out_of(a, manifold_on<double>({of_b ? axis.b : axis.a, of_b, (to_b > 0) == of_b}, pair));
     return !made.empty();
   }
   const ClearFeatures edges(boxes.pair, least);

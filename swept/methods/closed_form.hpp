@@ -113,8 +113,7 @@ template <Scalar S, Scalar T, AnyBox B>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving<B>& b) {
   if (cores_within(a.shape, b.shape, T(method.min_separation))) return overlapping_at_start(a, b, 1);
   const Moving<Obb<T>> other{to_obb(b.shape), b.displacement};
-  const bool in_axes_of_b =
-      std::is_same_v<B, Aabb<T>> || largest(b.shape.half_extents) > largest(a.shape.half_extents);
+  const bool in_axes_of_b = std::is_same_v<B, Aabb<T>> || largest(b.shape.half_extents) > largest(a.shape.half_extents);
   return in_axes_of_b ? flipped(impact_of_apart(method, other, a)) : impact_of_apart(method, a, other);
 }
 

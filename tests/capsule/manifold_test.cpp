@@ -1,6 +1,7 @@
 // Manifolds: known cases, of capsules two points where the core runs along a face or along another core, else one; then many drawn ones.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "support/manifold_properties.hpp"
@@ -218,6 +219,22 @@ TEST(ClearManifold, keeps_a_corner_that_is_on_a_side_to_rounding) {
     b.center[0] = 1 - b.half_extents[0] + beyond;
     b.center[1] = draw.plain() * (1 - b.half_extents[1]);
     EXPECT_EQ(manifold(Obb<double>{{0, 0, 0}, {1, 1, 1}, Mat3<double>::Identity()}, b).size(), 4U) << run;
+  }
+}
+
+/// Middle in middle, up and down are as short.
+TEST(ClearManifold, of_two_ways_out_takes_the_one_that_contact_takes) {
+  Shaker<double> draw(20261201);
+  for (int run = 0; run < 2'000; ++run) {
+    const auto size = [&] { return 8 + draw.plain(); };
+    const double height = draw.plain(), angle = 3 * draw.plain();
+    const Aabb<double> a{{draw.plain(), height, draw.plain()}, {size(), std::abs(draw.plain()), size()}};
+    const Obb<double> b{{draw.plain(), height, draw.plain()},
+                        {size(), std::abs(draw.plain()), size()},
+                        turn_in_plane(2, 0, std::cos(angle), std::sin(angle))};
+    ASSERT_EQ(manifold(a, b)[0].normal, contact(a, b)->normal) << run;
+    ASSERT_EQ(manifold(to_obb(a), b)[0].normal, contact(to_obb(a), b)->normal) << run;
+    ASSERT_EQ(manifold(b, to_obb(a))[0].normal, contact(b, to_obb(a))->normal) << run;
   }
 }
 
