@@ -19,7 +19,8 @@ template <thinwall::Scalar S> struct Obb {
 
   Vec3<S> center;        ///< [length]
   Vec3<S> half_extents;  ///< [length] each >= 0; a 0 makes a plate, a rod or a point
-  Mat3<S> axes;          ///< unit columns, at right angles (has_valid_axes()): the directions of the three extents
+  /// Unit columns, at right angles (has_valid_axes()): the directions of the three extents. Left out: upright.
+  Mat3<S> axes = Mat3<S>::Identity();
 };
 template <Scalar S> Obb(Vec3<S>, Vec3<S>, Mat3<S>) -> Obb<S>;
 

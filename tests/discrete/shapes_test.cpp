@@ -139,12 +139,16 @@ template <class S> class ObbAxes : public ::testing::Test {
  protected:
   /// A box with one number of its axes off by so much.
   static Obb<S> off_by(int row, int column, const S& off) {
-    Obb<S> box{{0, 0, 0}, {1, 1, 1}, Mat3<S>::Identity()};
+    Obb<S> box{{0, 0, 0}, {1, 1, 1}};
     box.axes(row, column) += off;
     return box;
   }
 };
 TYPED_TEST_SUITE(ObbAxes, Scalars, ScalarNames);
+
+TYPED_TEST(ObbAxes, are_upright_where_they_are_left_out) {
+  EXPECT_EQ(this->off_by(0, 0, TypeParam(0)).axes, Mat3<TypeParam>::Identity());
+}
 
 TYPED_TEST(ObbAxes, are_orthonormal_to_more_than_half_the_digits) {
   using S = TypeParam;
