@@ -158,8 +158,7 @@ std::vector<const Unit*> samples_of(const std::vector<Unit>& units, const Parts&
 
 /// Tells of the cut units whenever more is known.
 void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double budget, const Tell& tell) {
-  constexpr std::int64_t growth = 4;
-  std::int64_t most = 1;
+  std::int64_t most = 1, growth = 1;
   for (const Unit& unit : units) most = std::max(most, unit.trials);
   std::optional<Parts> parts;
   const auto know = [&](const Rate& rate, std::int64_t trials) {
@@ -172,8 +171,10 @@ void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double b
   const auto begin = std::chrono::steady_clock::now();
   for (std::int64_t trials = 1;; trials *= growth) {
     const auto start = std::chrono::steady_clock::now();
+    double made = 0;  // the run itself, which takes as long whatever its trials
     if (const std::unique_ptr<Run> run = run_of(again, trials)) {
       const std::vector<Unit> smaller = run->units();
+      made = seconds_since(start);
       const bool first = !parts;
       if (first) know({}, (parts = parts_of(units, smaller), trials));
       Rate rate;
@@ -184,7 +185,10 @@ void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double b
       know(rate, trials);  // of a larger number of trials only when it is complete
     }
     if (parts && parts->cut == 0) return;
-    if (trials >= most || seconds_since(begin) + static_cast<double>(growth) * seconds_since(start) > budget) return;
+    const double left = budget - seconds_since(begin) - made, tried = seconds_since(start) - made;
+    growth = 4;
+    if (trials >= most || static_cast<double>(growth) * tried > left) return;
+    while (growth * trials < most && static_cast<double>(16 * growth) * tried < left) growth *= 4;
   }
 }
 
