@@ -26,6 +26,12 @@ template <Scalar S> Obb(Vec3<S>, Vec3<S>, Mat3<S>) -> Obb<S>;
 
 template <Scalar S> Obb<S> to_obb(const Aabb<S>& box) { return {box.center, box.half_extents, Mat3<S>::Identity()}; }
 template <Scalar S> const Obb<S>& to_obb(const Obb<S>& box) { return box; }
+/// The same box, if its axes are the coordinates' own, in any order and either way round.
+template <Scalar S> std::optional<Aabb<S>> upright(const Obb<S>& box) {
+  const Mat3<S> along = box.axes.cwiseAbs();
+  if (!(along.array() == S(0) || along.array() == S(1)).all()) return std::nullopt;
+  return Aabb<S>{box.center, along * box.half_extents};
+}
 
 template <Scalar S> Vec3<S> center(const Obb<S>& box) { return box.center; }
 template <Scalar S> S skin_radius(const Obb<S>&) { return S(0); }

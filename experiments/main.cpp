@@ -8,9 +8,10 @@
 #include <thinwall/experiments/program/program.hpp>
 
 int main(int argc, char** argv) {
-  // Started without stdin, stdout or stderr, the next file opened would take its number, and what is printed with it.
+  // Started without stdin, stdout or stderr, the next file opened would take its number, and what is printed with it. To
+  // print there fails, as on a full disk.
   while (true) {
-    const int descriptor = ::open("/dev/null", O_RDWR);
+    const int descriptor = ::open("/dev/null", O_RDONLY);
     if (descriptor > 2) ::close(descriptor);
     if (descriptor < 0 || descriptor > 2) break;
   }

@@ -305,6 +305,12 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
       }
     }
   }
+  if (!(least > 4 * box_noise(pair))) return best;
+  for (int turn = 0; turn < 2; ++turn) {  // far off, places are told apart by coordinates, not by distances
+    best.on_a = best.on_b.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
+    const Vec3<S> in_b = pair.axes.transpose() * (best.on_a - pair.between);
+    best.on_b = pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b);
+  }
   return best;
 }
 

@@ -16,6 +16,7 @@ template <Scalar S> struct NearPath {
   Vec3<S> start;
   S base_time = 0;  ///< [1] >= 0: there is no contact before
 
+  explicit NearPath(const Vec3<S>& p) : start(p) {}  // from where it starts
   NearPath(const Vec3<S>& p, const Vec3<S>& v, const S& reach, const S& far = S(4)) : start(p) {
     if (largest(p) < far * reach) return;
     const SafeScale<S> scale(largest(p), largest(v));

@@ -53,6 +53,7 @@ class _Rows:
 
     __slots__ = ("_arrays", "_rows", "dtype")
     _fields: dict[str, str] = {}
+    _kind: str
     _arrays: tuple[_Array, ...]
     _rows: int | None
     dtype: np.dtype[np.floating[Any]]
@@ -165,7 +166,7 @@ class _Rows:
 
     def _side(self) -> tuple[str, list[_Array]]:
         """The kind and the arrays, as _queries takes them."""
-        return type(self).__name__, list(self._arrays)
+        return self._kind, list(self._arrays)
 
 
 def _field(cls: type, index: int, name: str) -> None:
@@ -179,6 +180,7 @@ _Class = TypeVar("_Class", bound="type[_Rows]")
 
 
 def _shape(cls: _Class) -> _Class:
+    cls._kind = cls.__name__  # of classes made of it, too
     for index, name in enumerate(cls._fields):
         _field(cls, index, name)
     return cls

@@ -23,9 +23,15 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   const T reach = capsule.shape.radius + sphere.shape.radius + gap;
   const Capsule<T> shape = nearer_end_first(capsule.shape, sphere.shape.center, reach);
   const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(sphere, capsule);
-  const NearPath<T> path(sphere.shape.center - shape.a, motion, reach + largest(core));
-  Entry<T> entry = rounded_segment_entry<T>(path.start, motion, core, reach);
-  entry.come_later(path.base_time);
+  const Vec3<T> start = sphere.shape.center - shape.a;
+  Entry<T> entry;
+  if (reach == T(0)) {
+    entry = flat_entry<T>(FlatShape::parallelogram, start, motion, core, Vec3<T>::Zero(), T(1));
+  } else {
+    const NearPath<T> path(start, motion, reach + largest(core));
+    entry = rounded_segment_entry<T>(path.start, motion, core, reach);
+    entry.come_later(path.base_time);
+  }
   return toi_or_wider(method, capsule, sphere, entry,
                       [&](const T& time) { return sphere_point<T>(sphere, time, -entry.normal, gap); });
 }
@@ -56,7 +62,9 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
   if (cores_within(capsule.shape, box.shape, reach)) return overlapping_at_start(capsule, box, 1);
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
   const Vec3<T> core = shape.b - shape.a, motion = relative_displacement(capsule, box);
-  const NearPath<T> path(shape.a - box.shape.center, motion, reach + largest(core) + h.sum());
+  const Vec3<T> start = shape.a - box.shape.center;  // without a radius nothing need round
+  const NearPath<T> path =
+      reach > T(0) ? NearPath<T>(start, motion, reach + largest(core) + h.sum()) : NearPath<T>(start);
   const Entry<T> own = capsule_box_entry<T>(path.start, motion, reach, core, h);
   if constexpr (has_wider<T>) {
     if (own.inside) return toi_by_wider(method, capsule, box);  // by roundings
@@ -72,6 +80,8 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, co
 template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
   const T gap(method.min_separation), reach = capsule.shape.radius + gap;
+  if (const auto same = upright(box.shape); same && reach == T(0))
+    return impact(method, capsule, Moving<Aabb<T>>{*same, box.displacement});
   if (cores_within(capsule.shape, box.shape, reach)) return overlapping_at_start(capsule, box, 1);
   const Vec3<T>& h = box.shape.half_extents;
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());

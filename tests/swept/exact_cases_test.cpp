@@ -7,6 +7,7 @@
 
 #include "support/exact_cases.hpp"
 #include "support/judge.hpp"
+#include "support/numbers_of.hpp"
 #include "support/shaker.hpp"
 
 namespace thinwall::testing {
@@ -117,6 +118,56 @@ TEST(RoundingDecides, an_edge_is_met_at_every_size) {  // exact numbers of up to
     EXPECT_EQ(time_of_impact(rod, at_rest(Capsule<double>{triangle.a, triangle.b, 0})).time, 0.5);
     EXPECT_TRUE(overlaps(Capsule<double>{middle - way, middle + way, 0}, triangle));
   }
+}
+
+/// [length, 1] Eighths and halves: no difference of any two, nor a product with a time, is rounded.
+template <class S> struct Lattice {
+  Shaker<S> draw;
+  S eighth(int low, int high) { return S(draw.pick(low, high)) / S(8); }
+  Vec3<S> place() { return {eighth(-32, 32), eighth(-32, 32), eighth(-32, 32)}; }
+  /// A box, flat in one direction of three, and a place on it.
+  std::pair<Aabb<S>, Vec3<S>> box() {
+    Aabb<S> box{place(), place().cwiseAbs()};
+    Vec3<S> on_it;
+    for (int i = 0; i < 3; ++i) {
+      if (draw.pick(0, 2) == 0) box.half_extents[i] = 0;
+      on_it[i] = box.center[i] + box.half_extents[i] * S(draw.pick(-2, 2)) / S(2);
+    }
+    return {box, on_it};
+  }
+};
+
+template <class S> void expect_touches_to_be_met(int runs) {
+  Lattice<S> lattice{Shaker<S>(20261201)};
+  const Mat3<S> turn = turn_in_plane<S>(0, 1, S(0), S(1)) * turn_in_plane<S>(2, 0, S(0), S(-1));
+  for (int run = 0; run < runs; ++run) {
+    const Vec3<S> path = 2 * lattice.place(), half_core = lattice.place();
+    const S time = lattice.eighth(1, 8);
+    const auto is_met = [&](const auto& a, const auto& b) {
+      const auto toi = time_of_impact(Moving{a, path}, at_rest(b));
+      EXPECT_TRUE(toi.status != ToiStatus::apart && toi.time <= time)
+          << run << " " << describe(a) << " " << describe(b);
+    };
+    const Capsule<S> core{lattice.place(), lattice.place(), 0};
+    is_met(Sphere<S>{(core.a + core.b) / S(2) - path * time, 0}, core);
+    const auto [box, on_it] = lattice.box();
+    const Vec3<S> start = on_it - path * time;
+    const Obb<S> turned{box.center, turn.transpose().cwiseAbs() * box.half_extents, turn};
+    const auto meets_both = [&](const auto& shape) {
+      is_met(shape, box);
+      is_met(shape, turned);
+    };
+    meets_both(Sphere<S>{start, 0});
+    meets_both(Capsule<S>{start, start, 0});
+    meets_both(Capsule<S>{start - half_core, start + half_core, 0});
+    meets_both(Aabb<S>{start, Vec3<S>::Zero()});
+    meets_both(Obb<S>{start, Vec3<S>::Zero()});
+  }
+}
+
+TEST(RoundingDecides, without_a_radius_what_touches_by_exact_numbers_is_met) {
+  expect_touches_to_be_met<float>(5'000);
+  expect_touches_to_be_met<double>(5'000);
 }
 
 TEST(RoundingDecides, what_slides_off_a_ball_is_not_met_later) {

@@ -112,6 +112,30 @@ TEST(BoxGap, level_faces_meet_in_the_middle_of_what_they_share_at_every_size) {
   }
 }
 
+/// Beside each other across the axis that one is turned about, so that edges are as near as their corners, to the root of a rounding.
+template <class S> void expect_places_far_apart(const S& far) {
+  Shaker<S> draw(20261201);
+  for (int run = 0; run < 5'000; ++run) {
+    using std::cos, std::sin;
+    const auto size = [&]() -> Vec3<S> { return draw.plain_vector().cwiseAbs() + Vec3<S>::Constant(S(0.25)); };
+    const int axis = draw.pick(0, 2);
+    const S angle = 3 * draw.plain(), along = draw.plain();
+    Vec3<S> way = draw.plain_vector();
+    way[axis] = 0;
+    const Aabb<S> a{{0, 0, 0}, size()};
+    const Obb<S> b{Vec3<S>(safe_unit(way) * far + axis_vector<S>(axis) * along), size(),
+                   turn_in_plane<S>((axis + 1) % 3, (axis + 2) % 3, cos(angle), sin(angle))};
+    const Separation<S> gap = separation(a, b);
+    const Vec3<S> off = (gap.point_b - gap.point_a) - gap.normal * gap.distance;
+    ASSERT_LE(largest(off), 16 * unit<S>() * far) << run;
+  }
+}
+
+TEST(BoxGap, between_boxes_far_apart_leads_from_place_to_place) {
+  for (const float far : {1e2F, 1e3F, 1e5F}) expect_places_far_apart(far);
+  for (const double far : {1e6, 1e8, 1e11}) expect_places_far_apart(far);
+}
+
 TEST(BoxGap, boxes_that_hardly_touch_do_so_in_one_place) {  // which end of an edge is deepest is rounding
   Mat3<double> axes;
   axes << 0x1p-63, -0.8, 0.6, 0, 0.6, 0.8, 1, 0, 0x1p-63;
