@@ -81,7 +81,7 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
   const T gap(method.min_separation), reach = capsule.shape.radius + gap;
   if (const auto same = upright(box.shape); same && reach == T(0))
-    return impact(method, capsule, Moving<Aabb<T>>{*same, box.displacement});
+    return toi_by_wider(method, capsule, Moving<Aabb<T>>{*same, box.displacement});
   if (cores_within(capsule.shape, box.shape, reach)) return overlapping_at_start(capsule, box, 1);
   const Vec3<T>& h = box.shape.half_extents;
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
