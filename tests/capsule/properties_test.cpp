@@ -49,7 +49,7 @@ template <class A> inline constexpr bool is_capsule = std::is_same_v<A, Capsule<
 /// All its numbers are halves: where no core lies oblique, no sum or square of them is rounded.
 template <class A> bool is_coarse(const A& shape) {
   bool coarse = true;
-  each_number(shape, [&](const std::string&, const auto& x) {
+  for_each_number(shape, [&](const auto& x) {
     using std::floor;
     coarse = coarse && 2 * x == floor(2 * x);
   });
