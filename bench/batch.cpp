@@ -103,8 +103,9 @@ enum class Way { scalar, one_to_many, row_by_row };
 
 template <class A, class B>
 void time_batch(benchmark::State& state, Way way, std::size_t count, const std::string& target, const Operations& least,
-                std::size_t columns, int threads) {
+                int threads) {
   using S = typename A::Scalar;
+  const std::size_t columns = (way == Way::row_by_row ? batch::width<Moving<A>> : 0) + batch::width<Moving<B>>;
   const BatchSet<A, B>& set = batch_set<A, B>(count);
   std::vector<ToiStatus> status(count);
   std::vector<S> time(count);
@@ -140,17 +141,14 @@ void time_certified(benchmark::State& state, bool by_vectors, std::size_t count)
   count_rows(state, count, report, set.hits, {2, 2}, stream_ns<double>(8));
 }
 
-/// `columns`: how many arrays a row is read from, of B, and of A and B.
-template <class A, class B>
-void add(const std::string& pair, const Operations& least, std::size_t columns_b, std::size_t columns_both) {
+template <class A, class B> void add(const std::string& pair, const Operations& least) {
   const std::string scalar = sizeof(typename A::Scalar) == 8 ? "f64" : "f32";
   const auto add_one = [&](const std::string& name, Way way, std::size_t count, const std::string& target,
                            int threads) {
-    const std::size_t columns = way == Way::row_by_row ? columns_both : columns_b;
     const std::string where = count == few_rows ? "cache" : "memory";
     auto* const row = benchmark::RegisterBenchmark(
         (pair + "/" + scalar + "/" + where + "/" + name).c_str(),
-        [=](benchmark::State& state) { time_batch<A, B>(state, way, count, target, least, columns, threads); });
+        [=](benchmark::State& state) { time_batch<A, B>(state, way, count, target, least, threads); });
     if (threads > 1) row->UseRealTime();
   };
   for (const std::size_t count : {few_rows, many_rows}) {
@@ -196,11 +194,11 @@ void add_rays_and_certified() {
 }
 
 template <class S> void add_pairs() {
-  add<Sphere<S>, Sphere<S>>("sphere_sphere", {1, 1}, 7, 14);
-  add<Aabb<S>, Sphere<S>>("aabb_sphere", {3, 0.2}, 7, 16);
-  add<Obb<S>, Sphere<S>>("obb_sphere", {3, 0.2}, 7, 25);
-  add<Capsule<S>, Sphere<S>>("capsule_sphere", {2, 2}, 7, 17);
-  add<Aabb<S>, Aabb<S>>("aabb_aabb", {3, 0}, 9, 18);
+  add<Sphere<S>, Sphere<S>>("sphere_sphere", {1, 1});
+  add<Aabb<S>, Sphere<S>>("aabb_sphere", {3, 0.2});
+  add<Obb<S>, Sphere<S>>("obb_sphere", {3, 0.2});
+  add<Capsule<S>, Sphere<S>>("capsule_sphere", {2, 2});
+  add<Aabb<S>, Aabb<S>>("aabb_aabb", {3, 0});
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include <boost/numeric/interval.hpp>
 #include <thinwall/experiments/models/oracle.hpp>
 #include <thinwall/swept/certified.hpp>
+#include <thinwall/swept/members.hpp>
 
 #include "query_sets.hpp"
 
@@ -77,21 +78,15 @@ template <class A, class B> Shot<A, B> touching_shot(Uniform& uniform) {
   return shot;
 }
 
-/// Every coordinate to the nearest eighth; an oriented box upright.
-Vec3<double> to_eighths(const Vec3<double>& v) { return (v * 8).array().round().matrix() / 8; }
-Sphere<double> to_eighths(const Sphere<double>& s) { return {to_eighths(s.center), std::round(s.radius * 8) / 8}; }
-Aabb<double> to_eighths(const Aabb<double>& b) { return {to_eighths(b.center), to_eighths(b.half_extents)}; }
-Obb<double> to_eighths(const Obb<double>& b) {
-  return {to_eighths(b.center), to_eighths(b.half_extents), Mat3<double>::Identity()};
+/// Every number to the nearest eighth; an oriented box upright.
+template <class A> Moving<A> to_eighths(Moving<A> moving) {
+  if constexpr (requires { moving.shape.axes; }) moving.shape.axes.setIdentity();
+  for_each_number(moving, [](double& x) { x = std::round(x * 8) / 8; });
+  return moving;
 }
-Capsule<double> to_eighths(const Capsule<double>& c) {
-  return {to_eighths(c.a), to_eighths(c.b), std::round(c.radius * 8) / 8};
-}
-Triangle<double> to_eighths(const Triangle<double>& t) { return {to_eighths(t.a), to_eighths(t.b), to_eighths(t.c)}; }
 template <class A, class B> Shot<A, B> lattice_shot(Uniform& uniform) {
   const Shot<A, B> shot = any_shot<A, B>(uniform, 1);
-  return {{to_eighths(shot.a.shape), to_eighths(shot.a.displacement)},
-          {to_eighths(shot.b.shape), to_eighths(shot.b.displacement)}};
+  return {to_eighths(shot.a), to_eighths(shot.b)};
 }
 
 template <class A, class B> using Queries = std::vector<Shot<A, B>>;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <locale>
 #include <memory>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -107,20 +108,8 @@ void check_content(const KeptResult& result, const std::string& page, Faults& fa
 
 /// `1.5e-07` as `1.5e-7`.
 std::string short_exponents(const std::string& text) {
-  std::string out;
-  const auto is_digit = [](char letter) { return '0' <= letter && letter <= '9'; };
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    out += text[at];
-    if (text[at] != 'e' || at == 0 || !is_digit(text[at - 1])) continue;
-    const std::string sign = at + 1 < text.size() && text[at + 1] == '-' ? "-" : "";
-    std::size_t next = at + 1;
-    if (next < text.size() && (text[next] == '-' || text[next] == '+')) ++next;
-    if (next == text.size() || !is_digit(text[next])) continue;
-    while (next + 1 < text.size() && text[next] == '0' && is_digit(text[next + 1])) ++next;
-    out += sign;
-    at = next - 1;
-  }
-  return out;
+  static const std::regex exponent(R"(([0-9]e)(?:(-)|\+)?0*(?=[0-9]))");
+  return std::regex_replace(text, exponent, "$1$2");
 }
 
 /// A cell as its Markdown has it.

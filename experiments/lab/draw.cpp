@@ -28,8 +28,7 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<Mark, std::string_view>, 4> marks = {
-    {{Mark::points, "points"}, {Mark::line, "line"}, {Mark::dashes, "dashes"}, {Mark::cells, "cells"}}};
+constexpr std::array<std::string_view, 4> marks = {"points", "line", "dashes", "cells"};  // of a Mark
 
 /// The lists of a series, by name.
 constexpr std::array<std::pair<const char*, std::vector<double> Series::*>, 6> lists_of_series = {
@@ -45,8 +44,8 @@ constexpr std::array<std::pair<const char*, std::vector<Tic> Panel::*>, 3> named
     {{"x_tics", &Panel::x_tics}, {"y_tics", &Panel::y_tics}, {"x_groups", &Panel::x_groups}}};
 
 ordered_json json_of(const Series& series) {
-  const auto mark = std::ranges::find(marks, series.mark, &std::pair<Mark, std::string_view>::first);
-  ordered_json out = {{"label", series.label}, {"mark", mark->second}, {"color", series.color}};
+  const std::string_view mark = marks.at(static_cast<std::size_t>(series.mark));
+  ordered_json out = {{"label", series.label}, {"mark", mark}, {"color", series.color}};
   for (const auto& [name, list] : lists_of_series) {
     out[name] = ordered_json::array();
     for (const double value : series.*list) out[name].push_back(std::isfinite(value) ? ordered_json(value) : nullptr);
@@ -65,9 +64,7 @@ ordered_json json_of(const Panel& panel) {
   return out;
 }
 
-bool is_mark(std::string_view text) {
-  return std::ranges::find(marks, text, &std::pair<Mark, std::string_view>::second) != marks.end();
-}
+bool is_mark(std::string_view text) { return std::ranges::find(marks, text) != marks.end(); }
 
 /// Also the letters that gnuplot is told without quotes of its own: none of them may end the quotes.
 bool is_color(std::string_view text) {
@@ -79,7 +76,7 @@ Series series_of(const JsonReader& in) {
   Series out;
   out.label = in.text("label");
   const std::string mark = in.text("mark", is_mark, "points, line, dashes or cells");
-  out.mark = std::ranges::find(marks, mark, &std::pair<Mark, std::string_view>::second)->first;
+  out.mark = static_cast<Mark>(std::ranges::find(marks, mark) - marks.begin());
   out.color = in.text("color", is_color, "#rrggbb, or nothing");
   for (const auto& [name, list] : lists_of_series) out.*list = in.numbers(name);
   return out;

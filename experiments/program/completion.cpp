@@ -1,6 +1,5 @@
 #include <thinwall/experiments/program/command.hpp>
 
-#include <algorithm>
 #include <array>
 #include <ostream>
 

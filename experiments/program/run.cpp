@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <ostream>
 #include <system_error>
 #include <vector>

@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -17,6 +16,7 @@
 #include <thinwall/experiments/lab/text.hpp>
 #include <thinwall/experiments/validate/validate.hpp>
 #include <thinwall/swept/certified/turning_certified.hpp>
+#include <thinwall/swept/members.hpp>
 
 namespace thinwall {
 
@@ -40,60 +40,17 @@ struct TurningTruth {
 
 // ---- Reading.
 
-/// The names of a shape's columns, and the shape from its numbers.
-template <class A> struct ShapeColumns;
-template <> struct ShapeColumns<Sphere<double>> {
-  static constexpr std::string_view shape = "sphere";
-  static constexpr std::array<std::string_view, 4> names = {"center_x", "center_y", "center_z", "radius"};
-};
-template <> struct ShapeColumns<Capsule<double>> {
-  static constexpr std::string_view shape = "capsule";
-  static constexpr std::array<std::string_view, 7> names = {"p_x", "p_y", "p_z", "q_x", "q_y", "q_z", "radius"};
-};
-template <> struct ShapeColumns<Obb<double>> {
-  static constexpr std::string_view shape = "obb";
-  static constexpr std::array<std::string_view, 15> names = {"center_x", "center_y", "center_z", "half_x",  "half_y",
-                                                             "half_z",   "axis1_x",  "axis1_y",  "axis1_z", "axis2_x",
-                                                             "axis2_y",  "axis2_z",  "axis3_x",  "axis3_y", "axis3_z"};
-};
-template <> struct ShapeColumns<Triangle<double>> {
-  static constexpr std::string_view shape = "triangle";
-  static constexpr std::array<std::string_view, 9> names = {"p_x", "p_y", "p_z", "q_x", "q_y",
-                                                            "q_z", "r_x", "r_y", "r_z"};
-};
-
-Vec3<double> vector_at(std::span<const double> x, std::size_t k) { return {x[k], x[k + 1], x[k + 2]}; }
-
-Sphere<double> shape_from(std::span<const double> x, TypeTag<Sphere<double>>) { return {vector_at(x, 0), x[3]}; }
-Capsule<double> shape_from(std::span<const double> x, TypeTag<Capsule<double>>) {
-  return {vector_at(x, 0), vector_at(x, 3), x[6]};
-}
-Obb<double> shape_from(std::span<const double> x, TypeTag<Obb<double>>) {
-  Obb<double> box{vector_at(x, 0), vector_at(x, 3), {}};
-  for (int k = 0; k < 3; ++k) box.axes.col(k) = vector_at(x, 6 + 3 * static_cast<std::size_t>(k));
-  return box;
-}
-Triangle<double> shape_from(std::span<const double> x, TypeTag<Triangle<double>>) {
-  return {vector_at(x, 0), vector_at(x, 3), vector_at(x, 6)};
-}
-
-template <class A> constexpr std::size_t body_columns = ShapeColumns<A>::names.size() + 6;
-template <class A> Turning<A> body_from(std::span<const double> x) {
-  constexpr std::size_t shape = ShapeColumns<A>::names.size();
-  return {shape_from(x, TypeTag<A>{}), vector_at(x, shape), vector_at(x, shape + 3)};
-}
+template <class A> constexpr std::string_view shape_word = "";
+template <> constexpr std::string_view shape_word<Sphere<double>> = "sphere";
+template <> constexpr std::string_view shape_word<Capsule<double>> = "capsule";
+template <> constexpr std::string_view shape_word<Obb<double>> = "obb";
+template <> constexpr std::string_view shape_word<Triangle<double>> = "triangle";
 
 constexpr std::size_t answer_columns = 6;
-template <class A, class B> std::string header_text() {
+template <class A, class B> std::string header_text(const Turning<A>& a, const Turning<B>& b) {
   std::string text = "query,motion,aim,verdict,time,clearance";
-  const auto add = [&](char body, auto names) {
-    for (const std::string_view column : names) text += fmt::format(",{}_{}", body, column);
-    for (const std::string_view column : {"displacement", "rotation"}) {
-      for (const char axis : {'x', 'y', 'z'}) text += fmt::format(",{}_{}_{}", body, column, axis);
-    }
-  };
-  add('a', ShapeColumns<A>::names);
-  add('b', ShapeColumns<B>::names);
+  for_each_named_number(a, [&](const std::string& name, double) { text += ",a_" + name; });
+  for_each_named_number(b, [&](const std::string& name, double) { text += ",b_" + name; });
   return text;
 }
 
@@ -261,21 +218,25 @@ class TurningJudge {
  private:
   /// False if the header is of another pair.
   template <class A, class B> bool judge_pair(QueryLines& file) {
-    if (file.text() != header_text<A, B>()) return false;
-    TurningPairCounts pair{fmt::format("{}, {}", ShapeColumns<A>::shape, ShapeColumns<B>::shape), {}};
+    Turning<A> a{};
+    Turning<B> b{};
+    if (file.text() != header_text(a, b)) return false;
+    TurningPairCounts pair{fmt::format("{}, {}", shape_word<A>, shape_word<B>), {}};
     pair.counts.resize(result_.methods.size());
-    constexpr std::size_t count = body_columns<A> + body_columns<B>;
+    const auto columns = static_cast<std::size_t>(std::ranges::count(file.text(), ',')) + 1;
     bool any = false;
     for (; file.next(); any = true) {
-      const std::vector<std::string_view> fields = file.fields(answer_columns + count);
+      const std::vector<std::string_view> fields = file.fields(columns);
       const TurningTruth truth = truth_of(file, fields);
-      std::array<double, count> x{};
-      for (std::size_t k = 0; k < count; ++k) x[k] = number_in(file, fields[answer_columns + k], answer_columns + k);
-      const std::span<const double> numbers(x);
-      const auto a = body_from<A>(numbers.first(body_columns<A>));
-      const auto b = body_from<B>(numbers.last(body_columns<B>));
-      if (!valid(a)) file.refuse(fmt::format("A is no valid {}", ShapeColumns<A>::shape));
-      if (!valid(b)) file.refuse(fmt::format("B is no valid {}", ShapeColumns<B>::shape));
+      std::size_t column = answer_columns;
+      const auto read = [&](double& number) {
+        number = number_in(file, fields[column], column);
+        ++column;
+      };
+      for_each_number(a, read);
+      for_each_number(b, read);
+      if (!valid(a)) file.refuse(fmt::format("A is no valid {}", shape_word<A>));
+      if (!valid(b)) file.refuse(fmt::format("B is no valid {}", shape_word<B>));
       judge_query(file, truth, a, b, pair.counts);
     }
     if (!any) file.refuse("no query follows the header");

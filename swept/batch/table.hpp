@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <thinwall/swept/batch/rows.hpp>
@@ -12,34 +11,32 @@ namespace thinwall {
 
 /// A table of items, one array a coordinate: `table.rows()` is what a batch takes.
 template <class Item> class RowTable {
-  using Layout = RowsOf<Item>;
-  using S = typename Layout::Scalar;
-  static constexpr std::size_t width = std::tuple_size_v<decltype(Layout::values(std::declval<Item>()))>;
+  using S = typename RowsOf<Item>::Scalar;
 
  public:
   void push_back(const Item& item) {
-    const auto values = Layout::values(item);
-    for (std::size_t k = 0; k < width; ++k) columns_[k].push_back(values[k]);
+    std::size_t k = 0;
+    for_each_number(item, [&](const S& x) { columns_[k++].push_back(x); });
   }
   void reserve(std::size_t rows) {
     for (auto& column : columns_) column.reserve(rows);
   }
   std::size_t size() const { return columns_[0].size(); }
   Item operator[](std::size_t i) const {
-    std::array<S, width> values;
-    for (std::size_t k = 0; k < width; ++k) values[k] = columns_[k][i];
-    return Layout::item_of(values);
+    std::size_t k = 0;
+    return item_of<Item>([&] { return columns_[k++][i]; });
   }
   /// Valid until the table grows or goes.
-  Layout rows() const { return rows(0, size()); }
-  Layout rows(std::size_t begin, std::size_t end) const {
-    std::array<std::span<const S>, width> spans;
-    for (std::size_t k = 0; k < width; ++k) spans[k] = std::span(columns_[k]).subspan(begin, end - begin);
-    return Layout::of(spans);
+  RowsOf<Item> rows() const { return rows(0, size()); }
+  RowsOf<Item> rows(std::size_t begin, std::size_t end) const {
+    RowsOf<Item> rows;
+    std::size_t k = 0;
+    batch::for_each_column(rows, [&](auto& span) { span = std::span(columns_[k++]).subspan(begin, end - begin); });
+    return rows;
   }
 
  private:
-  std::array<std::vector<S>, width> columns_;
+  std::array<std::vector<S>, batch::width<Item>> columns_;
 };
 
 }  // namespace thinwall

@@ -32,7 +32,7 @@ template <Scalar S> std::string text(const Vec3<S>& v) {
 /// Its numbers by their names.
 template <class Thing> std::string numbers_of(const Thing& thing) {
   std::string all;
-  testing::each_number(thing, [&](const std::string& name, const auto& x) { all += " " + name + " " + text(x); });
+  for_each_named_number(thing, [&](const std::string& name, const auto& x) { all += " " + name + " " + text(x); });
   return all;
 }
 template <class A> std::string text(const Moving<A>& m) { return std::string(testing::shape_name<A>) + numbers_of(m); }

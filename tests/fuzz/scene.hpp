@@ -223,9 +223,8 @@ template <class A, class B> Scene<A, B> draw_scene(Numbers<typename A::Scalar>& 
 /// The exponents of all numbers but zeros lie within `most` of 0.
 template <class Thing> bool is_moderate(const Thing& thing, int most) {
   bool moderate = true;
-  testing::each_number(thing, [&](const std::string&, const auto& x) {
-    moderate = moderate && (x == 0 || std::abs(binary_exponent(x)) <= most);
-  });
+  for_each_number(thing,
+                  [&](const auto& x) { moderate = moderate && (x == 0 || std::abs(binary_exponent(x)) <= most); });
   return moderate;
 }
 template <class A, class B> bool is_moderate(const Scene<A, B>& scene, int most) {

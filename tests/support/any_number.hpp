@@ -41,7 +41,7 @@ template <class S> Capsule<S> usual(TypeTag<Capsule<S>>) { return {{-1, 0, 0}, {
 
 /// visit(), or visit(name, number), with each special number in turn in each field of `thing`, which is then put back.
 template <class S, class Thing, class Visit> void with_every_number(Thing& thing, const Visit& visit) {
-  each_number(thing, [&](const std::string& name, S& number) {
+  for_each_named_number(thing, [&](const std::string& name, S& number) {
     const S usual_number = number;
     for (const S& special : special_numbers<S>()) {
       SCOPED_TRACE(name + " is " + std::to_string(static_cast<double>(special)));

@@ -2,6 +2,7 @@
 /// Shapes and motions of a Shaker, as a property draws them.
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <rapidcheck.h>
@@ -25,12 +26,13 @@ template <class S> Shaker<S> draw_shaker(Style style = draw_style()) {
 }
 
 /// The factors 2^k at which nothing of what is drawn leaves the range, its ends among them.
-template <class S> int draw_scale() {
+template <class S> std::array<int, 8> all_scales() {
   using Limits = std::numeric_limits<S>;
   const int low = std::max(Limits::min_exponent + Limits::digits + 10, -20000);
   const int high = std::min(Limits::max_exponent - 6, 20000);
-  return *rc::gen::element(low, low * 5 / 8, -60, -1, 1, 60, high * 5 / 8, high);
+  return {low, low * 5 / 8, -60, -1, 1, 60, high * 5 / 8, high};
 }
+template <class S> int draw_scale() { return *rc::gen::elementOf(all_scales<S>()); }
 
 /// Two shapes at rest, a third of them all but touching.
 template <class P> std::pair<typename P::A, typename P::B> draw_pair(Style style = draw_style()) {

@@ -27,11 +27,7 @@ class Ball {
   Ball() { arb_init(x_); }
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
-  Ball& operator=(const Ball& other) {
-    arb_set(x_, other.x_);
-    return *this;
-  }
-  Ball& operator=(Ball&& other) noexcept {
+  Ball& operator=(Ball other) noexcept {
     arb_swap(x_, other.x_);
     return *this;
   }
@@ -69,14 +65,8 @@ class Ball {
   friend Ball operator*(const Ball& a, const Ball& b) { return made(arb_mul, a, b); }
   friend Ball operator/(const Ball& a, const Ball& b) { return made(arb_div, a, b); }
   Ball operator-() const { return made(negated); }
-  Ball& operator+=(const Ball& other) {
-    arb_add(x_, x_, other.x_, precision());
-    return *this;
-  }
-  Ball& operator-=(const Ball& other) {
-    arb_sub(x_, x_, other.x_, precision());
-    return *this;
-  }
+  Ball& operator+=(const Ball& other) { return *this = *this + other; }
+  Ball& operator-=(const Ball& other) { return *this = *this - other; }
   friend Ball sqrt(const Ball& a) { return a.made(arb_sqrtpos); }
   friend Ball abs(const Ball& a) { return a.made(without_sign); }
   friend Ball max(const Ball& a, const Ball& b) { return made(arb_max, a, b); }

@@ -538,8 +538,8 @@ template <class A, class B> void expect_careful_of_bad_numbers(Moving<A> a, Movi
     }
     number = usual;
   };
-  each_number(a, spoil);
-  each_number(b, spoil);
+  for_each_named_number(a, spoil);
+  for_each_named_number(b, spoil);
 }
 
 TEST(LadderFilters, what_is_no_question_or_out_of_range_is_careful) {

@@ -38,8 +38,7 @@ template <class S> bool valid_rows(const Question& q) {
     if (A::rank != q.a.kind) return;
     answer_rows(q, [&](std::size_t i) {
       RowReader<S> from(q.a, i);
-      Moving<A> item{{}, Vec3<S>::Zero()};
-      take(from, item.shape);
+      Moving<A> item{from.template item<A>(), Vec3<S>::Zero()};
       if (q.a.motion != Motion::none) item.displacement = from.vector();
       const bool turns_well = q.a.motion != Motion::turning || is_finite(from.vector());
       return valid(item) && turns_well;

@@ -43,9 +43,8 @@ template <class Item, class S> class Block {
 
   const batch::Rows<S>& rows() const { return rows_; }
   Item item(std::size_t j) const {
-    decltype(RowsOf<Item>::values(std::declval<Item>())) values;
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = rows_.columns[k][rows_.is_one ? 0 : j];
-    return RowsOf<Item>::item_of(values);
+    std::size_t k = 0;
+    return item_of<Item>([&] { return rows_.columns[k++][rows_.is_one ? 0 : j]; });
   }
 
  private:

@@ -16,6 +16,7 @@
 #include <thinwall/discrete/manifold.hpp>
 #include <thinwall/swept/batch/run.hpp>
 #include <thinwall/swept/certified/certified_toi.hpp>
+#include <thinwall/swept/members.hpp>
 #include <thinwall/swept/moving.hpp>
 #include <thinwall/swept/shapes.hpp>
 #include <thinwall/swept/toi.hpp>
@@ -62,67 +63,28 @@ template <class S> class RowReader {
     const S x = next(), y = next(), z = next();
     return {x, y, z};
   }
+  template <class Item> Item item() {
+    return item_of<Item>([this] { return next(); });
+  }
 
  private:
   const Side& side_;
   std::size_t i_, k_ = 0;
 };
 
-template <class S> void take(RowReader<S>& from, Sphere<S>& to) {
-  to.center = from.vector();
-  to.radius = from.next();
-}
-template <class S> void take(RowReader<S>& from, Aabb<S>& to) {
-  to.center = from.vector();
-  to.half_extents = from.vector();
-}
-template <class S> void take(RowReader<S>& from, Obb<S>& to) {
-  to.center = from.vector();
-  to.half_extents = from.vector();
-  for (int k = 0; k < 3; ++k) to.axes.col(k) = from.vector();
-}
-template <class S> void take(RowReader<S>& from, Triangle<S>& to) {
-  to.a = from.vector();
-  to.b = from.vector();
-  to.c = from.vector();
-}
-template <class S> void take(RowReader<S>& from, Capsule<S>& to) {
-  to.a = from.vector();
-  to.b = from.vector();
-  to.radius = from.next();
-}
-template <class S> void take(RowReader<S>& from, Ray<S>& to) {
-  to.origin = from.vector();
-  to.direction = from.vector();
-  to.max_t = from.next();
-}
-template <class S, class A> void take(RowReader<S>& from, Moving<A>& to) {
-  take(from, to.shape);
-  to.displacement = from.vector();
-}
-
 /// Row i as what Item is.
 template <class Item, class S> Item row_of(const Side& side, std::size_t i) {
-  Item item;
-  RowReader<S> from(side, i);
-  take(from, item);
-  return item;
+  return RowReader<S>(side, i).template item<Item>();
 }
 
 /// Row i of what turns, or moves and could turn; a box along the axes becomes one that could.
 template <class A, class S> Turning<A> turning_row(const Side& side, std::size_t i) {
-  Turning<A> item;
   RowReader<S> from(side, i);
+  Turning<A> item;
   if constexpr (std::is_same_v<A, Obb<S>>) {
-    if (side.kind == Aabb<S>::rank) {
-      Aabb<S> box;
-      take(from, box);
-      item.shape = to_obb(box);
-    } else {
-      take(from, item.shape);
-    }
+    item.shape = side.kind == Aabb<S>::rank ? to_obb(from.template item<Aabb<S>>()) : from.template item<A>();
   } else {
-    take(from, item.shape);
+    item.shape = from.template item<A>();
   }
   item.displacement = from.vector();
   item.rotation = side.motion == Motion::turning ? from.vector() : Vec3<S>(Vec3<S>::Zero());
