@@ -40,7 +40,7 @@ struct TurningTruth {
 
 // ---- Reading.
 
-template <class A> constexpr std::string_view shape_word = "";
+template <class A> constexpr std::string_view shape_word{};
 template <> constexpr std::string_view shape_word<Sphere<double>> = "sphere";
 template <> constexpr std::string_view shape_word<Capsule<double>> = "capsule";
 template <> constexpr std::string_view shape_word<Obb<double>> = "obb";
