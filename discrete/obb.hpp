@@ -23,10 +23,11 @@ template <thinwall::Scalar S> struct Obb {
   Mat3<S> axes = Mat3<S>::Identity();
 };
 template <Scalar S> Obb(Vec3<S>, Vec3<S>, Mat3<S>) -> Obb<S>;
+template <Scalar S> Obb(Vec3<S>, Vec3<S>) -> Obb<S>;
 
 template <Scalar S> Obb<S> to_obb(const Aabb<S>& box) { return {box.center, box.half_extents, Mat3<S>::Identity()}; }
 template <Scalar S> const Obb<S>& to_obb(const Obb<S>& box) { return box; }
-/// The same box, if its axes are the coordinates' own, in any order and either way round.
+/// The same box, if its axes are the coordinates' own, in any order and either way round: what has no radius meets it without a rounding.
 template <Scalar S> std::optional<Aabb<S>> upright(const Obb<S>& box) {
   const Mat3<S> along = box.axes.cwiseAbs();
   if (!(along.array() == S(0) || along.array() == S(1)).all()) return std::nullopt;

@@ -97,8 +97,7 @@ THINWALL_HOT Toi<typename A::Scalar> impact_by_ladder(const Method& method, cons
     if (answer.clear) [[likely]]
       return answer.toi();
     return turn(doubtful_impact(method, a, b));
-  } else if constexpr (std::is_same_v<Method, ClosedForm<typename A::Scalar>> &&
-                       std::is_same_v<Method, ClosedForm<float>>) {
+  } else if constexpr (std::is_same_v<typename A::Scalar, float> && std::is_same_v<Method, ClosedForm<float>>) {
     return turn(impact_in_double(method, a, b));
   } else {
     return turn(checked_impact(method, a, b));

@@ -268,18 +268,31 @@ template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
   return largest(n[(axis + 1) % 3]) > noise && largest(n[(axis + 2) % 3]) > noise ? 1 : 2;
 }
 
-/// Closest points of boxes that are apart. Of those as near as each other, to rounding, the ones whose direction parts the boxes by most of
-/// their distance: distances tell directions apart only to the square root of a rounding.
+/// The place of A that is nearest to the one given of B, and that of B nearest to it: told by coordinates, not by distances.
+template <Scalar S> BoxPoints<S> brought_nearer(const BoxPair<S>& pair, const BoxPoints<S>& points) {
+  const Vec3<S> on_a = points.on_b.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
+  const Vec3<S> in_b = pair.axes.transpose() * (on_a - pair.between);
+  return {on_a, pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b)};
+}
+
+/// Closest points of boxes that are apart. Distances tell directions apart only to the square root of a rounding. So of those as near as each
+/// other, to rounding, the ones whose direction parts the boxes by most of their distance; and of boxes far apart, whose points that differ by all
+/// of their size may be as near, those that are nearest to each other on either box.
 template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
   BoxPoints<S> best;
   S least = std::numeric_limits<S>::infinity();
-  const S rounding = box_noise(pair) / 4;
-  const auto overlap = [&](const Vec3<S>& n) { return pair.overlap(safe_unit(n)); };
+  const bool is_far = largest(pair.between) > 64 * largest(pair.half_a, pair.half_b);
+  const S rounding = box_noise(pair) / 4, as_near = is_far ? S(4 * rounding) : rounding;
+  const auto fault = [&](const BoxPoints<S>& points) -> S {
+    const Vec3<S> gap = points.on_b - points.on_a;
+    if (!is_far) return safe_norm(gap) + pair.overlap(safe_unit(gap));
+    const BoxPoints<S> nearer = brought_nearer(pair, points);
+    return largest(Vec3<S>(nearer.on_a - points.on_a)) + largest(Vec3<S>(nearer.on_b - points.on_b));
+  };
   const auto consider = [&](const Vec3<S>& on_a, const Vec3<S>& on_b) {
-    const Vec3<S> gap = on_b - on_a;
-    const S distance = safe_norm(gap);
-    const bool ties = largest(S(distance - least)) <= rounding && std::min(distance, least) > 4 * rounding;
-    if (ties ? distance + overlap(gap) < least + overlap(best.on_b - best.on_a) : distance < least) {
+    const S distance = safe_norm<S>(on_b - on_a);
+    const bool ties = largest(S(distance - least)) <= as_near && std::min(distance, least) > 4 * rounding;
+    if (ties ? fault({on_a, on_b}) < fault(best) : distance < least) {
       least = distance;
       best = {on_a, on_b};
     }
@@ -305,13 +318,7 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
       }
     }
   }
-  if (!(least > 4 * box_noise(pair))) return best;
-  for (int turn = 0; turn < 2; ++turn) {  // far off, places are told apart by coordinates, not by distances
-    best.on_a = best.on_b.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
-    const Vec3<S> in_b = pair.axes.transpose() * (best.on_a - pair.between);
-    best.on_b = pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b);
-  }
-  return best;
+  return is_far ? brought_nearer(pair, brought_nearer(pair, best)) : best;
 }
 
 /// The deepest points of boxes that part along the unit vector n, found on the axes (i, j). Edges whose product is

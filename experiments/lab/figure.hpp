@@ -7,7 +7,12 @@
 
 namespace thinwall {
 
-enum class Mark { points, line, dashes, cells };  ///< cells: a unit square around each point, as in a heat map
+enum class Mark {
+  points,
+  line,
+  dashes,
+  cells
+};  ///< cells: a unit square around each point, as in a heat map. draw.cpp names them in this order
 
 /// A tic with a name of its own.
 struct Tic {

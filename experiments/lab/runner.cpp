@@ -172,7 +172,8 @@ void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double b
   for (std::int64_t trials = 1;; trials *= growth) {
     const auto start = std::chrono::steady_clock::now();
     double made = 0;  // the run itself, which takes as long whatever its trials
-    if (const std::unique_ptr<Run> run = run_of(again, trials)) {
+    const std::unique_ptr<Run> run = run_of(again, trials);
+    if (run) {
       const std::vector<Unit> smaller = run->units();
       made = seconds_since(start);
       const bool first = !parts;
@@ -188,7 +189,7 @@ void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double b
     const double left = budget - seconds_since(begin) - made, tried = seconds_since(start) - made;
     growth = 4;
     if (trials >= most || static_cast<double>(growth) * tried > left) return;
-    while (growth * trials < most && static_cast<double>(16 * growth) * tried < left) growth *= 4;
+    while (run && growth * trials < most && static_cast<double>(16 * growth) * tried < left) growth *= 4;
   }
 }
 

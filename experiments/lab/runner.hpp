@@ -119,8 +119,8 @@ std::string basis_text(const RunEstimate& estimate);
 
 using ConfigureTrials = std::function<std::unique_ptr<Run>(std::int64_t trials)>;
 
-/// Units that fewer trials shorten are timed with 1 and then more of them, a power of 4, and time is taken to be in proportion; of the others
-/// one of each number of trials is timed whole, then a second, and so on, and those of a number are taken to be alike. Both
+/// Units that fewer trials shorten are timed with 1 and then more of them, a power of 4, and time is taken to be in proportion;
+/// of the others one of each number of trials is timed whole, then a second, and so on, and those of a number are taken to be alike. Both
 /// is done by processes of their own, which the system ends after half of `budget` [s] each, whatever they are at: no unit
 /// is too long. `again` configures the same run with other trials, and may throw UsageError where they are too few.
 RunEstimate estimate(std::span<const Unit> units, const ConfigureTrials& again, double budget = 1.5);

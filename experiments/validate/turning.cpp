@@ -49,8 +49,8 @@ template <> constexpr std::string_view shape_word<Triangle<double>> = "triangle"
 constexpr std::size_t answer_columns = 6;
 template <class A, class B> std::string header_text(const Turning<A>& a, const Turning<B>& b) {
   std::string text = "query,motion,aim,verdict,time,clearance";
-  for_each_named_number(a, [&](const std::string& name, double) { text += ",a_" + name; });
-  for_each_named_number(b, [&](const std::string& name, double) { text += ",b_" + name; });
+  for_each_named_number(a, [&](const std::string& name, const double&) { text += ",a_" + name; });
+  for_each_named_number(b, [&](const std::string& name, const double&) { text += ",b_" + name; });
   return text;
 }
 

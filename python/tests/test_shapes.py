@@ -57,6 +57,15 @@ def test_pickles_and_copies(rows):
     assert all(a is b for a, b in zip(arrays(copy.copy(rows)), arrays(rows)))
 
 
+def test_classes_made_of_a_shape_are_that_shape():
+    class Ball(tw.Sphere):
+        pass
+
+    ball, box = Ball([0, 0, 0], 1.0), tw.Aabb([3, 0, 0], [1, 1, 1])
+    assert tw.valid(ball) and not tw.overlaps(ball, box)
+    assert tw.time_of_impact(tw.Moving(ball, [2, 0, 0]), tw.at_rest(box))["time"] == 0.5
+
+
 @each_shape
 def test_slices_without_copying(rows):
     part = rows[5:15:2]

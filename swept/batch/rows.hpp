@@ -133,6 +133,8 @@ template <class One> class Side {
   using Item = One;
   using Scalar = typename RowsOf<One>::Scalar;
 
+  static_assert(width<One> == sizeof(One) / sizeof(Scalar), "RowsOf has an array for each number of its item");
+
   explicit Side(const One& one) : one_(one) {
     std::size_t k = 0;
     for_each_number(one_, [&](const Scalar& x) { values_[k++] = x; });

@@ -57,8 +57,12 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
   const T gap(method.min_separation);
   const Obb<T>& frame = box.shape;
   const T reach = sphere.shape.radius + gap;
-  if (const auto same = upright(frame); same && reach == T(0))
-    return toi_by_wider(method, Moving<Aabb<T>>{*same, box.displacement}, sphere);
+  if (reach == T(0)) {
+    if (const auto same = upright(frame)) {
+      if (cores_within(frame, sphere.shape, reach)) return overlapping_at_start(box, sphere, 1);
+      return toi_by_wider(method, Moving<Aabb<T>>{*same, box.displacement}, sphere);
+    }
+  }
   const Vec3<T> motion = relative_displacement(sphere, box);
   const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
   Entry<T> entry = rounded_box_entry<T>(into(frame, path.start), into(frame, motion), frame.half_extents, reach);
@@ -116,9 +120,11 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   const T gap(method.min_separation);
   if (cores_within(a.shape, b.shape, gap)) return overlapping_at_start(a, b, 1);
   const Moving<Obb<T>> other{to_obb(b.shape), b.displacement};
-  const auto same_a = upright(a.shape), same_b = upright(other.shape);
-  if (same_a && same_b && gap == T(0))
-    return toi_by_wider(method, Moving<Aabb<T>>{*same_a, a.displacement}, Moving<Aabb<T>>{*same_b, b.displacement});
+  if (gap == T(0)) {
+    const auto same_a = upright(a.shape), same_b = upright(other.shape);
+    if (same_a && same_b)
+      return toi_by_wider(method, Moving<Aabb<T>>{*same_a, a.displacement}, Moving<Aabb<T>>{*same_b, b.displacement});
+  }
   const bool in_axes_of_b = std::is_same_v<B, Aabb<T>> || largest(b.shape.half_extents) > largest(a.shape.half_extents);
   return in_axes_of_b ? flipped(impact_of_apart(method, other, a)) : impact_of_apart(method, a, other);
 }

@@ -232,7 +232,7 @@ TYPED_TEST(RayAtEverySize, says_the_same) {
   for (int i = 0; i < (std::is_same_v<S, Wide> ? 1000 : 20'000); ++i) {
     TypeParam target = drawn(draw, TypeTag<TypeParam>{});
     const Vec3<S> origin = draw.vector(), direction = draw.vector();
-    const Ray<S> ray{origin, direction};
+    const Ray<S> ray{origin, direction, draw.pick(0, 1) == 0 ? S(1) : std::numeric_limits<S>::infinity()};
     const Separation<S> gap = separation(Sphere<S>{origin, S(0)}, target);
     if (i % 3 == 0) target = moved(target, Vec3<S>(gap.normal * -gap.distance));  // all but touching
     const auto expected = raycast(ray, target);

@@ -183,6 +183,11 @@ TEST(AnyNumber, boxes_in_float_have_axes_as_good_as_float) {  // though a query 
   expect_hit_and_overlap(Inclusion<float>{});
 }
 
+TEST(AnyNumber, a_method_in_float_serves_shapes_in_double) {
+  const Moving shot{Sphere<double>{{-4, 0.25, 0}, 1}, {4, 0, 0}};
+  EXPECT_EQ(time_of_impact(ClosedForm<float>{}, shot, at_rest(Aabb<double>{{0, 0, 0}, {1, 1, 1}})).time, 0.5);
+}
+
 TEST(AnyNumber, boxes_in_float_that_turn_have_too) {
   Obb<float> box{{0, 0, 0}, {1, 1, 1}, Mat3<float>::Identity()};
   box.axes(0, 1) = 0x1p-14F;

@@ -112,27 +112,32 @@ TEST(BoxGap, level_faces_meet_in_the_middle_of_what_they_share_at_every_size) {
   }
 }
 
-/// Beside each other across the axis that one is turned about, so that edges are as near as their corners, to the root of a rounding.
+/// Boxes whose edges face each other, all but parallel or not: of places there, far off, distances tell nothing.
 template <class S> void expect_places_far_apart(const S& far) {
   Shaker<S> draw(20261201);
-  for (int run = 0; run < 5'000; ++run) {
+  for (int run = 0; run < 1'000; ++run) {
     using std::cos, std::sin;
     const auto size = [&]() -> Vec3<S> { return draw.plain_vector().cwiseAbs() + Vec3<S>::Constant(S(0.25)); };
+    const auto turn = [&](int axis, const S& angle) {
+      return turn_in_plane<S>((axis + 1) % 3, (axis + 2) % 3, cos(angle), sin(angle));
+    };
     const int axis = draw.pick(0, 2);
-    const S angle = 3 * draw.plain(), along = draw.plain();
+    const S angle = 3 * draw.plain(), tilt = draw.pick(0, 1) * draw.plain(), along = draw.plain();
     Vec3<S> way = draw.plain_vector();
     way[axis] = 0;
     const Aabb<S> a{{0, 0, 0}, size()};
     const Obb<S> b{Vec3<S>(safe_unit(way) * far + axis_vector<S>(axis) * along), size(),
-                   turn_in_plane<S>((axis + 1) % 3, (axis + 2) % 3, cos(angle), sin(angle))};
+                   turn((axis + 1) % 3, tilt) * turn(axis, angle)};
     const Separation<S> gap = separation(a, b);
-    const Vec3<S> off = (gap.point_b - gap.point_a) - gap.normal * gap.distance;
-    ASSERT_LE(largest(off), 16 * unit<S>() * far) << run;
+    const auto wide = separation(cast<Wide>(a), widened<Wide>(b));
+    const Vec3<S> truth = Vec3<Wide>(wide.point_b - wide.point_a).template cast<S>();
+    ASSERT_LE(largest(Vec3<S>((gap.point_b - gap.point_a) - truth)), 32 * unit<S>() * far) << run;
+    ASSERT_LE(largest(Vec3<S>(gap.normal * gap.distance - truth)), 32 * unit<S>() * far) << run;
   }
 }
 
 TEST(BoxGap, between_boxes_far_apart_leads_from_place_to_place) {
-  for (const float far : {1e2F, 1e3F, 1e5F}) expect_places_far_apart(far);
+  for (const float far : {1e3F, 1e5F}) expect_places_far_apart(far);
   for (const double far : {1e6, 1e8, 1e11}) expect_places_far_apart(far);
 }
 

@@ -278,6 +278,15 @@ TEST(Estimate, passes_over_trials_that_are_too_few) {
   EXPECT_GE(estimate(run->units(), again, 0.2).trials, 16);
 }
 
+TEST(Estimate, does_not_take_what_lays_out_a_run_to_grow_with_its_trials) {
+  const auto run = uneven(1'000'000, {});
+  const auto again = [](std::int64_t trials) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return uneven(trials, {});
+  };
+  EXPECT_GT(estimate(run->units(), again, 2).trials, 1);
+}
+
 using std::chrono::milliseconds;
 
 TEST(StopGuard, ends_what_does_not_heed_a_stop) {

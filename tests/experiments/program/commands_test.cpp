@@ -361,9 +361,11 @@ TEST_F(MannersTest, lists_every_unit_and_writes_nothing) {
 
 TEST_F(MannersTest, notices_that_its_output_is_lost) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-  const ProcessResult result = run_process({"sh", "-c", "'" THINWALL_PROGRAM "' list >/dev/full"}, folder.path());
-  EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.output, "failed: stdout cannot be written\n");
+  for (const std::string lost : {">/dev/full", ">&-"}) {
+    const ProcessResult result = run_process({"sh", "-c", "'" THINWALL_PROGRAM "' list " + lost}, folder.path());
+    EXPECT_EQ(result.status, 1) << lost;
+    EXPECT_EQ(result.output, "failed: stdout cannot be written\n") << lost;
+  }
 }
 
 // ---- What the program says, as the user calls it, to what it cannot take: one line, exit code 2, and nothing written.
