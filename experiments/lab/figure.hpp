@@ -7,12 +7,8 @@
 
 namespace thinwall {
 
-enum class Mark {
-  points,
-  line,
-  dashes,
-  cells
-};  ///< cells: a unit square around each point, as in a heat map. draw.cpp names them in this order
+/// Cells: a unit square around each point, as in a heat map. Named in this order in draw.cpp.
+enum class Mark { points, line, dashes, cells };
 
 /// A tic with a name of its own.
 struct Tic {
