@@ -175,9 +175,9 @@ void try_cut(std::span<const Unit> units, const ConfigureTrials& again, double b
     const std::unique_ptr<Run> run = run_of(again, trials);
     if (run) {
       const std::vector<Unit> smaller = run->units();
-      made = seconds_since(start);
       const bool first = !parts;
       if (first) know({}, (parts = parts_of(units, smaller), trials));
+      made = seconds_since(start);
       Rate rate;
       for (const Unit* unit : samples_of(smaller, *parts)) {
         rate.time(*unit);
