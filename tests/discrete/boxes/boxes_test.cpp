@@ -122,7 +122,7 @@ template <class S> void expect_places_far_apart(const S& far) {
       return turn_in_plane<S>((axis + 1) % 3, (axis + 2) % 3, cos(angle), sin(angle));
     };
     const int axis = draw.pick(0, 2);
-    const S angle = 3 * draw.plain(), tilt = draw.pick(0, 1) * draw.plain(), along = draw.plain();
+    const S angle = 3 * draw.plain(), tilt = draw.pick(0, 1) == 0 ? S(0) : draw.plain(), along = draw.plain();
     Vec3<S> way = draw.plain_vector();
     way[axis] = 0;
     const Aabb<S> a{{0, 0, 0}, size()};
