@@ -27,8 +27,10 @@ template <Scalar S> Obb(Vec3<S>, Vec3<S>) -> Obb<S>;
 
 template <Scalar S> Obb<S> to_obb(const Aabb<S>& box) { return {box.center, box.half_extents, Mat3<S>::Identity()}; }
 template <Scalar S> const Obb<S>& to_obb(const Obb<S>& box) { return box; }
-/// The same box, if its axes are the coordinates' own, in any order and either way round: what has no radius meets it without a rounding.
-template <Scalar S> std::optional<Aabb<S>> upright(const Obb<S>& box) {
+/// The same box, if its axes are the coordinates' own, in any order and either way round, and nothing is round (`reach` is 0): what meets it
+/// then does so without a rounding.
+template <Scalar S> std::optional<Aabb<S>> sharp_upright(const Obb<S>& box, const S& reach) {
+  if (reach != S(0)) return std::nullopt;
   const Mat3<S> along = box.axes.cwiseAbs();
   if (!(along.array() == S(0) || along.array() == S(1)).all()) return std::nullopt;
   return Aabb<S>{box.center, along * box.half_extents};

@@ -268,11 +268,19 @@ template <Scalar S> int edges_facing(const Vec3<S>& n, int axis) {
   return largest(n[(axis + 1) % 3]) > noise && largest(n[(axis + 2) % 3]) > noise ? 1 : 2;
 }
 
+/// The place of either box that is nearest to x.
+template <Scalar S> Vec3<S> nearest_on_a(const BoxPair<S>& pair, const Vec3<S>& x) {
+  return x.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
+}
+template <Scalar S> Vec3<S> nearest_on_b(const BoxPair<S>& pair, const Vec3<S>& x) {
+  const Vec3<S> in_b = pair.axes.transpose() * (x - pair.between);
+  return pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b);
+}
+
 /// The place of A that is nearest to the one given of B, and that of B nearest to it: told by coordinates, not by distances.
 template <Scalar S> BoxPoints<S> brought_nearer(const BoxPair<S>& pair, const BoxPoints<S>& points) {
-  const Vec3<S> on_a = points.on_b.cwiseMin(pair.half_a).cwiseMax(-pair.half_a);
-  const Vec3<S> in_b = pair.axes.transpose() * (on_a - pair.between);
-  return {on_a, pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b)};
+  const Vec3<S> on_a = nearest_on_a(pair, points.on_b);
+  return {on_a, nearest_on_b(pair, on_a)};
 }
 
 /// Closest points of boxes that are apart. Distances tell directions apart only to the square root of a rounding. So of those as near as each
@@ -300,10 +308,9 @@ template <Scalar S> BoxPoints<S> closest_points(const BoxPair<S>& pair) {
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3<S> sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
     const Vec3<S> of_b = pair.between + pair.axes * pair.half_b.cwiseProduct(sign);
-    consider(of_b.cwiseMin(pair.half_a).cwiseMax(-pair.half_a), of_b);
+    consider(nearest_on_a(pair, of_b), of_b);
     const Vec3<S> of_a = pair.half_a.cwiseProduct(sign);
-    const Vec3<S> in_b = pair.axes.transpose() * (of_a - pair.between);
-    consider(of_a, pair.between + pair.axes * in_b.cwiseMin(pair.half_b).cwiseMax(-pair.half_b));
+    consider(of_a, nearest_on_b(pair, of_a));
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

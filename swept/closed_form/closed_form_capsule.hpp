@@ -81,10 +81,8 @@ template <Scalar S, Scalar T>
 Toi<T> impact(const ClosedForm<S>& method, const Moving<Capsule<T>>& capsule, const Moving<Obb<T>>& box) {
   const T gap(method.min_separation), reach = capsule.shape.radius + gap;
   if (cores_within(capsule.shape, box.shape, reach)) return overlapping_at_start(capsule, box, 1);
-  if (reach == T(0)) {
-    if (const auto same = upright(box.shape))
-      return toi_by_wider(method, capsule, Moving<Aabb<T>>{*same, box.displacement});
-  }
+  if (const auto same = sharp_upright(box.shape, reach))
+    return toi_by_wider(method, capsule, Moving<Aabb<T>>{*same, box.displacement});
   const Vec3<T>& h = box.shape.half_extents;
   const Capsule<T> shape = nearer_end_first<T>(capsule.shape, box.shape.center, reach + h.sum());
   const Vec3<T> edge = shape.b - shape.a, core = into(box.shape, edge), motion = relative_displacement(capsule, box);

@@ -57,11 +57,9 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& box, const Movi
   const T gap(method.min_separation);
   const Obb<T>& frame = box.shape;
   const T reach = sphere.shape.radius + gap;
-  if (reach == T(0)) {
-    if (const auto same = upright(frame)) {
-      if (cores_within(frame, sphere.shape, reach)) return overlapping_at_start(box, sphere, 1);
-      return toi_by_wider(method, Moving<Aabb<T>>{*same, box.displacement}, sphere);
-    }
+  if (const auto same = sharp_upright(frame, reach)) {
+    if (cores_within(frame, sphere.shape, reach)) return overlapping_at_start(box, sphere, 1);
+    return toi_by_wider(method, Moving<Aabb<T>>{*same, box.displacement}, sphere);
   }
   const Vec3<T> motion = relative_displacement(sphere, box);
   const NearPath<T> path(sphere.shape.center - frame.center, motion, reach + frame.half_extents.sum());
@@ -120,11 +118,9 @@ Toi<T> impact(const ClosedForm<S>& method, const Moving<Obb<T>>& a, const Moving
   const T gap(method.min_separation);
   if (cores_within(a.shape, b.shape, gap)) return overlapping_at_start(a, b, 1);
   const Moving<Obb<T>> other{to_obb(b.shape), b.displacement};
-  if (gap == T(0)) {
-    const auto same_a = upright(a.shape), same_b = upright(other.shape);
-    if (same_a && same_b)
-      return toi_by_wider(method, Moving<Aabb<T>>{*same_a, a.displacement}, Moving<Aabb<T>>{*same_b, b.displacement});
-  }
+  const auto same_a = sharp_upright(a.shape, gap), same_b = sharp_upright(other.shape, gap);
+  if (same_a && same_b)
+    return toi_by_wider(method, Moving<Aabb<T>>{*same_a, a.displacement}, Moving<Aabb<T>>{*same_b, b.displacement});
   const bool in_axes_of_b = std::is_same_v<B, Aabb<T>> || largest(b.shape.half_extents) > largest(a.shape.half_extents);
   return in_axes_of_b ? flipped(impact_of_apart(method, other, a)) : impact_of_apart(method, a, other);
 }
